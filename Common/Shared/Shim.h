@@ -1,0 +1,96 @@
+// The one place where C++ and GLSL differ. Every other header of Common/Shared is valid as C++20 and as GLSL 460
+// (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
+//
+//   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
+//                    linkage keeps the copies compiled for different instruction sets apart.
+//   RT_INOUT(T)      a parameter that is read and written.
+//   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
+#ifndef RT_SHARED_SHIM_H
+#define RT_SHARED_SHIM_H
+
+#ifdef __cplusplus
+
+#ifndef GLM_FORCE_INLINE
+#error "define GLM_FORCE_INLINE for every translation unit: GLM's functions must not be emitted out of line"
+#endif
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#if defined(_MSC_VER) && !defined(__clang__)
+#define RT_FN static __forceinline
+#else
+#define RT_FN [[maybe_unused, gnu::always_inline]] static inline
+#endif
+#define RT_INOUT(T) T&
+#define RT_SHARED_BEGIN namespace rt::shared {
+#define RT_SHARED_END }
+
+RT_SHARED_BEGIN
+
+using uint = std::uint32_t;
+using vec2 = glm::vec2;
+using vec3 = glm::vec3;
+using vec4 = glm::vec4;
+using ivec2 = glm::ivec2;
+using ivec3 = glm::ivec3;
+using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using uvec4 = glm::uvec4;
+
+using glm::abs;
+using glm::clamp;
+using glm::cross;
+using glm::dot;
+using glm::floor;
+using glm::length;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::sqrt;
+using std::acos;
+using std::asin;
+using std::atan;
+using std::exp;
+using std::exp2;
+using std::log;
+using std::pow;
+
+RT_FN uint floatBitsToUint(float x) {
+    return std::bit_cast<uint>(x);
+}
+RT_FN float uintBitsToFloat(uint x) {
+    return std::bit_cast<float>(x);
+}
+// GLSL spells atan2 with two arguments of atan.
+RT_FN float atan(float y, float x) {
+    return std::atan2(y, x);
+}
+RT_FN uint bitfieldReverse(uint x) {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+}
+
+RT_SHARED_END
+
+#else
+
+#define RT_FN
+#define RT_INOUT(T) inout T
+#define RT_SHARED_BEGIN
+#define RT_SHARED_END
+
+#endif
+
+#endif

@@ -1,0 +1,252 @@
+// The flat scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
+// relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
+#ifndef RT_SHARED_TYPES_H
+#define RT_SHARED_TYPES_H
+#include "Shim.h"
+
+RT_SHARED_BEGIN
+
+const float kPi = 3.14159265358979f;
+const float kInvPi = 0.318309886183791f;
+const float kInfinity = 3.0e38f;       // farther than any hit; finite, because GLSL may not honour infinities
+const float kEpsilon = 5.9604645e-8f;  // 2^-24, the unit roundoff of a float
+const uint kNone = 0xffffffffu;        // "no such index"
+
+// Kinds of primitive, also the kinds of hit.
+const uint kSphere = 0u;
+const uint kQuad = 1u;
+const uint kTriangle = 2u;
+
+// ---- geometry --------------------------------------------------------------------------------------------------------
+
+struct Sphere {
+    vec3 center;  // at time 0
+    float radius; // > 0
+    uint material;
+    uint light;   // index into lights, or kNone
+};
+
+// Parallelogram corner + a edgeU + b edgeV, a and b in [0,1]; the front is the side that edgeU x edgeV points to.
+struct Quad {
+    vec3 corner;
+    vec3 edgeU;
+    vec3 edgeV;
+    vec3 normal; // unit, edgeU x edgeV
+    uint material;
+    uint light;
+};
+
+// What the triangles of one mesh and one material share. A triangle's front is the side from which its vertices turn
+// counter-clockwise. Vertex attributes exist per vertex or not at all for a whole mesh.
+struct Mesh {
+    uint material;
+    uint firstTriangle;
+    uint triangleCount;
+    uint firstVertex;
+    uint firstNormal; // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
+    uint firstUv;     // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
+    uint firstLight;  // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
+};
+
+// A contiguous run of each kind of primitive: the unit that instances refer to. Geometry 0 is the world's own.
+struct Geometry {
+    uint firstSphere;
+    uint sphereCount;
+    uint firstQuad;
+    uint quadCount;
+    uint firstTriangle;
+    uint triangleCount;
+};
+
+// Affine placement of a geometry; x' = row . (x, 1). Both directions were rounded once, from double.
+struct Instance {
+    vec4 toWorld[3];
+    vec4 toObject[3];
+    uint geometry; // > 0
+    uint material; // overrides the primitives' own unless kNone
+};
+
+// ---- appearance ------------------------------------------------------------------------------------------------------
+
+const uint kMaterialLambertian = 0u;
+const uint kMaterialMetal = 1u;
+const uint kMaterialDielectric = 2u;
+const uint kMaterialEmitter = 3u; // emits only, absorbs what arrives
+
+const uint kSidesFront = 1u;
+const uint kSidesBoth = 3u;
+
+const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
+
+struct Material {
+    uint kind;
+    vec3 albedo;    // reflectance of lambertian and metal, tint of dielectric; the texture replaces it
+    uint texture;   // kNone: constant
+    float fuzz;     // metal, [0,1]
+    float ior;      // dielectric, inside over outside, > 0
+    vec3 emission;  // emitted radiance; zero for most. Any material may emit as well as scatter
+    uint emissionTexture; // multiplies emission; kNone: constant
+    uint emissionSides;   // kSidesFront or kSidesBoth
+};
+
+const uint kTextureSolid = 0u;
+const uint kTextureChecker = 1u; // solid checker in world space
+const uint kTextureMarble = 2u;  // 0.5 (1 + sin(frequency z + 10 turbulence(scale p)))
+const uint kTextureTurbulence = 3u; // turbulence(scale p)
+const uint kTextureNoise = 4u;   // 0.5 (1 + noise(scale p))
+const uint kTextureImage = 5u;
+
+struct Texture {
+    uint kind;
+    vec3 color;      // solid: the colour; noise kinds and images: a tint
+    float scale;     // checker: edge of a cell; noise: multiplies the point
+    float frequency; // marble
+    uint first;      // checker: texture of even cells; noise: Perlin table; image: index into images
+    uint second;     // checker: texture of odd cells
+};
+
+const uint kTexelSrgb8 = 0u;   // one word a texel, R in the low byte, sRGB-encoded
+const uint kTexelLinearF32 = 1u; // three words a texel, floats
+
+struct Image {
+    uint firstTexel; // word offset into texels
+    uint width;
+    uint height;
+    uint format;
+};
+
+// Perlin's tables: kPerlinSize unit gradients and three permutations of [0, kPerlinSize).
+const uint kPerlinSize = 256u;
+
+// ---- participating media ---------------------------------------------------------------------------------------------
+
+const uint kMediumSphere = 0u; // boundary: the unit sphere under the inverse of toLocal
+const uint kMediumBox = 1u;    // boundary: the cube [-1,1]^3 under the inverse of toLocal
+
+struct Medium {
+    vec4 toLocal[3]; // affine world-to-local, rows
+    uint shape;
+    float extinction; // per world unit of length, > 0
+    vec3 albedo;      // single scattering
+    uint texture;     // replaces albedo; kNone: constant
+};
+
+// ---- lights ----------------------------------------------------------------------------------------------------------
+
+const uint kLightSphere = 0u;
+const uint kLightQuad = 1u;
+const uint kLightTriangle = 2u;
+const uint kLightSky = 3u; // the sky image
+
+// An emitter with its geometry in world space, or an importance target (emission zero).
+struct Light {
+    uint kind;
+    uint material;   // kNone for the sky and for importance targets
+    vec3 position;   // sphere: centre at time 0; quad: corner; triangle: vertex 0
+    vec3 edgeU;      // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter
+    vec3 edgeV;      // quad; triangle: vertex 2 - vertex 0
+    vec3 normal;     // unit, front side; quad and triangle
+    float radius;    // sphere
+    float area;      // world units squared, one side
+    vec3 emission;   // radiance, mean over the surface if textured
+    uint sides;      // kSidesFront or kSidesBoth
+    float selection; // probability under power-proportional selection
+    float cdf;       // sum of selection up to and including this light; exactly 1 for the last that can be chosen
+};
+
+// What bounds a light's contribution at a point: a sphere around it and the cone of its normals.
+struct LightBound {
+    vec3 center;
+    float radius;
+    vec3 axis;        // unit normal of a flat light; zero for a light that emits in all directions
+    float twoSided;   // 1: emits to both sides of axis
+    float intensity;  // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
+};
+
+const uint kContributionLights = 32u; // up to here `contribution` weighs every light at the shading point
+
+// ---- the scene as a whole --------------------------------------------------------------------------------------------
+
+const uint kSkyBlack = 0u;
+const uint kSkyConstant = 1u; // skyTop
+const uint kSkyGradient = 2u; // mix(skyBottom, skyTop, 0.5 (unit direction.y + 1))
+const uint kSkyImage = 3u;    // latitude-longitude image, skyTop is a factor
+
+struct SceneGlobals {
+    vec3 origin; // authored camera position, subtracted from every coordinate; solid textures add it back
+    uint skyKind;
+    vec3 skyTop;
+    vec3 skyBottom;
+    uint skyImage;   // into images
+    uint skyLight;   // into lights, kNone unless the sky is sampled
+    uint lightCount; // lights proper
+    uint targetCount; // importance targets, stored behind the lights
+    uint mediumCount;
+    uint instanceCount;
+    float sceneRadius; // half the diagonal of the bounds
+};
+
+struct Camera {
+    vec3 origin;
+    vec3 corner;  // from origin to the image's upper left corner on the plane of focus
+    vec3 across;  // upper left to upper right corner
+    vec3 down;    // upper left to lower left corner
+    vec3 lensU;   // half axes of the lens disk; zero for a pinhole
+    vec3 lensV;
+};
+
+// Estimators, as named in the interface.
+const uint kSampleBsdf = 0u;
+const uint kSampleMixture = 1u;
+const uint kSampleMis = 2u;
+
+const uint kSelectUniform = 0u;
+const uint kSelectPower = 1u;
+const uint kSelectContribution = 2u;
+
+const uint kShapeAuto = 0u;
+const uint kShapeSolidAngle = 1u;
+const uint kShapeProjected = 2u;
+const uint kShapeArea = 3u;
+
+const uint kSamplerIndependent = 0u;
+const uint kSamplerStratified = 1u;
+const uint kSamplerSobol = 2u;
+
+struct RenderParams {
+    uint width;  // pixels
+    uint height;
+    uint maxDepth; // path vertices after the camera
+    uint seed;
+    uint lightSampling;
+    uint lightSelection;
+    uint sphereLight;
+    uint quadLight;
+    uint triangleLight;
+    uint samplerKind;
+    uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel
+    uint strataY;
+    uint russianRoulette; // 0 or 1
+};
+
+// ---- rays ------------------------------------------------------------------------------------------------------------
+
+struct Ray {
+    vec3 origin;
+    vec3 direction; // unit in world space
+    float time;     // [0,1)
+};
+
+// The nearest intersection, as the engine's traversal reports it.
+struct Hit {
+    float t;        // ray parameter; negative: nothing was hit
+    uint kind;      // kSphere, kQuad, kTriangle
+    uint primitive; // index into spheres, quads or triangles of the whole scene
+    uint instance;  // kNone: the world's own geometry
+    float u;        // quad: along edgeU; triangle: weight of vertex 1
+    float v;        // quad: along edgeV; triangle: weight of vertex 2
+};
+
+RT_SHARED_END
+
+#endif
