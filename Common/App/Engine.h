@@ -1,0 +1,78 @@
+// What drives a renderer: no window, no file, no flag. The CPU engine and the GPU engine implement it, Session uses it.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Common/App/Settings.h"
+#include "Common/Image/Film.h"
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::app {
+
+// Bounds one call of Engine::renderSome. Work in flight when `cancel` becomes true is abandoned within 100 ms; what had been
+// committed to the film stays.
+struct Budget {
+    std::chrono::duration<double> time{0.2};
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+struct RenderStatus {
+    bool finished = false;          // every pixel has all its samples
+    std::uint64_t samplesDone = 0;  // over all pixels
+    std::uint64_t samplesTotal = 0;
+};
+
+struct RayCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t scattered = 0;
+    std::uint64_t shadow = 0;
+};
+
+struct EngineReport {
+    std::string engine;  // "multi", "single", "pipeline", "compute"
+    std::string device;  // processor or Vulkan device
+    std::string kernel;  // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
+    std::uint32_t threads = 0; // CPU only
+    std::uint32_t features = 0; // in force, after any forced superset
+    double accelBuildSeconds = 0;
+    double pipelineSeconds = 0;
+    double renderDeviceSeconds = 0; // time in kernels: GPU timestamps, or wall time inside CPU workers
+    RayCounts rays;
+    std::uint64_t nonfiniteSamples = 0;
+    std::uint64_t deviceBytes = 0; // acceleration structure, scene and film held by the engine
+    std::string lightSampling; // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+};
+
+// First-hit features averaged over some samples of each pixel; empty unless asked for.
+struct AovRequest {
+    bool albedo = false;
+    bool normal = false; // world space, shading normal facing the camera
+    bool depth = false;  // distance along the ray; 0 where nothing was hit
+    bool any() const { return albedo || normal || depth; }
+};
+struct AovImages {
+    image::Image albedo, normal, depth;
+};
+
+// Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
+struct Engine {
+    virtual ~Engine() = default;
+    // Builds acceleration structures. A failure (rt::Error) leaves the previous scene in place. Returns false, with the
+    // previous scene in place, when cancelled.
+    virtual bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) = 0;
+    // Starts a new film.
+    virtual void reset(const scene::CameraDesc& camera, const RenderSettings& settings) = 0;
+    // After reset: goes on from this film, whose desc() must be that of the new one.
+    virtual void restore(image::Film film) = 0;
+    virtual RenderStatus renderSome(const Budget& budget) = 0;
+    // The film on the host, up to date; the reference stays valid until the next reset.
+    virtual const image::Film& film() = 0;
+    virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
+    virtual EngineReport report() const = 0;
+};
+
+}  // namespace rt::app
