@@ -1,0 +1,61 @@
+# How everything is compiled: language, warnings, floating point, sanitizers, and the instruction sets of kernels.
+option(RT_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+set(RT_SANITIZE "" CACHE STRING "Sanitizers to build with: empty, address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+
+get_property(RT_MULTI_CONFIG GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+if(NOT RT_MULTI_CONFIG AND NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, RelWithDebInfo or Debug" FORCE)
+endif()
+
+find_program(RT_CCACHE ccache)
+mark_as_advanced(RT_CCACHE)
+if(RT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER ${RT_CCACHE})
+endif()
+
+# GLM's functions are inlined everywhere, so that no object file compiled for a newer instruction set can offer its copy of
+# one to the others.
+add_compile_definitions(GLM_FORCE_INLINE)
+
+# Products and sums are rounded one by one, except in kernels: scenes, films and metrics have the same bits on every machine.
+if(MSVC)
+    add_compile_options(/W4 /permissive- /utf-8 /bigobj /fp:precise $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:/WX>)
+    add_compile_definitions(NOMINMAX _USE_MATH_DEFINES _CRT_SECURE_NO_WARNINGS)
+else()
+    add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:-Werror>)
+endif()
+
+if(RT_SANITIZE)
+    add_compile_options(-fsanitize=${RT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    add_link_options(-fsanitize=${RT_SANITIZE})
+endif()
+
+# The instruction sets that kernels are compiled for on this architecture; the program chooses among them at run time.
+string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" RT_PROCESSOR)
+if(RT_PROCESSOR MATCHES "^(x86_64|amd64)$")
+    set(RT_KERNEL_ISAS x86_64_v2 x86_64_v3 x86_64_v4)
+else()
+    set(RT_KERNEL_ISAS generic)
+endif()
+
+# Gives `source`, a kernel compiled for one of RT_KERNEL_ISAS, the options of that instruction set. Contraction is allowed
+# here, and functions of <cmath> neither set errno nor raise flags that anyone reads; results stay IEEE otherwise.
+function(rt_set_kernel_options source isa)
+    if(MSVC)
+        set(options /O2 /fp:contract)
+        set(options.x86_64_v3 /arch:AVX2)
+        set(options.x86_64_v4 /arch:AVX512)
+    else()
+        set(options $<$<NOT:$<CONFIG:Debug>>:-O3> -ffp-contract=fast -fno-math-errno -fno-trapping-math)
+        set(options.x86_64_v2 -march=x86-64-v2)
+        set(options.x86_64_v3 -march=x86-64-v3)
+        set(options.x86_64_v4 -march=x86-64-v4)
+    endif()
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options};${options.${isa}}")
+endfunction()

@@ -1,0 +1,94 @@
+# Third-party libraries from the system's packages or from vcpkg, each as one target rt::<name>. A library is looked for by
+# its CMake config, else by pkg-config, else by its header; nothing is downloaded.
+find_package(PkgConfig QUIET)
+find_package(Threads REQUIRED)
+
+# rt_dependency(<name> PACKAGE <config> TARGETS <target>... [PKGCONFIG <module>] [HEADER <header> [LIBRARY <library>]])
+# Creates rt::<name> from the first of TARGETS that the config package defines, or from the pkg-config module, or from the
+# header's folder and the library if there is one. Without any of them rt::<name> does not exist.
+function(rt_dependency name)
+    cmake_parse_arguments(arg "" "PACKAGE;PKGCONFIG;HEADER;LIBRARY" "TARGETS" ${ARGN})
+    add_library(rt-dependency-${name} INTERFACE)
+    if(arg_PACKAGE)
+        find_package(${arg_PACKAGE} CONFIG QUIET GLOBAL)
+        foreach(target IN LISTS arg_TARGETS)
+            if(TARGET ${target})
+                target_link_libraries(rt-dependency-${name} INTERFACE ${target})
+                add_library(rt::${name} ALIAS rt-dependency-${name})
+                return()
+            endif()
+        endforeach()
+    endif()
+    if(arg_PKGCONFIG AND PkgConfig_FOUND)
+        pkg_check_modules(RT_PC_${name} QUIET IMPORTED_TARGET GLOBAL ${arg_PKGCONFIG})
+        if(RT_PC_${name}_FOUND)
+            target_link_libraries(rt-dependency-${name} INTERFACE PkgConfig::RT_PC_${name})
+            add_library(rt::${name} ALIAS rt-dependency-${name})
+            return()
+        endif()
+    endif()
+    if(arg_HEADER)
+        find_path(RT_${name}_INCLUDE_DIR ${arg_HEADER} PATH_SUFFIXES ${name})
+        mark_as_advanced(RT_${name}_INCLUDE_DIR)
+        if(RT_${name}_INCLUDE_DIR)
+            target_include_directories(rt-dependency-${name} SYSTEM INTERFACE ${RT_${name}_INCLUDE_DIR})
+            if(arg_LIBRARY)
+                find_library(RT_${name}_LIBRARY ${arg_LIBRARY})
+                mark_as_advanced(RT_${name}_LIBRARY)
+                if(RT_${name}_LIBRARY)
+                    target_link_libraries(rt-dependency-${name} INTERFACE ${RT_${name}_LIBRARY})
+                endif()
+            endif()
+            add_library(rt::${name} ALIAS rt-dependency-${name})
+        endif()
+    endif()
+endfunction()
+
+# The same, and the configuration ends with the names of the packages that have it when there is none.
+function(rt_require name debian vcpkg)
+    rt_dependency(${name} ${ARGN})
+    if(NOT TARGET rt::${name})
+        message(FATAL_ERROR "${name} was not found. Debian, Ubuntu: apt install ${debian}. vcpkg: vcpkg install ${vcpkg}. "
+                            "Or run ./build.sh, which installs everything.")
+    endif()
+endfunction()
+
+rt_require(glm libglm-dev glm PACKAGE glm TARGETS glm::glm-header-only glm::glm PKGCONFIG glm HEADER glm/glm.hpp)
+rt_require(spdlog libspdlog-dev spdlog PACKAGE spdlog TARGETS spdlog::spdlog PKGCONFIG spdlog)
+rt_require(json nlohmann-json3-dev nlohmann-json PACKAGE nlohmann_json TARGETS nlohmann_json::nlohmann_json
+           PKGCONFIG nlohmann_json HEADER nlohmann/json.hpp)
+rt_require(cli11 libcli11-dev cli11 PACKAGE CLI11 TARGETS CLI11::CLI11 PKGCONFIG CLI11 HEADER CLI/CLI.hpp)
+rt_require(tinyobjloader libtinyobjloader-dev tinyobjloader PACKAGE tinyobjloader TARGETS tinyobjloader::tinyobjloader
+           PKGCONFIG tinyobjloader)
+rt_require(tinyexr libtinyexr-dev tinyexr PACKAGE tinyexr TARGETS tinyexr::tinyexr unofficial::tinyexr::tinyexr
+           HEADER tinyexr.h LIBRARY tinyexr)
+
+# stb is a library in Debian's package and headers only elsewhere; there we compile its implementation, once.
+rt_require(stb libstb-dev stb PKGCONFIG stb HEADER stb_image.h)
+if(NOT RT_PC_stb_FOUND)
+    add_library(rt-stb STATIC ${PROJECT_SOURCE_DIR}/cmake/StbImplementation.cpp)
+    target_link_libraries(rt-stb PRIVATE rt::stb)
+    target_link_libraries(rt-dependency-stb INTERFACE rt-stb)
+endif()
+
+# libstdc++ runs std::execution::par serially unless oneTBB is there, and libc++ has no policies at all: only Microsoft's
+# library needs nothing.
+add_library(rt-parallel INTERFACE)
+add_library(rt::parallel ALIAS rt-parallel)
+target_link_libraries(rt-parallel INTERFACE Threads::Threads)
+if(NOT MSVC)
+    rt_require(tbb libtbb-dev tbb PACKAGE TBB TARGETS TBB::tbb PKGCONFIG tbb)
+    target_link_libraries(rt-parallel INTERFACE rt::tbb)
+endif()
+
+if(RT_BUILD_TESTS)
+    rt_require(gtest libgtest-dev gtest PACKAGE GTest TARGETS GTest::gtest PKGCONFIG gtest)
+    rt_require(gtest_main libgtest-dev gtest PACKAGE GTest TARGETS GTest::gtest_main PKGCONFIG gtest_main)
+endif()
+if(RT_BUILD_BENCH)
+    rt_require(benchmark libbenchmark-dev benchmark PACKAGE benchmark TARGETS benchmark::benchmark PKGCONFIG benchmark)
+endif()
+# Embree is an oracle of tests and a yardstick of benchmarks; what compares with it is built only where it is installed.
+if(RT_BUILD_TESTS OR RT_BUILD_BENCH)
+    rt_dependency(embree PACKAGE embree TARGETS embree)
+endif()

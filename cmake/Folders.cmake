@@ -1,0 +1,38 @@
+# One folder, one target: sources are found by where they are, so adding a file changes no list.
+
+# Library `name` of every source in `folder` except Main.cpp. Sources named X.<isa>.cpp are kernels: those of this
+# architecture get the options of their instruction set, the others are left out. A folder of headers makes an interface
+# library.
+function(rt_add_library name folder)
+    cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
+    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+    list(FILTER sources EXCLUDE REGEX "/Main\\.cpp$")
+    set(kernels ${sources})
+    list(FILTER kernels INCLUDE REGEX "\\.(generic|x86_64_v[0-9])\\.cpp$")
+    list(FILTER sources EXCLUDE REGEX "\\.(generic|x86_64_v[0-9])\\.cpp$")
+    foreach(kernel IN LISTS kernels)
+        string(REGEX REPLACE ".*\\.(.*)\\.cpp$" "\\1" isa ${kernel})
+        if(isa IN_LIST RT_KERNEL_ISAS)
+            rt_set_kernel_options(${kernel} ${isa})
+            list(APPEND sources ${kernel})
+        endif()
+    endforeach()
+
+    if(sources)
+        add_library(${name} STATIC ${sources})
+        target_link_libraries(${name} PUBLIC ${arg_DEPENDS})
+    else()
+        add_library(${name} INTERFACE)
+        target_link_libraries(${name} INTERFACE ${arg_DEPENDS})
+    endif()
+endfunction()
+
+# Program `name` whose main() is in `source`; none while there is no such file.
+function(rt_add_program name source)
+    cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
+    file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${source})
+    if(found)
+        add_executable(${name} ${found})
+        target_link_libraries(${name} PRIVATE ${arg_DEPENDS})
+    endif()
+endfunction()
