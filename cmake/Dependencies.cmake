@@ -60,16 +60,8 @@ rt_require(json nlohmann-json3-dev nlohmann-json PACKAGE nlohmann_json TARGETS n
 rt_require(cli11 libcli11-dev cli11 PACKAGE CLI11 TARGETS CLI11::CLI11 PKGCONFIG CLI11 HEADER CLI/CLI.hpp)
 rt_require(tinyobjloader libtinyobjloader-dev tinyobjloader PACKAGE tinyobjloader TARGETS tinyobjloader::tinyobjloader
            PKGCONFIG tinyobjloader)
-rt_require(tinyexr libtinyexr-dev tinyexr PACKAGE tinyexr TARGETS tinyexr::tinyexr unofficial::tinyexr::tinyexr
-           HEADER tinyexr.h LIBRARY tinyexr)
-
-# stb is a library in Debian's package and headers only elsewhere; there we compile its implementation, once.
-rt_require(stb libstb-dev stb PKGCONFIG stb HEADER stb_image.h)
-if(NOT RT_PC_stb_FOUND)
-    add_library(rt-stb STATIC ${PROJECT_SOURCE_DIR}/cmake/StbImplementation.cpp)
-    target_link_libraries(rt-stb PRIVATE rt::stb)
-    target_link_libraries(rt-dependency-stb INTERFACE rt-stb)
-endif()
+# Headers only: Common/Image compiles the parts that it uses, as Debian's library would bring all of them and vcpkg has none.
+rt_require(stb libstb-dev stb HEADER stb_image.h)
 
 # libstdc++ runs std::execution::par serially unless oneTBB is there, and libc++ has no policies at all: only Microsoft's
 # library needs nothing.

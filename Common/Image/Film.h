@@ -1,7 +1,10 @@
-// Radiance sums that are exact for any number of samples: per pixel, blocks of 16 consecutive sample indices are summed in
-// order in float and added in order to sums in double, so neither the size of a dispatch nor an interruption shows.
+// Radiance sums that are exact for any number of samples: per pixel, blocks of 16 consecutive sample indices are summed
+// in order in float and added in order to sums in double, so neither the size of a dispatch nor an interruption shows.
 #pragma once
 #include <cstdint>
+#include <iosfwd>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "Common/Image/Image.h"
@@ -13,37 +16,38 @@ inline constexpr std::uint32_t kMaxImageSide = 16384;
 struct FilmDesc {
     std::uint32_t width = 0;  // 1 to kMaxImageSide
     std::uint32_t height = 0;
-    std::uint32_t replicates = 1; // independent scramblings, each with sums of its own
-    bool secondMoments = false;   // keep sums of squares as well
+    std::uint32_t replicates = 1;  // independent scramblings, each with sums of its own
+    bool secondMoments = false;    // keep what the variance within a single replicate needs
     bool operator==(const FilmDesc&) const = default;
 };
 
 // Pixels are stored in tiles of 8x8, row by row; tiles at the right and lower edge are partly outside of the image.
 // Distinct tiles may be read and written by distinct threads at the same time; nothing else is synchronised.
+// Memory per pixel and replicate: 24 bytes, 24 more with second moments, 12 more once open blocks are reserved.
 class Film {
   public:
-    static constexpr std::uint32_t kBlock = 16; // samples
-    static constexpr std::uint32_t kTile = 8;   // pixels
+    static constexpr std::uint32_t kBlock = 16;  // samples
+    static constexpr std::uint32_t kTile = 8;    // pixels
     static constexpr std::uint32_t kTilePixels = kTile * kTile;
+    static constexpr std::uint32_t kMaxSamples = 1u << 31;  // per pixel and replicate
 
     // Sums over the samples of one block, of one tile and replicate; channel-interleaved RGB, pixels row by row.
     struct TileBlock {
-        std::uint32_t firstSample = 0; // index, in the replicate, of the block's first sample: a multiple of kBlock
-        std::uint32_t count = 0;       // samples already summed, < kBlock when begin() returns it
+        std::uint32_t firstSample = 0;  // index, in the replicate, of the block's first sample: a multiple of kBlock
+        std::uint32_t count = 0;        // samples already summed, < kBlock when begin() returns it
         float sum[kTilePixels * 3] = {};
-        float squares[kTilePixels * 3] = {}; // unused without second moments
     };
 
     Film() = default;
-    explicit Film(const FilmDesc& desc); // throws RenderError when memory does not suffice
+    explicit Film(const FilmDesc& desc);  // throws UsageError for a bad size, RenderError when memory does not suffice
 
     const FilmDesc& desc() const { return desc_; }
-    std::uint32_t tilesX() const;
-    std::uint32_t tilesY() const;
+    std::uint32_t tilesX() const { return (desc_.width + kTile - 1) / kTile; }
+    std::uint32_t tilesY() const { return (desc_.height + kTile - 1) / kTile; }
     std::uint32_t tileCount() const { return tilesX() * tilesY(); }
 
     // Samples that each pixel of the tile has received in the replicate.
-    std::uint32_t samples(std::uint32_t tile, std::uint32_t replicate) const;
+    std::uint32_t samples(std::uint32_t tile, std::uint32_t replicate) const { return samples_[slot(tile, replicate)]; }
     // The same over all replicates.
     std::uint64_t samples(std::uint32_t tile) const;
     // Least over all tiles: what a statistic may call "done".
@@ -51,29 +55,47 @@ class Film {
     // Sum over all pixels of the image and all replicates.
     std::uint64_t totalSamples() const;
 
+    // Makes room for blocks that stay unfilled. To be called, by one thread, before work that may commit such a block;
+    // costs nothing when called again. Throws RenderError when memory does not suffice.
+    void reserveOpenBlocks();
+
     // The tile's open block, to go on from: an empty one unless the last commit left it unfilled.
     void begin(std::uint32_t tile, std::uint32_t replicate, TileBlock& block) const;
-    // Replaces the tile's open block. A full block is added to the sums and closed.
+    // Replaces the tile's open block. A full block is added to the sums and closed; an unfilled one needs
+    // reserveOpenBlocks(). Throws std::logic_error when the block does not continue what the tile has.
     void commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& block);
 
     // Mean radiance: sum over all replicates / true count; pixels without samples are black.
     Image resolve() const;
-    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for every
-    // sampler; with one it is within-run and only an upper bound for stratified samplers (errorIsUpperBound()). Pixels
-    // with too few samples get 0. Requires secondMoments or replicates >= 2.
+    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for
+    // every sampler; with one it is taken across blocks, as if these were independent, which is only an upper bound for
+    // stratified samplers (errorIsUpperBound()). Where fewer than two replicates or blocks have samples it is 0.
+    // Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
     bool errorIsUpperBound() const { return desc_.replicates < 2; }
-    Image sampleCounts() const; // one channel
+    Image sampleCounts() const;  // one channel
 
-    // Raw state for checkpoints: written and read back bit for bit. readState throws InputError on a truncated or
-    // inconsistent stream.
+    // Raw state for checkpoints, little-endian: written and read back bit for bit. readState throws InputError, naming
+    // `name`, on a truncated or damaged stream, and allocates nothing that the rest of the stream cannot fill.
     void writeState(std::ostream& out) const;
     static Film readState(const FilmDesc& desc, std::istream& in, const std::string& name);
 
-    std::uint64_t bytes() const; // of memory held
+    std::uint64_t bytes() const;  // of memory held
 
   private:
+    static constexpr std::size_t kTileValues = kTilePixels * 3;
+
+    std::size_t slot(std::uint32_t tile, std::uint32_t replicate) const {
+        return std::size_t{tile} * desc_.replicates + replicate;
+    }
+    std::size_t slotCount() const { return std::size_t{tileCount()} * desc_.replicates; }
+    std::span<const float> openBlock(std::size_t slot) const;  // empty unless the slot has an unfilled block
+
     FilmDesc desc_;
+    std::vector<std::uint32_t> samples_;  // per slot; modulo kBlock it is the size of the slot's open block
+    std::vector<double> sums_;            // kTileValues per slot: all closed blocks
+    std::vector<double> squares_;         // likewise, of (block sum)^2 / kBlock; empty without second moments
+    std::vector<float> open_;             // likewise, the open block; empty until reserved
 };
 
 }  // namespace rt::image

@@ -1,0 +1,67 @@
+#include "Common/Core/AtomicFile.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <random>
+
+#include "Common/Core/Error.h"
+
+namespace rt {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string reasonOf(int error) {
+    return error == 0 ? "write failed" : std::generic_category().message(error);
+}
+
+// Short, whatever the target's name, so that it fits wherever the target does.
+std::string temporaryName() {
+    std::random_device device;
+    char name[32];
+    std::snprintf(name, sizeof name, ".rt-%08x%08x.tmp", static_cast<unsigned>(device()),
+                  static_cast<unsigned>(device()));
+    return name;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
+    std::error_code ignored;  // what cannot be looked at is reported when it is opened
+    if (const fs::path followed = fs::canonical(path, ignored); !ignored) target_ = followed;
+    const fs::file_status status = fs::status(target_, ignored);
+    if (fs::is_directory(status)) fail(reasonOf(EISDIR));
+    if (!fs::exists(status) || fs::is_regular_file(status)) temporary_ = target_.parent_path() / temporaryName();
+    errno = 0;
+    stream_.open(temporary_.empty() ? target_ : temporary_, std::ios::binary | std::ios::trunc);
+    if (!stream_) {
+        const int error = errno;
+        temporary_.clear();
+        fail(reasonOf(error));
+    }
+}
+
+AtomicFile::~AtomicFile() {
+    stream_.close();
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+    errno = 0;
+    const bool written = !stream_.fail();
+    stream_.close();  // tries again what could not be written, and so tells the reason
+    if (!written || stream_.fail()) fail(reasonOf(errno));
+    if (temporary_.empty()) return;
+    std::error_code error;
+    fs::rename(temporary_, target_, error);
+    if (error) fail(error.message());
+    temporary_.clear();
+}
+
+void AtomicFile::fail(const std::string& reason) const {
+    throw RenderError("cannot write " + path_.string() + ": " + reason);
+}
+
+}  // namespace rt

@@ -1,0 +1,32 @@
+// A file that is either written wholly or not touched at all.
+#pragma once
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace rt {
+
+// Writes to a temporary file in the target's folder, which commit() renames over the target; without commit() the
+// destructor removes it. An existing target that is not a regular file (a device, a pipe) is written directly; a
+// symbolic link is followed. Every failure is a RenderError with the file's name and the reason.
+class AtomicFile {
+  public:
+    explicit AtomicFile(const std::filesystem::path& path);
+    ~AtomicFile();
+    AtomicFile(const AtomicFile&) = delete;
+    AtomicFile& operator=(const AtomicFile&) = delete;
+
+    // Binary. Its state need not be checked: commit() does.
+    std::ostream& stream() { return stream_; }
+    void commit();
+
+  private:
+    [[noreturn]] void fail(const std::string& reason) const;
+
+    std::filesystem::path path_;       // as given, for messages
+    std::filesystem::path target_;     // what is replaced: path_ with links followed
+    std::filesystem::path temporary_;  // empty when the target is written directly
+    std::ofstream stream_;
+};
+
+}  // namespace rt

@@ -1,0 +1,13 @@
+// The content of a whole file.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace rt {
+
+// Throws InputError, naming the file and the reason, when it cannot be read or holds more than `limit` bytes.
+std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit);
+
+}  // namespace rt

@@ -1,0 +1,28 @@
+// Encoders and decoders of single formats, for ImageIo. Decoders throw InputError naming `name`; they allocate no more
+// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values.
+#pragma once
+#include <cstddef>
+#include <iosfwd>
+#include <span>
+#include <string>
+
+#include "Common/Image/ImageIo.h"
+
+namespace rt::image {
+
+// Throws unless both sides are in 1 to 65536 and `fileBytes` can hold `decodedBytes` in the densest compression there
+// is.
+void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes);
+
+Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
+void encodePfm(const Image& image, std::ostream& out);
+
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
+void encodeExr(const Image& image, std::ostream& out);
+
+// PNG, JPEG, BMP, TGA to sRGB bytes; HDR to linear floats.
+Texels decodeStb(std::span<const std::byte> bytes, const std::string& name);
+void encodePng(const Image& image, std::ostream& out);
+void encodeHdr(const Image& image, std::ostream& out);
+
+}  // namespace rt::image

@@ -1,0 +1,154 @@
+#include "Common/Image/ImageIo.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <limits>
+
+#include "Common/Core/AtomicFile.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/ReadFile.h"
+#include "Common/Image/Codecs.h"
+#include "Common/Shared/Tonemap.h"
+
+namespace rt::image {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kMaxSide = 65536;
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 33;
+
+enum class Codec { Exr, Pfm, Hdr, Png, ReadOnly };
+
+struct Format {
+    const char* extension;
+    Codec codec;
+};
+
+constexpr Format kFormats[] = {{".png", Codec::Png},      {".exr", Codec::Exr},      {".hdr", Codec::Hdr},
+                               {".pfm", Codec::Pfm},      {".jpg", Codec::ReadOnly}, {".jpeg", Codec::ReadOnly},
+                               {".bmp", Codec::ReadOnly}, {".tga", Codec::ReadOnly}};
+
+// The codec of the name's extension; throws `Unknown`, with those that are allowed, when there is none.
+template <class Unknown>
+Codec codecOf(const fs::path& path, bool writing) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::string allowed;
+    for (const Format& format : kFormats) {
+        if (writing && format.codec == Codec::ReadOnly) continue;
+        if (extension == format.extension) return format.codec;
+        allowed += std::string(allowed.empty() ? "" : ", ") + format.extension;
+    }
+    throw Unknown(path.string() + ": unknown image format \"" + extension + "\" (allowed: " + allowed + ")");
+}
+
+std::array<float, 256> makeDecodingTable() {
+    std::array<float, 256> table;
+    for (std::size_t i = 0; i < table.size(); ++i)
+        table[i] = shared::srgbDecode(static_cast<float>(i) / 255.0f);
+    return table;
+}
+
+Image toLinear(Texels&& texels) {
+    Image image;
+    image.width = texels.width;
+    image.height = texels.height;
+    image.data = std::move(texels.linear);
+    if (!texels.srgb8.empty()) {
+        static const std::array<float, 256> table = makeDecodingTable();
+        image.data.resize(texels.srgb8.size());
+        std::transform(texels.srgb8.begin(), texels.srgb8.end(), image.data.begin(),
+                       [](std::uint8_t b) { return table[b]; });
+    }
+    return image;
+}
+
+Texels toTexels(const Image& image) {
+    Texels texels{image.width, image.height, {}, {}};
+    texels.linear.resize(std::size_t{image.width} * image.height * 3);
+    for (std::size_t i = 0; i < texels.linear.size(); ++i)
+        texels.linear[i] = image.data[image.channels == 3 ? i : i / 3];
+    return texels;
+}
+
+bool isFinite(const Image& image) {
+    return std::all_of(image.data.begin(), image.data.end(), [](float value) { return std::isfinite(value); });
+}
+
+Image withFiniteValues(const Image& image) {
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    Image finite = image;
+    for (float& value : finite.data)
+        value = std::isnan(value) ? 0.0f : std::clamp(value, -kLargest, kLargest);
+    return finite;
+}
+
+}  // namespace
+
+void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes) {
+    constexpr double kDensest = 1100;  // deflate reaches 1032
+    const auto text = [](double side) { return std::to_string(static_cast<std::int64_t>(side)); };
+    const auto good = [](double side) { return side >= 1 && side <= kMaxSide && side == std::floor(side); };
+    if (!good(width) || !good(height))
+        throw InputError(name + ": image of " + text(width) + "x" + text(height) + " pixels (allowed: 1 to " +
+                         text(kMaxSide) + " on each side)");
+    if (decodedBytes > kDensest * double(fileBytes))
+        throw InputError(name + ": truncated image: " + text(width) + "x" + text(height) + " pixels do not fit into " +
+                         std::to_string(fileBytes) + " bytes");
+}
+
+Image readImage(const fs::path& path) {
+    const Codec codec = codecOf<InputError>(path, false);
+    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    switch (codec) {
+        case Codec::Exr:
+            return decodeExr(bytes, path.string());
+        case Codec::Pfm:
+            return decodePfm(bytes, path.string());
+        default:
+            return toLinear(decodeStb(bytes, path.string()));
+    }
+}
+
+Texels loadTexels(const fs::path& path) {
+    const Codec codec = codecOf<InputError>(path, false);
+    if (codec != Codec::Exr && codec != Codec::Pfm) return decodeStb(readFile(path, kMaxFileBytes), path.string());
+    const Image image = readImage(path);
+    if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
+    Texels texels = toTexels(image);
+    for (float& value : texels.linear)
+        value = std::max(value, 0.0f);
+    return texels;
+}
+
+void writeImage(const fs::path& path, const Image& image) {
+    const Codec codec = codecOf<UsageError>(path, true);
+    if (!isFinite(image)) return writeImage(path, withFiniteValues(image));
+    AtomicFile file(path);
+    switch (codec) {
+        case Codec::Exr:
+            encodeExr(image, file.stream());
+            break;
+        case Codec::Pfm:
+            encodePfm(image, file.stream());
+            break;
+        case Codec::Hdr:
+            encodeHdr(image, file.stream());
+            break;
+        default:
+            encodePng(image, file.stream());
+            break;
+    }
+    file.commit();
+}
+
+void checkWritable(const fs::path& path) {
+    codecOf<UsageError>(path, true);
+}
+
+}  // namespace rt::image

@@ -1,0 +1,39 @@
+// Image files. In memory everything is linear; the extension of the name, in any case, decides the format:
+//   .png                    8 bits, sRGB-encoded, display-referred: [0,1] is what a screen can show
+//   .exr .pfm               linear, 32-bit float, bit for bit
+//   .hdr                    linear, shared exponent: 8 significant bits, nothing negative
+//   .jpg .jpeg .bmp .tga    like .png, read only
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Common/Image/Image.h"
+
+namespace rt::image {
+
+// Texels as they are stored: exactly one of the two vectors holds width * height * 3 values, rows from the top.
+struct Texels {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::vector<std::uint8_t> srgb8;  // sRGB-encoded RGB
+    std::vector<float> linear;        // RGB
+};
+
+// Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
+// channels, or one where an EXR or PFM file has just one. Values are as in the file, infinities and NaN included.
+Image readImage(const std::filesystem::path& path);
+
+// The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
+Texels loadTexels(const std::filesystem::path& path);
+
+// Writes 1 or 3 channels, replacing the file atomically. NaN is written as 0 and an infinity, or what a format cannot
+// hold, as the nearest value that it can. Throws UsageError for an extension that is unknown, RenderError when writing
+// fails.
+void writeImage(const std::filesystem::path& path, const Image& image);
+
+// Throws the UsageError of writeImage beforehand, so that a long render does not end with it.
+void checkWritable(const std::filesystem::path& path);
+
+}  // namespace rt::image
