@@ -1,0 +1,321 @@
+// Sampling of one light: a direction towards it, the density of that direction given this light, and an estimate of what
+// it contributes, by which lights are chosen. sampleLight and lightPdf take every decision from the same function of the
+// light and the shading point, never from the sample.
+#ifndef RT_SHARED_LIGHTS_H
+#define RT_SHARED_LIGHTS_H
+#include "Features.h"
+#include "SphericalShapes.h"
+
+RT_SHARED_BEGIN
+
+struct LightSample {
+    vec3 wi;        // unit, from the shading point to the light
+    float distance; // along wi
+    float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
+    vec3 radiance;  // emitted towards the shading point, without the emission's texture
+    vec3 point;     // on the light
+    vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a sphere
+    vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
+};
+
+RT_FN LightSample noLightSample() {
+    LightSample s;
+    s.wi = vec3(0.0f);
+    s.distance = 0.0f;
+    s.pdf = 0.0f;
+    s.radiance = vec3(0.0f);
+    s.point = vec3(0.0f);
+    s.normal = vec3(0.0f);
+    s.uv = vec2(0.0f);
+    return s;
+}
+
+// How a light's shape is sampled from a shading point.
+const uint kRegimeSolidAngle = 0u; // uniform in solid angle
+const uint kRegimeArea = 1u;       // uniform in area
+const uint kRegimeInside = 2u;     // the point is inside a sphere light, which fills all directions
+
+// Below it a float direction cannot resolve a light; a point uniform in area can.
+const float kTinySolidAngle = 1.0e-8f;
+
+RT_FN vec3 sphereLightCenter(uint features, Light light, float time) {
+    return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
+}
+
+RT_FN bool isSurface(vec3 normal) {
+    return dot(normal, normal) > 0.0f;
+}
+
+// ---- regimes ---------------------------------------------------------------------------------------------------------
+
+RT_FN uint sphereLightRegime(RenderParams params, Light light, vec3 toCenter) {
+    if (dot(toCenter, toCenter) <= light.radius * light.radius) return kRegimeInside;
+    return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+}
+
+// Automatic: a flat light whose extent is below a tenth of its distance subtends nearly the same solid angle per area
+// everywhere, so the cheaper sampler is as good.
+RT_FN uint flatLightRegime(uint method, vec3 toCenter, vec3 edgeU, vec3 edgeV) {
+    if (method == kShapeAuto) {
+        float extent2 = dot(edgeU, edgeU) + dot(edgeV, edgeV);
+        return extent2 < 0.01f * dot(toCenter, toCenter) ? kRegimeArea : kRegimeSolidAngle;
+    }
+    return method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+}
+
+// ---- spheres ---------------------------------------------------------------------------------------------------------
+
+// Uniform over all directions for a point in a medium, by the cosine for a point on a surface.
+RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
+    if (!isSurface(normal)) return vec4(sampleSphere(u), 0.25f * kInvPi);
+    vec3 local = sampleCosineHemisphere(u);
+    return vec4(toWorld(makeFrame(normal), local), local.z * kInvPi);
+}
+
+RT_FN LightSample sampleSphereLight(uint features, RenderParams params, Light light, vec3 position, vec3 normal,
+                                    float time, vec2 u) {
+    LightSample s = noLightSample();
+    vec3 center = sphereLightCenter(features, light, time);
+    vec3 toCenter = center - position;
+    float radius = light.radius;
+    uint regime = sphereLightRegime(params, light, toCenter);
+    if (regime == kRegimeSolidAngle) {
+        SphereCone cone = makeSphereCone(toCenter, radius);
+        ConeSample c = sampleSphereCone(cone, radius, u);
+        s.wi = c.direction;
+        s.distance = c.distance;
+        s.normal = c.normal;
+        s.pdf = sphereConePdf(cone);
+        // The point must lie on the ray; near the sphere only this form guarantees it, far from it the other is finer.
+        s.point = cone.distance < 2.0f * radius ? position + s.wi * s.distance : center + s.normal * radius;
+    } else if (regime == kRegimeInside) {
+        vec4 w = sampleInside(normal, u);
+        s.wi = vec3(w);
+        float along = dot(toCenter, s.wi);
+        float inside2 = radius * radius - dot(toCenter, toCenter);
+        s.distance = along + sqrt(along * along + inside2);
+        s.point = position + s.wi * s.distance;
+        s.normal = (s.point - center) / radius;
+        s.pdf = light.sides == kSidesBoth ? w.w : 0.0f;
+    } else {
+        s.normal = sampleSphere(u);
+        s.point = center + s.normal * radius;
+        vec3 v = s.point - position;
+        s.distance = length(v);
+        s.wi = v / s.distance;
+        float cosine = -dot(s.normal, s.wi);
+        s.pdf = cosine > 0.0f || light.sides == kSidesBoth ? areaPdf(light.area, s.distance, cosine) : 0.0f;
+    }
+    return s;
+}
+
+RT_FN float sphereLightPdf(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time,
+                           vec3 wi, float distance, vec3 lightNormal) {
+    vec3 toCenter = sphereLightCenter(features, light, time) - position;
+    uint regime = sphereLightRegime(params, light, toCenter);
+    if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
+    if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
+    return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
+}
+
+// ---- flat lights -----------------------------------------------------------------------------------------------------
+
+// Fills in what follows from s.uv.
+RT_FN void placeOnLight(RT_INOUT(LightSample) s, Light light, vec3 position) {
+    s.point = light.position + light.edgeU * s.uv.x + light.edgeV * s.uv.y;
+    vec3 v = s.point - position;
+    s.distance = length(v);
+    s.wi = v / s.distance;
+    s.normal = light.normal;
+}
+
+RT_FN bool isRectangle(Light light) {
+    float skew = dot(light.edgeU, light.edgeV);
+    return skew * skew <= 1.0e-12f * (dot(light.edgeU, light.edgeU) * dot(light.edgeV, light.edgeV));
+}
+
+// The halves (corner, corner + U, corner + U + V) and (corner, corner + U + V, corner + V) of a parallelogram.
+RT_FN SphericalTriangle quadHalf(Light light, vec3 corner, bool second) {
+    vec3 opposite = corner + light.edgeU + light.edgeV;
+    vec3 v1 = second ? opposite : corner + light.edgeU;
+    vec3 v2 = second ? corner + light.edgeV : opposite;
+    return makeSphericalTriangle(corner, v1, v2, light.normal * light.area);
+}
+
+RT_FN SphericalTriangle triangleShape(Light light, vec3 corner) {
+    return makeSphericalTriangle(corner, corner + light.edgeU, corner + light.edgeV, light.normal * (2.0f * light.area));
+}
+
+// Fills in what follows from s.wi, a direction that meets the light's plane.
+RT_FN void projectToLight(RT_INOUT(LightSample) s, Light light, vec3 corner, vec3 position) {
+    s.distance = dot(corner, light.normal) / dot(s.wi, light.normal);
+    s.point = position + s.wi * s.distance;
+    s.normal = light.normal;
+    // Coordinates in the edges' basis, by the dual basis.
+    vec3 p = s.wi * s.distance - corner;
+    vec3 n = cross(light.edgeU, light.edgeV);
+    float inverse = 1.0f / dot(n, n);
+    s.uv = vec2(dot(cross(p, light.edgeV), n), dot(cross(light.edgeU, p), n)) * inverse;
+}
+
+RT_FN LightSample sampleQuadLight(RenderParams params, Light light, vec3 position, vec2 u) {
+    LightSample s = noLightSample();
+    vec3 corner = light.position - position;
+    vec3 toCenter = corner + (light.edgeU + light.edgeV) * 0.5f;
+    if (flatLightRegime(params.quadLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+        if (isRectangle(light)) {
+            SphericalRectangle r = makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
+            if (r.solidAngle >= kTinySolidAngle) {
+                vec2 p = sampleSphericalRectangle(r, u);
+                s.uv = vec2(p.x / r.width, p.y / r.height);
+                placeOnLight(s, light, position);
+                s.pdf = 1.0f / r.solidAngle;
+                return s;
+            }
+        } else {
+            SphericalTriangle a = quadHalf(light, corner, false);
+            SphericalTriangle b = quadHalf(light, corner, true);
+            float whole = a.solidAngle + b.solidAngle;
+            if (whole >= kTinySolidAngle) {
+                float x = u.x * whole;
+                bool second = x >= a.solidAngle;
+                if (second) {
+                    a = b;
+                    x -= whole - b.solidAngle;
+                }
+                s.wi = sampleSphericalTriangle(a, vec2(clamp(x / a.solidAngle, 0.0f, 1.0f), u.y));
+                projectToLight(s, light, corner, position);
+                s.pdf = 1.0f / whole;
+                return s;
+            }
+        }
+    }
+    s.uv = u;
+    placeOnLight(s, light, position);
+    s.pdf = areaPdf(light.area, s.distance, dot(light.normal, s.wi));
+    return s;
+}
+
+RT_FN float quadLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
+    vec3 corner = light.position - position;
+    vec3 toCenter = corner + (light.edgeU + light.edgeV) * 0.5f;
+    if (flatLightRegime(params.quadLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+        float whole = 0.0f;
+        if (isRectangle(light)) {
+            whole = makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal).solidAngle;
+        } else {
+            whole = quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
+        }
+        if (whole >= kTinySolidAngle) return 1.0f / whole;
+    }
+    return areaPdf(light.area, distance, dot(light.normal, wi));
+}
+
+RT_FN LightSample sampleTriangleLight(RenderParams params, Light light, vec3 position, vec2 u) {
+    LightSample s = noLightSample();
+    vec3 corner = light.position - position;
+    vec3 toCenter = corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f);
+    if (flatLightRegime(params.triangleLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+        SphericalTriangle t = triangleShape(light, corner);
+        if (t.solidAngle >= kTinySolidAngle) {
+            s.wi = sampleSphericalTriangle(t, u);
+            projectToLight(s, light, corner, position);
+            s.pdf = 1.0f / t.solidAngle;
+            return s;
+        }
+    }
+    s.uv = sampleTriangleArea(u);
+    placeOnLight(s, light, position);
+    s.pdf = areaPdf(light.area, s.distance, dot(light.normal, s.wi));
+    return s;
+}
+
+RT_FN float triangleLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
+    vec3 corner = light.position - position;
+    vec3 toCenter = corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f);
+    if (flatLightRegime(params.triangleLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+        float solidAngle = triangleShape(light, corner).solidAngle;
+        if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
+    }
+    return areaPdf(light.area, distance, dot(light.normal, wi));
+}
+
+// ---- any light -------------------------------------------------------------------------------------------------------
+
+// Whether a point lies on the side that a flat light illuminates.
+RT_FN bool isLit(Light light, vec3 position) {
+    return light.sides == kSidesBoth || dot(light.normal, position - light.position) > 0.0f;
+}
+
+// `normal` is the shading point's geometric normal on the side of wo, zero for a point in a medium. The sky is not sampled
+// here (Sky.h).
+RT_FN LightSample sampleLight(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time,
+                              vec2 u) {
+    LightSample s = noLightSample();
+    if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
+        s = sampleSphereLight(features, params, light, position, normal, time, u);
+    } else if (light.kind != kLightSky && isLit(light, position)) {
+        if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
+            s = sampleQuadLight(params, light, position, u);
+        } else if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
+            s = sampleTriangleLight(params, light, position, u);
+        }
+    }
+    s.radiance = light.emission;
+    if (isSurface(normal) && dot(normal, s.wi) <= 0.0f) s.pdf = 0.0f;
+    return s;
+}
+
+// Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal
+// `lightNormal`.
+RT_FN float lightPdf(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time, vec3 wi,
+                     float distance, vec3 lightNormal) {
+    if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
+        return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
+    }
+    if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
+        return quadLightPdf(params, light, position, wi, distance);
+    }
+    if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
+        return triangleLightPdf(params, light, position, wi, distance);
+    }
+    return 0.0f;
+}
+
+// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray.
+RT_FN vec3 lightPointError(Light light) {
+    if (light.kind == kLightSphere) {
+        float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
+        return vec3(32.0f * kEpsilon * reach);
+    }
+    return 8.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
+}
+
+// ---- choosing among lights -------------------------------------------------------------------------------------------
+
+// Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact for
+// small and distant lights, and 0 only where the light cannot contribute: wholly below the horizon of `normal`, or the
+// point is not in front of a one-sided flat light. `normal` as in sampleLight. Without a branch, for loops over lights.
+RT_FN float lightContribution(LightBound bound, vec3 position, vec3 normal) {
+    vec3 v = bound.center - position;
+    float d2 = dot(v, v);
+    float r = bound.radius;
+    float r2 = r * r;
+    float inverse2 = 1.0f / max(d2, 0.25f * r2);
+    float inverse = sqrt(inverse2);
+    // Mean of the clamped cosine over the bounding sphere, times distance: the middle's where the sphere is above the
+    // horizon, a parabola that reaches 0 with slope 0 where the sphere sinks below it.
+    float rise = dot(normal, v);
+    float above = max(rise + r, 0.0f);
+    float clipped = above * above / (4.0f * max(r, 1.0e-30f));
+    float receiver = rise >= r ? rise : clipped;
+    receiver = isSurface(normal) ? receiver * inverse : 1.0f;
+    float facing = -dot(bound.axis, v);
+    facing = bound.twoSided > 0.0f ? abs(facing) : max(facing, 0.0f);
+    float emitter = dot(bound.axis, bound.axis) > 0.0f ? facing * inverse : 1.0f;
+    return bound.intensity * receiver * emitter * inverse2;
+}
+
+RT_SHARED_END
+
+#endif
