@@ -13,10 +13,10 @@ const uint kPairPixel = 0u;      // position in the pixel
 const uint kPairLens = 1u;       // position on the lens
 const uint kPairTime = 2u;       // x: time in the shutter interval
 const uint kPairsCamera = 4u;
-const uint kPairLight = 0u;      // position on the light
-const uint kPairBsdf = 1u;       // direction of the scattered ray
-const uint kPairChoice = 2u;     // x: choice of the light, y: choice of the lobe or of the mixture's technique
-const uint kPairRoulette = 3u;   // x: survival, y: reserved for the walk through a light hierarchy
+const uint kPairLight = 0u;      // choice of the light, stretched, and position on it
+const uint kPairBsdf = 1u;       // lobe or direction of the scattered ray
+const uint kPairChoice = 2u;     // x: survival of the roulette, y: technique of the mixture
+const uint kPairSelect = 3u;     // x: choice of the light where there are too many to stretch kPairLight
 const uint kPairMedium = 4u;     // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
 const uint kPairsPerVertex = 8u;
 

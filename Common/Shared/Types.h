@@ -165,6 +165,10 @@ struct LightBound {
 
 const uint kContributionLights = 32u; // up to here `contribution` weighs every light at the shading point
 
+struct LightWeights {
+    float weight[kContributionLights];
+};
+
 // ---- the scene as a whole --------------------------------------------------------------------------------------------
 
 const uint kSkyBlack = 0u;

@@ -1,0 +1,37 @@
+#include "Common/App/RenderParams.h"
+
+#include <cmath>
+
+namespace rt::app {
+namespace {
+
+// Cells per round: at least one for each sample where their number is known, so that a single round covers them all.
+shared::uvec2 strata(const RenderSettings& settings) {
+    if (!settings.sppIsKnown) return {16u, 16u};
+    const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
+    auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
+    if (columns * std::uint64_t{columns} < samples) ++columns;
+    return {columns, (samples + columns - 1) / columns};
+}
+
+}  // namespace
+
+shared::RenderParams makeRenderParams(const RenderSettings& settings) {
+    shared::RenderParams params{};
+    params.width = settings.width;
+    params.height = settings.height;
+    params.maxDepth = settings.maxDepth;
+    params.seed = settings.seed;
+    params.lightSampling = static_cast<std::uint32_t>(settings.lightSampling);
+    params.lightSelection = static_cast<std::uint32_t>(settings.lightSelection);
+    params.sphereLight = static_cast<std::uint32_t>(settings.sphereLight);
+    params.quadLight = static_cast<std::uint32_t>(settings.quadLight);
+    params.triangleLight = static_cast<std::uint32_t>(settings.triangleLight);
+    params.samplerKind = static_cast<std::uint32_t>(settings.sampler);
+    params.strataX = strata(settings).x;
+    params.strataY = strata(settings).y;
+    params.russianRoulette = settings.russianRoulette ? 1u : 0u;
+    return params;
+}
+
+}  // namespace rt::app

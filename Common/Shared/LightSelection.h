@@ -1,0 +1,99 @@
+// Which light a vertex samples, and with what probability.
+// The includer provides SceneRef, loadGlobals, loadLight and
+//   LightWeights loadContributions(scene, position, normal): lightContribution() of each light of a table of at most
+//   kContributionLights; the remaining weights are zero.
+#ifndef RT_SHARED_LIGHT_SELECTION_H
+#define RT_SHARED_LIGHT_SELECTION_H
+#include "Features.h"
+#include "Lights.h"
+#include "Random.h"
+
+RT_SHARED_BEGIN
+
+// Where lights are seen from. The point and the normal (zero in a medium) that selection and sampling used must also be
+// those that a density is asked for, or the weights of multiple importance sampling would not sum to one.
+struct LightContext {
+    vec3 position;
+    vec3 normal;
+    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy; // the selection in force: kSelect...
+};
+
+struct LightChoice {
+    uint light;        // kNone: nothing to choose
+    float probability; // > 0 otherwise
+    float u;           // the number that chose, stretched to [0,1) for further use
+};
+
+// `contribution` weighs every light of a short table; longer tables are chosen from by power.
+RT_FN uint selectionPolicy(RenderParams params, SceneGlobals globals) {
+    bool tooMany = globals.lightCount > kContributionLights;
+    return params.lightSelection == kSelectContribution && tooMany ? kSelectPower : params.lightSelection;
+}
+
+RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
+    uint low = 0u;
+    uint high = count - 1u;
+    while (low < high) {
+        uint middle = (low + high) / 2u;
+        if (loadLight(scene, middle).cdf > u) {
+            high = middle;
+        } else {
+            low = middle + 1u;
+        }
+    }
+    Light light = loadLight(scene, low);
+    LightChoice choice;
+    choice.light = light.selection > 0.0f ? low : kNone;
+    choice.probability = light.selection;
+    choice.u = light.selection > 0.0f ? stretch(u, light.cdf - light.selection, light.cdf) : 0.0f;
+    return choice;
+}
+
+// Chooses among the lights proper and completes `context` with what lightProbability needs.
+RT_FN LightChoice chooseLight(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
+    context.total = 0.0f;
+    LightChoice choice;
+    choice.light = kNone;
+    choice.probability = 0.0f;
+    choice.u = 0.0f;
+    if (count == 0u) return choice;
+    if (context.policy == kSelectPower) return chooseByPower(scene, count, u);
+    if (context.policy == kSelectUniform) {
+        choice.light = min(uint(u * float(count)), count - 1u);
+        choice.probability = 1.0f / float(count);
+        choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
+        return choice;
+    }
+    LightWeights weights = loadContributions(scene, context.position, context.normal);
+    float total = 0.0f;
+    for (uint i = 0u; i < count; i++) total += weights.weight[i];
+    context.total = total;
+    if (!(total > 0.0f)) return choice;
+    float target = u * total;
+    float below = 0.0f;
+    for (uint i = 0u; i < count; i++) {
+        float weight = weights.weight[i];
+        // The last light of positive weight catches what rounding leaves.
+        if (weight > 0.0f) {
+            choice.light = i;
+            choice.probability = weight / total;
+            choice.u = clamp((target - below) / weight, 0.0f, 0.999999940395355f);
+            if (target < below + weight) return choice;
+        }
+        below += weight;
+    }
+    return choice;
+}
+
+// Probability with which chooseLight picks `light` in this context.
+RT_FN float lightProbability(SceneRef scene, uint count, uint light, LightContext context) {
+    if (context.policy == kSelectPower) return loadLight(scene, light).selection;
+    if (context.policy == kSelectUniform) return 1.0f / float(count);
+    if (!(context.total > 0.0f)) return 0.0f;
+    return lightContribution(loadLightBound(scene, light), context.position, context.normal) / context.total;
+}
+
+RT_SHARED_END
+
+#endif

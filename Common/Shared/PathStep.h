@@ -1,0 +1,411 @@
+// One vertex of a path: trace, emission, next-event estimation, scattering, roulette. Both engines run this very code;
+// the loop around it is theirs.
+//
+//        ray            pathStep
+//   o---------->x   emission weighed against the light sampling of the vertex before
+//               |\__ one shadow ray to a chosen light          (mis)
+//               v    next ray from the bsdf, or from a light   (mixture)
+//
+// The includer provides SceneRef, every load...() that the included headers name, loadMaterial, loadMedium, and
+//   Hit traceRay(features, scene, ray)                 nearest intersection at t > 0
+//   bool isOccluded(features, scene, ray, tMax)        any surface in (0, tMax)
+#ifndef RT_SHARED_PATH_STEP_H
+#define RT_SHARED_PATH_STEP_H
+#include "Bsdf.h"
+#include "Camera.h"
+#include "LightDensity.h"
+#include "LightSelection.h"
+#include "Media.h"
+#include "Random.h"
+#include "Sky.h"
+#include "Surface.h"
+
+RT_SHARED_BEGIN
+
+const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
+
+const uint kRouletteStart = 2u; // vertices that scatter before the roulette begins
+const float kRouletteMin = 0.05f;
+const float kRouletteMax = 0.95f;
+
+struct PathState {
+    Ray ray;
+    vec3 throughput;
+    vec3 radiance;
+    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;       // surfaces and collisions met so far
+    uint shadowRays;
+    LightContext last; // where ray starts, for the weights of multiple importance sampling
+};
+
+// A place where light scatters: a surface point or a collision in a medium.
+struct Vertex {
+    uint index;      // position along the path, 0 is what the camera sees
+    uint inMedium;   // 1: isotropic scattering, the fields up to albedo are unused
+    uint front;      // 1: wo is on the front side
+    Material material;
+    vec3 normal;     // geometric, facing wo; zero in a medium
+    vec3 shading;    // of the bsdf frame, facing wo; zero in a medium
+    vec3 wo;
+    vec3 albedo;
+    vec3 position;
+    vec3 error;      // of position, per axis
+    vec3 origin;     // where rays on wo's side start
+};
+
+RT_FN PathState startPath(uint features, RenderParams params, Camera camera, Sampler smp, uvec2 pixel) {
+    vec2 lens = vec2(0.5f, 0.5f);
+    if (has(features, kFeatureThinLens)) lens = randomPair(smp, kPairLens);
+    float time = 0.0f;
+    if (has(features, kFeatureMotion)) time = randomPair(smp, kPairTime).x;
+    PathState s;
+    s.ray = generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), randomPair(smp, kPairPixel),
+                              lens, time);
+    s.throughput = vec3(1.0f, 1.0f, 1.0f);
+    s.radiance = vec3(0.0f, 0.0f, 0.0f);
+    s.pdf = 0.0f;
+    s.vertex = 0u;
+    s.shadowRays = 0u;
+    s.last.position = s.ray.origin;
+    s.last.normal = vec3(0.0f, 0.0f, 0.0f);
+    s.last.total = 0.0f;
+    s.last.policy = kSelectUniform;
+    return s;
+}
+
+// ---- emission --------------------------------------------------------------------------------------------------------
+
+// Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
+RT_FN float emissionWeight(RenderParams params, float pdf, float lightDensity) {
+    if (params.lightSampling != kSampleMis || pdf == 0.0f) return 1.0f;
+    return balanceHeuristic(pdf, lightDensity);
+}
+
+RT_FN void addSky(uint features, SceneRef scene, RenderParams params, RT_INOUT(PathState) s) {
+    if (!has(features, kFeatureSky)) return;
+    float weight = 1.0f;
+    if (has(features, kFeatureSkyImage)) {
+        SceneGlobals globals = loadGlobals(scene);
+        if (globals.skyLight != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
+            float probability = lightProbability(scene, globals.lightCount, globals.skyLight, s.last);
+            weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
+        }
+    }
+    s.radiance += s.throughput * skyRadiance(features, scene, s.ray.direction) * weight;
+}
+
+// Emitted radiance at a point of a surface with this material, both sides alike.
+RT_FN vec3 emittedRadiance(uint features, SceneRef scene, Material material, vec3 position, vec2 uv) {
+    if (material.emissionTexture == kNone) return material.emission;
+    return material.emission *
+           evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv);
+}
+
+RT_FN void addEmission(uint features, SceneRef scene, RenderParams params, Surface surface, Material material,
+                       float distance, RT_INOUT(PathState) s) {
+    if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
+    bool front = dot(s.ray.direction, surface.normal) < 0.0f;
+    if (!front && material.emissionSides != kSidesBoth) return;
+    vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv);
+    float weight = 1.0f;
+    if (has(features, kFeatureLights) && surface.light != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
+        float probability = lightProbability(scene, loadGlobals(scene).lightCount, surface.light, s.last);
+        float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
+                                 s.ray.time, s.ray.direction, distance, surface.normal);
+        weight = emissionWeight(params, s.pdf, probability * density);
+    }
+    s.radiance += s.throughput * emitted * weight;
+}
+
+// ---- scattering at a vertex ------------------------------------------------------------------------------------------
+
+// f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface are
+// black, whatever the interpolated normal says.
+RT_FN vec4 evalScattering(uint features, Vertex v, vec3 wi) {
+    if (has(features, kFeatureVolumes) && v.inMedium != 0u) {
+        return vec4(v.albedo * kPhasePdf, kPhasePdf);
+    }
+    if (!(dot(wi, v.normal) > 0.0f)) return vec4(0.0f, 0.0f, 0.0f, 0.0f);
+    return evalBsdf(features, v.material, v.albedo, v.shading, v.wo, wi);
+}
+
+RT_FN bool isDeltaVertex(uint features, Vertex v) {
+    if (has(features, kFeatureVolumes) && v.inMedium != 0u) return false;
+    return isDelta(features, v.material);
+}
+
+RT_FN BsdfSample sampleScattering(uint features, Vertex v, vec2 u) {
+    if (has(features, kFeatureVolumes) && v.inMedium != 0u) return samplePhase(v.albedo, u);
+    return sampleBsdf(features, v.material, v.albedo, v.shading, v.front, v.wo, u, u.x);
+}
+
+// Fraction of light that media let through along the ray up to tMax.
+RT_FN float rayTransmittance(uint features, SceneRef scene, Ray ray, float tMax) {
+    if (!has(features, kFeatureVolumes)) return 1.0f;
+    float depth = 0.0f;
+    uint count = loadGlobals(scene).mediumCount;
+    for (uint i = 0u; i < count; i++) {
+        Medium medium = loadMedium(scene, i);
+        depth += medium.extinction * lengthWithin(mediumInterval(medium, ray.origin, ray.direction), tMax);
+    }
+    return transmittance(depth);
+}
+
+// Fraction of the light of `sampled` that arrives at v.origin. The segment ends at the light's own offset point, so that the
+// emitter does not shadow itself and no primitive has to be excluded.
+RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, Light light, LightSample sampled) {
+    Ray shadow;
+    shadow.origin = origin;
+    shadow.direction = sampled.wi;
+    shadow.time = time;
+    float tMax = kInfinity;
+    if (light.kind != kLightSky) {
+        vec3 end = offsetOrigin(sampled.point, lightPointError(light), sampled.normal, -sampled.wi);
+        vec3 segment = end - origin;
+        tMax = length(segment);
+        // Closer than rounding can tell apart: nothing fits in between.
+        if (!(dot(segment, sampled.wi) > 0.0f)) return 1.0f;
+        shadow.direction = segment / tMax;
+    }
+    if (isOccluded(features, scene, shadow, tMax)) return 0.0f;
+    return rayTransmittance(features, scene, shadow, tMax);
+}
+
+RT_FN LightContext lightContext(SceneRef scene, RenderParams params, Vertex v) {
+    LightContext context;
+    context.position = v.origin;
+    context.normal = v.shading;
+    context.total = 0.0f;
+    context.policy = selectionPolicy(params, loadGlobals(scene));
+    return context;
+}
+
+// The number that chooses the light: the first of the pair that also places the point, unless there are so many lights that
+// the choice would use up its bits.
+RT_FN float selectionNumber(SceneGlobals globals, Sampler smp, uint vertex, vec2 pair) {
+    if (globals.lightCount <= kContributionLights) return pair.x;
+    return randomPair(smp, vertexPair(vertex, kPairSelect)).x;
+}
+
+RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RenderParams params, Light light, Vertex v, float time,
+                                    vec2 u) {
+    if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
+    LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
+    if (has(features, kTexturedFeatures) && light.material != kNone) {
+        if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
+        sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
+    }
+    return sampled;
+}
+
+// Next-event estimation: one light, one shadow ray, weighed by the balance heuristic against the bsdf's density.
+RT_FN void addDirectLight(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v,
+                          RT_INOUT(PathState) s) {
+    SceneGlobals globals = loadGlobals(scene);
+    vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
+    LightChoice choice = chooseLight(scene, globals.lightCount, selectionNumber(globals, smp, v.index, u), s.last);
+    if (choice.light == kNone) return;
+    Light light = loadLight(scene, choice.light);
+    if (globals.lightCount <= kContributionLights) u.x = choice.u;
+    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
+    if (!(sampled.pdf > 0.0f)) return;
+    vec4 f = evalScattering(features, v, sampled.wi);
+    vec3 contribution = s.throughput * vec3(f) * sampled.radiance;
+    if (!(maxComponent(contribution) > 0.0f)) return;
+    s.shadowRays++;
+    float visible = visibility(features, scene, v.origin, s.ray.time, light, sampled);
+    s.radiance += contribution * (visible / (choice.probability * sampled.pdf + f.w));
+}
+
+// ---- Shirley's mixture -----------------------------------------------------------------------------------------------
+
+// Probability of choosing entry i of lights and targets: targets share count / total, each the same.
+RT_FN float mixtureProbability(SceneRef scene, SceneGlobals globals, uint i, LightContext context) {
+    float all = float(globals.lightCount + globals.targetCount);
+    if (i >= globals.lightCount) return 1.0f / all;
+    return float(globals.lightCount) / all * lightProbability(scene, globals.lightCount, i, context);
+}
+
+// Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
+RT_FN float mixtureLightPdf(uint features, SceneRef scene, RenderParams params, SceneGlobals globals, float time, vec3 wi,
+                            LightContext context) {
+    float sum = 0.0f;
+    uint count = globals.lightCount + globals.targetCount;
+    for (uint i = 0u; i < count; i++) {
+        Light light = loadLight(scene, i);
+        float density = 0.0f;
+        if (has(features, kFeatureSkyImage) && light.kind == kLightSky) {
+            density = skyPdf(scene, wi);
+        } else {
+            density = lightPdfAlong(features, params, light, context.position, context.normal, time, wi);
+        }
+        if (density > 0.0f) sum += density * mixtureProbability(scene, globals, i, context);
+    }
+    return sum;
+}
+
+// Chooses a light or a target and a direction to it; a pdf of 0 where there is none.
+RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RenderParams params, SceneGlobals globals, Sampler smp,
+                                     Vertex v, float time, RT_INOUT(LightContext) context) {
+    vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
+    float pick = selectionNumber(globals, smp, v.index, u);
+    float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
+    // The context is completed even when a target is chosen: the density of the direction sums over all of them.
+    LightChoice choice = chooseLight(scene, globals.lightCount, stretch(pick, split, 1.0f), context);
+    if (pick < split) {
+        float position = pick / split * float(globals.targetCount);
+        uint target = min(uint(position), globals.targetCount - 1u);
+        choice.light = globals.lightCount + target;
+        choice.u = clamp(position - float(target), 0.0f, 0.999999940395355f);
+    }
+    if (choice.light == kNone) return noLightSample();
+    if (globals.lightCount <= kContributionLights) u.x = choice.u;
+    return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, u);
+}
+
+// Replaces the bsdf's direction by that of the one-sample mixture: half from the lights, half from the bsdf.
+RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v, BsdfSample b,
+                               float time, LightContext context) {
+    SceneGlobals globals = loadGlobals(scene);
+    if (globals.lightCount + globals.targetCount == 0u) return b;
+    LightSample sampled = sampleMixtureLight(features, scene, params, globals, smp, v, time, context);
+    // Where no light can contribute and there is no target, the lights' half of the mixture would be empty.
+    bool lightless = context.policy == kSelectContribution && !(context.total > 0.0f);
+    if (lightless && globals.targetCount == 0u) return b;
+    BsdfSample mixed = b;
+    mixed.weight = vec3(0.0f, 0.0f, 0.0f);
+    if (randomPair(smp, vertexPair(v.index, kPairChoice)).y < 0.5f) {
+        if (!(sampled.pdf > 0.0f)) return mixed;
+        mixed.wi = sampled.wi;
+    }
+    vec4 f = evalScattering(features, v, mixed.wi);
+    float pdf = 0.5f * f.w +
+                0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
+    mixed.pdf = pdf;
+    if (pdf > 0.0f) mixed.weight = vec3(f) / pdf;
+    return mixed;
+}
+
+// ---- a step ----------------------------------------------------------------------------------------------------------
+
+// Continues the path from v. False: it ends here.
+RT_FN bool scatter(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v, RT_INOUT(PathState) s) {
+    bool delta = isDeltaVertex(features, v);
+    s.last = lightContext(scene, params, v);
+    bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
+    if (lights && params.lightSampling == kSampleMis) addDirectLight(features, scene, params, smp, v, s);
+
+    BsdfSample b = sampleScattering(features, v, randomPair(smp, vertexPair(v.index, kPairBsdf)));
+    if (lights && params.lightSampling == kSampleMixture) {
+        b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
+    }
+    s.throughput *= b.weight;
+    float strongest = maxComponent(s.throughput);
+    if (!(strongest > 0.0f)) return false;
+    if (v.inMedium == 0u) {
+        // A sample that leaks through the geometric surface is black.
+        float side = dot(b.wi, v.normal);
+        if (b.transmitted != 0u ? !(side < 0.0f) : !(side > 0.0f)) return false;
+        s.ray.origin = b.transmitted != 0u ? offsetOrigin(v.position, v.error, v.normal, b.wi) : v.origin;
+    } else {
+        s.ray.origin = v.origin;
+    }
+    s.ray.direction = b.wi;
+    s.pdf = b.delta != 0u ? 0.0f : b.pdf;
+    if (params.russianRoulette != 0u && v.index >= kRouletteStart) {
+        float survival = clamp(strongest, kRouletteMin, kRouletteMax);
+        if (randomPair(smp, vertexPair(v.index, kPairChoice)).x >= survival) return false;
+        s.throughput /= survival;
+    }
+    return true;
+}
+
+// Nearest collision in any medium before tMax: each medium's free flight is exponential, and the least of independent
+// exponentials is a flight through their summed extinction that ends in each with its share. medium is kNone if there is none.
+RT_FN float sampleCollision(SceneRef scene, Ray ray, float tMax, Sampler smp, uint vertex, RT_INOUT(uint) medium) {
+    float nearest = tMax;
+    medium = kNone;
+    uint count = loadGlobals(scene).mediumCount;
+    for (uint i = 0u; i < count; i++) {
+        Medium candidate = loadMedium(scene, i);
+        vec2 span = mediumInterval(candidate, ray.origin, ray.direction);
+        float entry = max(span.x, 0.0f);
+        float leave = min(span.y, nearest);
+        if (!(entry < leave)) continue;
+        float u = randomFine(smp, vertexPair(vertex, kPairMedium) + (i << 16u));
+        float t = entry + sampleFreeFlight(u, candidate.extinction);
+        if (t < leave) {
+            nearest = t;
+            medium = i;
+        }
+    }
+    return nearest;
+}
+
+RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint texture, vec3 position, vec2 uv) {
+    if (!has(features, kTexturedFeatures) || texture == kNone) return constant;
+    return evalTexture(features, scene, texture, position + loadGlobals(scene).origin, uv);
+}
+
+RT_FN Vertex mediumVertex(uint features, SceneRef scene, PathState s, float t, uint index) {
+    Medium medium = loadMedium(scene, index);
+    Vertex v;
+    v.index = s.vertex - 1u;
+    v.inMedium = 1u;
+    v.front = 1u;
+    v.material = loadMaterial(scene, 0u);
+    v.normal = vec3(0.0f, 0.0f, 0.0f);
+    v.shading = vec3(0.0f, 0.0f, 0.0f);
+    v.wo = -s.ray.direction;
+    v.position = s.ray.origin + s.ray.direction * t;
+    v.error = vec3(0.0f, 0.0f, 0.0f);
+    v.origin = v.position;
+    v.albedo = texturedAlbedo(features, scene, medium.albedo, medium.texture, v.position, vec2(0.0f, 0.0f));
+    return v;
+}
+
+RT_FN Vertex surfaceVertex(uint features, SceneRef scene, PathState s, Surface surface, Material material) {
+    Vertex v;
+    v.index = s.vertex - 1u;
+    v.inMedium = 0u;
+    v.wo = -s.ray.direction;
+    v.front = dot(v.wo, surface.normal) > 0.0f ? 1u : 0u;
+    v.material = material;
+    v.normal = v.front != 0u ? surface.normal : -surface.normal;
+    v.shading = v.front != 0u ? surface.shading : -surface.shading;
+    if (!(dot(v.wo, v.shading) > 0.0f)) v.shading = v.normal;
+    v.position = surface.position;
+    v.error = surface.error;
+    v.origin = offsetOrigin(surface.position, surface.error, v.normal, v.normal);
+    v.albedo = texturedAlbedo(features, scene, material.albedo, material.texture, surface.position, surface.uv);
+    return v;
+}
+
+// Advances the path by one vertex. False: the path has ended and s.radiance is its estimate.
+RT_FN bool pathStep(uint features, SceneRef scene, RenderParams params, Sampler smp, RT_INOUT(PathState) s) {
+    Hit hit = traceRay(features, scene, s.ray);
+    uint medium = kNone;
+    float t = hit.t < 0.0f ? kInfinity : hit.t;
+    if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
+    s.vertex++;
+    Vertex v;
+    if (has(features, kFeatureVolumes) && medium != kNone) {
+        if (s.vertex >= params.maxDepth) return false;
+        v = mediumVertex(features, scene, s, t, medium);
+    } else {
+        if (hit.t < 0.0f) {
+            addSky(features, scene, params, s);
+            return false;
+        }
+        Surface surface = makeSurface(features, scene, s.ray, hit);
+        Material material = loadMaterial(scene, surface.material);
+        addEmission(features, scene, params, surface, material, hit.t, s);
+        if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
+        v = surfaceVertex(features, scene, s, surface, material);
+    }
+    return scatter(features, scene, params, smp, v, s);
+}
+
+RT_SHARED_END
+
+#endif
