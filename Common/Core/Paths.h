@@ -1,0 +1,19 @@
+// Where files are found: programs run from any working directory.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace rt {
+
+// Absolute path of the running program; empty where the platform does not tell.
+std::filesystem::path executablePath();
+
+// Folders searched for assets, in order: $RT_ASSETS, the Assets folder of the source tree that the program was built
+// in, the install place. Only folders that exist.
+std::vector<std::filesystem::path> assetFolders();
+
+// An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.
+std::optional<std::filesystem::path> findAsset(const std::filesystem::path& name);
+
+}  // namespace rt

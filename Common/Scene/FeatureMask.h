@@ -1,0 +1,11 @@
+#pragma once
+#include <cstdint>
+
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::scene {
+
+// What the arrays of a finished scene need of a kernel.
+std::uint32_t featureMask(const CompiledScene& scene);
+
+}  // namespace rt::scene

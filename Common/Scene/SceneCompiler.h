@@ -1,0 +1,34 @@
+// From the authoring scene to the flat scene.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+// An image as kernels fetch it: rows from the top, words as the format (shared::kTexelSrgb8 or kTexelLinearF32) says.
+struct TexelData {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+    std::uint32_t format = shared::kTexelSrgb8;
+    std::vector<std::uint32_t> words;
+};
+
+struct CompileOptions {
+    bool oneSidedLights = true;    // what emitters do that do not say it themselves
+    bool generatedAssets = false;  // take stand-ins even where the file exists, so that figures compare across machines
+    // Reads an image file; throws InputError. A scene with image files needs it.
+    std::function<TexelData(const std::filesystem::path&)> loadTexels;
+};
+
+// Flattens groups and nested instances, finds the light table in the geometry, subtracts the camera's authored
+// position, and collects the feature mask. Degenerate primitives are dropped and counted in a notice. Throws InputError
+// naming the scene and the place.
+std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options = {});
+
+}  // namespace rt::scene
