@@ -1,0 +1,37 @@
+#include "Common/Core/RunMain.h"
+
+#include <algorithm>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "Common/Core/Error.h"
+
+namespace rt {
+
+namespace {
+
+int report(const char* program, std::string message, ExitCode code) {
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    std::cerr << program << ": " << message << std::endl;
+    return static_cast<int>(code);
+}
+
+}  // namespace
+
+int runMain(const char* program, const std::function<int()>& body) {
+    try {
+        const int code = body();
+        std::cout.flush();
+        if (!std::cout) throw RenderError("cannot write to standard output");
+        return code;
+    } catch (const Error& error) {
+        return report(program, error.what(), error.code());
+    } catch (const std::bad_alloc&) {
+        return report(program, "not enough memory", ExitCode::Failure);
+    } catch (const std::exception& error) {
+        return report(program, error.what(), ExitCode::Failure);
+    }
+}
+
+}  // namespace rt

@@ -1,0 +1,25 @@
+// A render that was interrupted: what it was, as JSON, and its film.
+//
+//   "RTCHECK\n" | version | bytes of JSON | JSON {"film": its FilmDesc, "render": the caller's} | hash of JSON | film
+#pragma once
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/Image/Film.h"
+
+namespace rt::image {
+
+struct Checkpoint {
+    nlohmann::json render;  // whatever the caller compares before going on: settings, scene hash, engine
+    Film film;
+};
+
+// Replaces the file atomically. Throws RenderError.
+void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film);
+
+// The film is that of writeCheckpoint bit for bit. Throws InputError naming the file and what is wrong with it: not a
+// checkpoint, another version, truncated, damaged.
+Checkpoint readCheckpoint(const std::filesystem::path& path);
+
+}  // namespace rt::image

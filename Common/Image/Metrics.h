@@ -1,0 +1,35 @@
+// How far an image is from a reference, or from what it would converge to. All in double, over pixels and channels.
+#pragma once
+#include <array>
+
+#include "Common/Image/Image.h"
+
+namespace rt::image {
+
+struct ErrorFigures {
+    double mse = 0;     // mean((x - ref)^2)
+    double rmse = 0;    // its square root
+    double relmse = 0;  // mean((x - ref)^2 / (ref^2 + 0.01))
+    double mae = 0;     // mean(|x - ref|)
+    double psnr = 0;    // dB, of clamped sRGB-encoded values with peak 1; infinite for equal ones
+    double maxAbs = 0;  // largest |x - ref|
+};
+
+// Both linear. Throws InputError, saying what differs, unless both have the same size and channels and all values are
+// finite.
+ErrorFigures compare(const Image& image, const Image& reference);
+
+// |x - ref|, averaged over the channels, from black-blue over green to yellow, lightness rising throughout (readable
+// with any colour vision). The brightest colour stands for the error that 1 pixel in 200 exceeds. As writeImage expects
+// for .png.
+Image heatMap(const Image& image, const Image& reference);
+
+// The relMSE to expect of `mean`, whose pixels have this variance: mean(variance / (mean^2 + 0.01)).
+double estimatedRelMse(const Image& mean, const Image& variance);
+
+// Per channel: the mean over all pixels, and the standard error of that mean when pixels are independent. Three equal
+// numbers for an image of one channel.
+std::array<double, 3> channelMeans(const Image& image);
+std::array<double, 3> standardErrors(const Image& variance);
+
+}  // namespace rt::image

@@ -1,0 +1,149 @@
+// ray-tracing-image: compares, describes and converts image files.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/RunMain.h"
+#include "Common/Image/Display.h"
+#include "Common/Image/ImageIo.h"
+#include "Common/Image/Metrics.h"
+#include "Common/Shared/Tonemap.h"
+
+namespace {
+
+using namespace rt;
+
+constexpr const char* kProgram = "ray-tracing-image";
+
+struct Metric {
+    const char* name;
+    double image::ErrorFigures::*value;
+    bool moreIsBetter;
+};
+
+constexpr Metric kMetrics[] = {{"mse", &image::ErrorFigures::mse, false},
+                               {"rmse", &image::ErrorFigures::rmse, false},
+                               {"relmse", &image::ErrorFigures::relmse, false},
+                               {"mae", &image::ErrorFigures::mae, false},
+                               {"psnr", &image::ErrorFigures::psnr, true}};
+
+struct Curve {
+    const char* name;
+    std::uint32_t curve;
+};
+
+constexpr Curve kCurves[] = {
+    {"none", shared::kTonemapNone}, {"reinhard", shared::kTonemapReinhard}, {"aces", shared::kTonemapAces}};
+
+struct Arguments {
+    std::string a, b;
+    std::string metric;
+    std::optional<double> max;
+    std::string output;
+    float exposure = 0;
+    std::string tonemap = "none";
+};
+
+// The table's row of that name; CLI11 has checked that there is one.
+template <class Row, std::size_t N>
+const Row& rowOf(const Row (&table)[N], const std::string& name) {
+    return *std::find_if(std::begin(table), std::end(table), [&](const Row& row) { return row.name == name; });
+}
+
+template <class Row, std::size_t N>
+std::vector<std::string> namesOf(const Row (&table)[N]) {
+    std::vector<std::string> names;
+    for (const Row& row : table)
+        names.emplace_back(row.name);
+    return names;
+}
+
+// Prints the metric asked for, or all of them; with --max the exit code tells whether it (mse by default) is exceeded.
+int diff(const Arguments& arguments) {
+    if (!arguments.output.empty()) image::checkWritable(arguments.output);
+    if (arguments.max && !std::isfinite(*arguments.max)) throw UsageError("--max: allowed are finite numbers");
+    const image::Image a = image::readImage(arguments.a), b = image::readImage(arguments.b);
+    const image::ErrorFigures figures = image::compare(a, b);
+    for (const Metric& metric : kMetrics)
+        if (arguments.metric.empty() || arguments.metric == metric.name)
+            std::cout << metric.name << ' ' << figures.*metric.value << '\n';
+    if (arguments.metric.empty()) std::cout << "max " << figures.maxAbs << '\n';
+    if (!arguments.output.empty()) image::writeImage(arguments.output, image::heatMap(a, b));
+
+    if (!arguments.max) return static_cast<int>(ExitCode::Done);
+    const Metric& metric = arguments.metric.empty() ? kMetrics[0] : rowOf(kMetrics, arguments.metric);
+    const double value = figures.*metric.value;
+    const bool within = metric.moreIsBetter ? value >= *arguments.max : value <= *arguments.max;
+    return static_cast<int>(within ? ExitCode::Done : ExitCode::Different);
+}
+
+int info(const Arguments& arguments) {
+    const image::Image image = image::readImage(arguments.a);
+    const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
+    const auto bad = std::count_if(image.data.begin(), image.data.end(), [](float v) { return !std::isfinite(v); });
+    const auto mean = image::channelMeans(image);
+    std::cout << "size " << image.width << ' ' << image.height << "\nchannels " << image.channels << "\nmin " << *least
+              << "\nmax " << *most << "\nmean";
+    for (std::uint32_t c = 0; c < image.channels; ++c)
+        std::cout << ' ' << mean[c];
+    std::cout << "\nnonfinite " << bad << '\n';
+    return static_cast<int>(ExitCode::Done);
+}
+
+int convert(const Arguments& arguments) {
+    image::checkWritable(arguments.b);
+    image::Image image = image::readImage(arguments.a);
+    if (arguments.exposure != 0 || arguments.tonemap != "none") {
+        if (std::filesystem::path(arguments.b).extension() != ".png")
+            throw UsageError(arguments.b + ": --exposure and --tonemap are for .png only");
+        image = image::toDisplay(image, arguments.exposure, rowOf(kCurves, arguments.tonemap).curve);
+    }
+    image::writeImage(arguments.b, image);
+    return static_cast<int>(ExitCode::Done);
+}
+
+// Runs the command that the command line asks for.
+int run(int argc, char** argv) {
+    CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga.", kProgram};
+    app.set_version_flag("--version", std::string(kProgram) + " " RT_VERSION);
+    app.require_subcommand(1);
+    Arguments arguments;
+
+    CLI::App* const diffs = app.add_subcommand("diff", "Print how far image A is from B; both in linear radiance");
+    diffs->add_option("A", arguments.a)->required();
+    diffs->add_option("B", arguments.b, "Reference")->required();
+    diffs->add_option("--metric", arguments.metric, "Print this one only")->check(CLI::IsMember(namesOf(kMetrics)));
+    diffs->add_option("--max", arguments.max, "Exit with 5 when the metric (default mse) is worse than this");
+    diffs->add_option("--output", arguments.output, "Write a heat map of the differences");
+
+    CLI::App* const infos = app.add_subcommand("info", "Print size, channels, range and mean of an image");
+    infos->add_option("F", arguments.a)->required();
+
+    CLI::App* const converts = app.add_subcommand("convert", "Write image A in the format of B's extension");
+    converts->add_option("A", arguments.a)->required();
+    converts->add_option("B", arguments.b)->required();
+    converts->add_option("--exposure", arguments.exposure, "Stops");
+    converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(kCurves)));
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& request) {  // --help or --version
+        return app.exit(request);
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(error.what());
+    }
+    if (diffs->parsed()) return diff(arguments);
+    return infos->parsed() ? info(arguments) : convert(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return rt::runMain(kProgram, [&] { return run(argc, argv); });
+}
