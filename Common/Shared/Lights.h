@@ -33,7 +33,8 @@ RT_FN LightSample noLightSample() {
 // How a light's shape is sampled from a shading point.
 const uint kRegimeSolidAngle = 0u; // uniform in solid angle
 const uint kRegimeArea = 1u;       // uniform in area
-const uint kRegimeInside = 2u;     // the point is inside a sphere light, which fills all directions
+const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
+const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
@@ -55,12 +56,49 @@ RT_FN uint sphereLightRegime(RenderParams params, Light light, vec3 toCenter) {
 
 // Automatic: a flat light whose extent is below a tenth of its distance subtends nearly the same solid angle per area
 // everywhere, so the cheaper sampler is as good.
-RT_FN uint flatLightRegime(uint method, vec3 toCenter, vec3 edgeU, vec3 edgeV) {
-    if (method == kShapeAuto) {
-        float extent2 = dot(edgeU, edgeU) + dot(edgeV, edgeV);
-        return extent2 < 0.01f * dot(toCenter, toCenter) ? kRegimeArea : kRegimeSolidAngle;
+RT_FN bool isFar(vec3 toCenter, vec3 edgeU, vec3 edgeV) {
+    return dot(edgeU, edgeU) + dot(edgeV, edgeV) < 0.01f * dot(toCenter, toCenter);
+}
+
+RT_FN uint triangleLightRegime(uint method, Light light, vec3 corner) {
+    bool area = method == kShapeArea;
+    if (method == kShapeAuto) area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
+    return area ? kRegimeArea : kRegimeSolidAngle;
+}
+
+RT_FN bool isRectangle(Light light) {
+    float skew = dot(light.edgeU, light.edgeV);
+    return skew * skew <= 1.0e-12f * (dot(light.edgeU, light.edgeU) * dot(light.edgeV, light.edgeV));
+}
+
+// A quad light from a point, with what its regime depends on.
+struct QuadView {
+    vec3 corner;     // relative to the point
+    uint regime;
+    bool swapped;    // edgeV is the long edge
+    Columns columns; // in that regime
+};
+
+// Automatic: a rectangle at twice its short edge or farther is sampled by columns.
+RT_FN QuadView viewQuad(uint method, Light light, vec3 position) {
+    QuadView q;
+    q.corner = light.position - position;
+    q.regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    q.swapped = false;
+    if (method != kShapeAuto) return q;
+    if (isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV)) {
+        q.regime = kRegimeArea;
+    } else if (isRectangle(light)) {
+        float u2 = dot(light.edgeU, light.edgeU);
+        float v2 = dot(light.edgeV, light.edgeV);
+        q.swapped = v2 > u2;
+        vec3 longEdge = q.swapped ? light.edgeV : light.edgeU;
+        vec3 shortEdge = q.swapped ? light.edgeU : light.edgeV;
+        q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
+        bool thin = 4.0f * min(u2, v2) * q.columns.inverse < columnsDistance2(q.columns);
+        if (thin) q.regime = kRegimeColumns;
     }
-    return method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    return q;
 }
 
 // ---- spheres ---------------------------------------------------------------------------------------------------------
@@ -125,13 +163,8 @@ RT_FN void placeOnLight(RT_INOUT(LightSample) s, Light light, vec3 position) {
     s.point = light.position + light.edgeU * s.uv.x + light.edgeV * s.uv.y;
     vec3 v = s.point - position;
     s.distance = length(v);
-    s.wi = v / s.distance;
+    s.wi = v * (1.0f / s.distance);
     s.normal = light.normal;
-}
-
-RT_FN bool isRectangle(Light light) {
-    float skew = dot(light.edgeU, light.edgeV);
-    return skew * skew <= 1.0e-12f * (dot(light.edgeU, light.edgeU) * dot(light.edgeV, light.edgeV));
 }
 
 // The halves (corner, corner + U, corner + U + V) and (corner, corner + U + V, corner + V) of a parallelogram.
@@ -146,76 +179,95 @@ RT_FN SphericalTriangle triangleShape(Light light, vec3 corner) {
     return makeSphericalTriangle(corner, corner + light.edgeU, corner + light.edgeV, light.normal * (2.0f * light.area));
 }
 
+// Coordinates of p, relative to the corner and in the light's plane, in the basis of the edges.
+RT_FN vec2 edgeCoordinates(Light light, vec3 p) {
+    vec3 n = cross(light.edgeU, light.edgeV);
+    return vec2(dot(cross(p, light.edgeV), n), dot(cross(light.edgeU, p), n)) * (1.0f / dot(n, n));
+}
+
 // Fills in what follows from s.wi, a direction that meets the light's plane.
 RT_FN void projectToLight(RT_INOUT(LightSample) s, Light light, vec3 corner, vec3 position) {
     s.distance = dot(corner, light.normal) / dot(s.wi, light.normal);
     s.point = position + s.wi * s.distance;
     s.normal = light.normal;
-    // Coordinates in the edges' basis, by the dual basis.
-    vec3 p = s.wi * s.distance - corner;
-    vec3 n = cross(light.edgeU, light.edgeV);
-    float inverse = 1.0f / dot(n, n);
-    s.uv = vec2(dot(cross(p, light.edgeV), n), dot(cross(light.edgeU, p), n)) * inverse;
+    s.uv = edgeCoordinates(light, s.wi * s.distance - corner);
+}
+
+RT_FN SphericalRectangle rectangleShape(Light light, vec3 corner) {
+    return makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
+}
+
+// Uniform in solid angle; pdf 0 if the light is too small for that.
+RT_FN LightSample sampleQuadSolidAngle(Light light, vec3 corner, vec3 position, vec2 u) {
+    LightSample s = noLightSample();
+    if (isRectangle(light)) {
+        SphericalRectangle r = rectangleShape(light, corner);
+        if (r.solidAngle < kTinySolidAngle) return s;
+        vec2 p = sampleSphericalRectangle(r, u);
+        s.uv = vec2(p.x / r.width, p.y / r.height);
+        placeOnLight(s, light, position);
+        s.pdf = 1.0f / r.solidAngle;
+        return s;
+    }
+    SphericalTriangle half0 = quadHalf(light, corner, false);
+    SphericalTriangle half1 = quadHalf(light, corner, true);
+    float whole = half0.solidAngle + half1.solidAngle;
+    if (whole < kTinySolidAngle) return s;
+    // The number that chooses the half is stretched to place the point in it, which keeps strata together.
+    float x = u.x * whole;
+    bool second = x >= half0.solidAngle;
+    if (second) {
+        x -= half0.solidAngle;
+        half0 = half1;
+    }
+    s.wi = sampleSphericalTriangle(half0, vec2(min(x / half0.solidAngle, 1.0f), u.y));
+    projectToLight(s, light, corner, position);
+    s.pdf = 1.0f / whole;
+    return s;
+}
+
+RT_FN float quadSolidAngle(Light light, vec3 corner) {
+    if (isRectangle(light)) return rectangleShape(light, corner).solidAngle;
+    return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
 }
 
 RT_FN LightSample sampleQuadLight(RenderParams params, Light light, vec3 position, vec2 u) {
+    QuadView view = viewQuad(params.quadLight, light, position);
     LightSample s = noLightSample();
-    vec3 corner = light.position - position;
-    vec3 toCenter = corner + (light.edgeU + light.edgeV) * 0.5f;
-    if (flatLightRegime(params.quadLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
-        if (isRectangle(light)) {
-            SphericalRectangle r = makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
-            if (r.solidAngle >= kTinySolidAngle) {
-                vec2 p = sampleSphericalRectangle(r, u);
-                s.uv = vec2(p.x / r.width, p.y / r.height);
-                placeOnLight(s, light, position);
-                s.pdf = 1.0f / r.solidAngle;
-                return s;
-            }
-        } else {
-            SphericalTriangle a = quadHalf(light, corner, false);
-            SphericalTriangle b = quadHalf(light, corner, true);
-            float whole = a.solidAngle + b.solidAngle;
-            if (whole >= kTinySolidAngle) {
-                float x = u.x * whole;
-                bool second = x >= a.solidAngle;
-                if (second) {
-                    a = b;
-                    x -= whole - b.solidAngle;
-                }
-                s.wi = sampleSphericalTriangle(a, vec2(clamp(x / a.solidAngle, 0.0f, 1.0f), u.y));
-                projectToLight(s, light, corner, position);
-                s.pdf = 1.0f / whole;
-                return s;
-            }
-        }
+    if (view.regime == kRegimeSolidAngle) {
+        s = sampleQuadSolidAngle(light, view.corner, position, u);
+        if (s.pdf > 0.0f) return s;
     }
     s.uv = u;
+    float density = 1.0f;
+    if (view.regime == kRegimeColumns) {
+        ColumnSample c = sampleColumns(view.columns, u.x);
+        density = c.pdf;
+        s.uv = view.swapped ? vec2(u.y, c.a) : vec2(c.a, u.y);
+    }
     placeOnLight(s, light, position);
-    s.pdf = areaPdf(light.area, s.distance, dot(light.normal, s.wi));
+    s.pdf = density * areaPdf(light.area, s.distance, dot(light.normal, s.wi));
     return s;
 }
 
 RT_FN float quadLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
-    vec3 corner = light.position - position;
-    vec3 toCenter = corner + (light.edgeU + light.edgeV) * 0.5f;
-    if (flatLightRegime(params.quadLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
-        float whole = 0.0f;
-        if (isRectangle(light)) {
-            whole = makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal).solidAngle;
-        } else {
-            whole = quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
-        }
-        if (whole >= kTinySolidAngle) return 1.0f / whole;
+    QuadView view = viewQuad(params.quadLight, light, position);
+    if (view.regime == kRegimeSolidAngle) {
+        float solidAngle = quadSolidAngle(light, view.corner);
+        if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }
-    return areaPdf(light.area, distance, dot(light.normal, wi));
+    float density = 1.0f;
+    if (view.regime == kRegimeColumns) {
+        float along = dot(wi, view.swapped ? light.edgeV : light.edgeU);
+        density = columnsPdf(view.columns, along * distance * view.columns.inverse);
+    }
+    return density * areaPdf(light.area, distance, dot(light.normal, wi));
 }
 
 RT_FN LightSample sampleTriangleLight(RenderParams params, Light light, vec3 position, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
-    vec3 toCenter = corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f);
-    if (flatLightRegime(params.triangleLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+    if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
         SphericalTriangle t = triangleShape(light, corner);
         if (t.solidAngle >= kTinySolidAngle) {
             s.wi = sampleSphericalTriangle(t, u);
@@ -232,8 +284,7 @@ RT_FN LightSample sampleTriangleLight(RenderParams params, Light light, vec3 pos
 
 RT_FN float triangleLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
     vec3 corner = light.position - position;
-    vec3 toCenter = corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f);
-    if (flatLightRegime(params.triangleLight, toCenter, light.edgeU, light.edgeV) == kRegimeSolidAngle) {
+    if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
         float solidAngle = triangleShape(light, corner).solidAngle;
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }

@@ -153,8 +153,8 @@ RT_FN SphericalRectangle makeSphericalRectangle(vec3 corner, vec3 edgeU, vec3 ed
     SphericalRectangle r;
     r.width = length(edgeU);
     r.height = length(edgeV);
-    r.xAxis = edgeU / r.width;
-    r.yAxis = edgeV / r.height;
+    r.xAxis = edgeU * (1.0f / r.width);
+    r.yAxis = edgeV * (1.0f / r.height);
     r.x0 = dot(corner, r.xAxis);
     r.y0 = dot(corner, r.yAxis);
     float z = dot(corner, normal);
@@ -244,6 +244,68 @@ RT_FN vec2 sampleSphericalRectangle(SphericalRectangle r, vec2 u) {
     float e = e0 + u.y * (e1 - e0);
     float y = e * sqrt(d2 / max((1.0f - e) * (1.0f + e), 1.0e-37f));
     return vec2(a, clamp(y - r.y0, 0.0f, r.height));
+}
+
+// ---- thin rectangle --------------------------------------------------------------------------------------------------
+
+// Importance of positions along the long edge of a thin rectangle. A line at distance sqrt(d) is seen at d / (p^2 + d)^(3/2)
+// per unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge. That is only nearly
+// uniform in solid angle, but the density is exactly that of the samples.
+struct Columns {
+    float start;   // p of the edge's beginning; its end is at start + 1
+    float d;
+    float rest0;   // 1 - |p| / sqrt(p^2 + d) at the beginning and the end, signed towards the side where most of the edge is
+    float rest1;
+    float mirror;  // that side: 1 or -1
+    float inverse; // 1 / length^2 of the edge
+};
+
+struct ColumnSample {
+    float a;   // along the edge, [0,1]
+    float pdf; // over [0,1]
+};
+
+// 1 - p / sqrt(p^2 + d) without cancellation.
+RT_FN float columnRest(float p, float d) {
+    float r2 = p * p + d;
+    float pr = p * sqrt(r2);
+    return (p > 0.0f ? d : r2 - pr) / (p > 0.0f ? r2 + pr : r2);
+}
+
+// `middle`: from the point to the middle of the short edge at the beginning; `edge` the long edge; `width2` the short one
+// squared.
+RT_FN Columns makeColumns(vec3 middle, vec3 edge, float width2) {
+    Columns c;
+    c.inverse = 1.0f / dot(edge, edge);
+    c.start = dot(middle, edge) * c.inverse;
+    vec3 across = middle - edge * c.start;
+    c.d = (dot(across, across) + width2 * (1.0f / 12.0f)) * c.inverse; // mean over the width
+    c.mirror = signOf(c.start + 0.5f);
+    float low = c.mirror > 0.0f ? c.start : -1.0f - c.start;
+    c.rest0 = columnRest(low, c.d);
+    c.rest1 = columnRest(low + 1.0f, c.d);
+    return c;
+}
+
+// Distance squared from the point to the segment, in units of its length.
+RT_FN float columnsDistance2(Columns c) {
+    return c.d + square(max(max(c.start, -1.0f - c.start), 0.0f));
+}
+
+RT_FN ColumnSample sampleColumns(Columns c, float u) {
+    float rest = mix(c.rest0, c.rest1, u);
+    float cosine2 = rest * (2.0f - rest);
+    float r = sqrt(c.d / max(cosine2, 1.0e-37f));
+    ColumnSample s;
+    s.a = clamp((1.0f - rest) * r * c.mirror - c.start, 0.0f, 1.0f);
+    s.pdf = cosine2 / (r * (c.rest0 - c.rest1));
+    return s;
+}
+
+// The same density at the coordinate p.
+RT_FN float columnsPdf(Columns c, float p) {
+    float r2 = p * p + c.d;
+    return c.d / (r2 * sqrt(r2) * (c.rest0 - c.rest1));
 }
 
 // ---- points uniform in area ------------------------------------------------------------------------------------------
