@@ -1,0 +1,52 @@
+#include "Common/App/OptionValues.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "Common/Core/Error.h"
+
+namespace rt::app {
+
+void refuseValue(const std::string& flag, const std::string& text, const std::string& allowed) {
+    throw UsageError(flag + " " + (text.empty() ? "''" : text) + ": must be " + allowed);
+}
+
+std::string alternatives(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (i > 0) text += i + 1 < names.size() ? ", " : " or ";
+        text += names[i];
+    }
+    return text;
+}
+
+std::uint32_t parseWhole(const std::string& flag, const std::string& text, std::uint32_t min, std::uint32_t max) {
+    std::uint32_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || rest != end || value < min || value > max)
+        refuseValue(flag, text, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+    return value;
+}
+
+double parseReal(const std::string& flag, const std::string& text, double min, double max, const std::string& allowed) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [rest, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || rest != end || !std::isfinite(value) || value < min || value > max)
+        refuseValue(flag, text, allowed);
+    return value;
+}
+
+std::vector<std::string> parseList(const std::string& flag, const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        if (end == begin) refuseValue(flag, text, "a list like a,b,c");
+        parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+}  // namespace rt::app

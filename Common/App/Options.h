@@ -1,0 +1,68 @@
+// What the user asked for: flags, environment and configuration file, checked and made consistent.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "Common/App/Names.h"
+#include "Common/App/Settings.h"
+
+namespace rt::app {
+
+enum class Command { Render, ListScenes, ExportScene };
+
+// At most two say all; settleImageSize() checks a third.
+struct SizeRequest {
+    std::optional<std::uint32_t> width, height;  // pixels
+    std::optional<double> aspect;                // width / height
+};
+
+struct Options {
+    std::string program;  // "ray-tracing-cpu"
+    Command command = Command::Render;
+    bool json = false;       // of --list-scenes
+    std::string exportFile;  // of Command::ExportScene
+
+    std::string scene = "cornell-box-lights";  // id or file
+    bool oneSidedLights = true;
+    SizeRequest size;
+    RenderSettings settings;  // complete but for width and height, which may depend on the scene
+
+    std::vector<std::string> outputs;
+    float exposure = 0;  // stops
+    Tonemap tonemap = Tonemap::None;
+    std::vector<Aov> aovs;
+    std::string reference;
+    std::string stats;  // "-": standard output
+
+    std::optional<double> timeLimit;    // seconds
+    std::optional<double> targetError;  // relMSE
+    std::optional<double> saveEvery;    // seconds
+    std::string checkpoint;             // empty: none is written
+    std::string resume;                 // empty: start anew
+
+    std::uint32_t threads = 0;  // 0: all
+    Policy policy = Policy::Par;
+
+    bool quiet = false;
+    bool verbose = false;
+    std::string logFile;
+
+    bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
+};
+
+// Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is
+// returned after --help and --version, which are answered on `out`. Throws UsageError.
+std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out);
+
+// Sets settings.width and height: 600 pixels wide and of the scene's own aspect where nothing is said. Throws
+// UsageError.
+void settleImageSize(Options& options, double sceneAspect);
+
+// The checkpoint of an output that has no other name: image.png.rtc for image.png.
+std::string checkpointBeside(const std::string& output);
+
+}  // namespace rt::app

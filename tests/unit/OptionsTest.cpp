@@ -1,0 +1,352 @@
+// Flags, environment and configuration file: values, defaults, order of precedence and the one line that each error is.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/FeatureNames.h"
+#include "Common/App/Options.h"
+#include "Common/Core/Error.h"
+#include "Common/Shared/Features.h"
+
+namespace rt::app {
+namespace {
+
+void setVariable(const char* name, const std::string& value) {
+#ifdef _WIN32
+    _putenv_s(name, value.c_str());
+#else
+    if (value.empty())
+        unsetenv(name);
+    else
+        setenv(name, value.c_str(), 1);
+#endif
+}
+
+// A user without configuration whose environment says nothing.
+class OptionsTest : public testing::Test {
+  protected:
+    void SetUp() override {
+        const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+        home_ = std::filesystem::path(testing::TempDir()) / ("options-" + test);
+        std::filesystem::remove_all(home_);
+        std::filesystem::create_directories(home_ / "ray-tracing");
+        setVariable("XDG_CONFIG_HOME", home_.string());
+        setVariable("RT_THREADS", "");
+    }
+    void TearDown() override {
+        setVariable("RT_THREADS", "");
+        std::filesystem::remove_all(home_);
+    }
+
+    static std::optional<Options> read(std::vector<std::string> arguments) {
+        std::ostringstream out;
+        return parseOptions("ray-tracing-cpu", std::move(arguments), out);
+    }
+    // Of a headless render.
+    static Options render(std::vector<std::string> arguments) {
+        arguments.push_back("--headless");
+        return read(std::move(arguments)).value();
+    }
+    static Options sized(std::vector<std::string> arguments, double sceneAspect = 1) {
+        Options options = render(std::move(arguments));
+        settleImageSize(options, sceneAspect);
+        return options;
+    }
+    // The message of the usage error, which is one line.
+    static std::string error(std::vector<std::string> arguments) {
+        arguments.push_back("--headless");
+        try {
+            Options options = read(std::move(arguments)).value();
+            settleImageSize(options, 1);
+        } catch (const UsageError& error) {
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+            return error.what();
+        }
+        return "no error";
+    }
+    std::string writeFile(const std::string& name, const std::string& text) const {
+        const std::filesystem::path path = home_ / name;
+        std::ofstream(path) << text;
+        return path.string();
+    }
+
+    std::filesystem::path home_;
+};
+
+TEST_F(OptionsTest, DefaultsAreThoseOfTheInterface) {
+    const Options options = sized({});
+    EXPECT_EQ(options.command, Command::Render);
+    EXPECT_EQ(options.scene, "cornell-box-lights");
+    EXPECT_EQ(options.settings, RenderSettings{});
+    EXPECT_TRUE(options.oneSidedLights);
+    EXPECT_EQ(options.threads, 0u);
+    EXPECT_EQ(options.policy, Policy::Par);
+    EXPECT_EQ(options.exposure, 0.0f);
+    EXPECT_EQ(options.tonemap, Tonemap::None);
+    EXPECT_TRUE(options.outputs.empty() && options.checkpoint.empty() && options.stats.empty());
+}
+
+TEST_F(OptionsTest, EveryFlagReachesItsSetting) {
+    const Options options = render({"--scene",
+                                    "furnace",
+                                    "--spp",
+                                    "7",
+                                    "--max-depth",
+                                    "9",
+                                    "--light-sampling",
+                                    "mixture",
+                                    "--light-selection",
+                                    "power",
+                                    "--sphere-light",
+                                    "cone",
+                                    "--quad-light",
+                                    "area",
+                                    "--triangle-light",
+                                    "solid-angle",
+                                    "--sampler",
+                                    "stratified",
+                                    "--one-sided-lights",
+                                    "off",
+                                    "--russian-roulette",
+                                    "off",
+                                    "--seed",
+                                    "4294967295",
+                                    "--replicates",
+                                    "3",
+                                    "-o",
+                                    "a.png",
+                                    "--output",
+                                    "b.exr",
+                                    "--exposure",
+                                    "-1.5",
+                                    "--tonemap",
+                                    "aces",
+                                    "--aov",
+                                    "albedo,samples",
+                                    "--reference",
+                                    "r.pfm",
+                                    "--stats",
+                                    "-",
+                                    "--time-limit",
+                                    "2.5",
+                                    "--save-every",
+                                    "60",
+                                    "--checkpoint",
+                                    "c.rtc",
+                                    "--resume",
+                                    "d.rtc",
+                                    "--threads",
+                                    "2",
+                                    "--policy",
+                                    "par_unseq",
+                                    "--engine",
+                                    "multi",
+                                    "-q",
+                                    "-v",
+                                    "--log-file",
+                                    "log.txt"});
+    const RenderSettings& settings = options.settings;
+    EXPECT_EQ(options.scene, "furnace");
+    EXPECT_EQ(settings.spp, 7u);
+    EXPECT_EQ(settings.maxDepth, 9u);
+    EXPECT_EQ(settings.lightSampling, LightSampling::Mixture);
+    EXPECT_EQ(settings.lightSelection, LightSelection::Power);
+    EXPECT_EQ(settings.sphereLight, ShapeSampling::SolidAngle);
+    EXPECT_EQ(settings.quadLight, ShapeSampling::Area);
+    EXPECT_EQ(settings.triangleLight, ShapeSampling::SolidAngle);
+    EXPECT_EQ(settings.sampler, SamplerKind::Stratified);
+    EXPECT_FALSE(settings.russianRoulette);
+    EXPECT_EQ(settings.seed, 4294967295u);
+    EXPECT_EQ(settings.replicates, 3u);
+    EXPECT_FALSE(settings.sppIsKnown);
+    EXPECT_FALSE(options.oneSidedLights);
+    EXPECT_EQ(options.outputs, (std::vector<std::string>{"a.png", "b.exr"}));
+    EXPECT_EQ(options.exposure, -1.5f);
+    EXPECT_EQ(options.tonemap, Tonemap::Aces);
+    EXPECT_EQ(options.aovs, (std::vector<Aov>{Aov::Albedo, Aov::Samples}));
+    EXPECT_EQ(options.reference, "r.pfm");
+    EXPECT_EQ(options.stats, "-");
+    EXPECT_EQ(options.timeLimit, 2.5);
+    EXPECT_EQ(options.saveEvery, 60.0);
+    EXPECT_EQ(options.checkpoint, "c.rtc");
+    EXPECT_EQ(options.resume, "d.rtc");
+    EXPECT_EQ(options.threads, 2u);
+    EXPECT_EQ(options.policy, Policy::ParUnseq);
+    EXPECT_TRUE(options.quiet && options.verbose);
+    EXPECT_EQ(options.logFile, "log.txt");
+}
+
+TEST_F(OptionsTest, AliasesAndRepetition) {
+    const Options options = render({"--samples=3", "--outfile", "a.png", "--spp", "4", "-oc.hdr"});
+    EXPECT_EQ(options.settings.spp, 4u);  // the last one wins
+    EXPECT_EQ(options.outputs, (std::vector<std::string>{"a.png", "c.hdr"}));
+}
+
+TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
+    EXPECT_EQ(error({"--spp", "0"}), "--spp 0: must be a whole number from 1 to 2147483647");
+    EXPECT_EQ(error({"--spp", "2147483648"}), "--spp 2147483648: must be a whole number from 1 to 2147483647");
+    EXPECT_EQ(error({"--spp", "-5"}), "--spp -5: must be a whole number from 1 to 2147483647");
+    EXPECT_EQ(error({"--spp", "1e3"}), "--spp 1e3: must be a whole number from 1 to 2147483647");
+    EXPECT_EQ(error({"--spp", ""}), "--spp '': must be a whole number from 1 to 2147483647");
+    EXPECT_EQ(error({"--max-depth", "4097"}), "--max-depth 4097: must be a whole number from 1 to 4096");
+    EXPECT_EQ(error({"--width", "16385"}), "--width 16385: must be a whole number from 1 to 16384");
+    EXPECT_EQ(error({"--height", "0"}), "--height 0: must be a whole number from 1 to 16384");
+    EXPECT_EQ(error({"--seed", "4294967296"}), "--seed 4294967296: must be a whole number from 0 to 4294967295");
+    EXPECT_EQ(error({"--sampler", "halton"}), "--sampler halton: must be sobol, stratified or independent");
+    EXPECT_EQ(error({"--russian-roulette", "yes"}), "--russian-roulette yes: must be on or off");
+    EXPECT_EQ(error({"--aov", "albedo,colour", "-o", "a.png"}),
+              "--aov colour: must be albedo, normal, depth, variance or samples");
+    EXPECT_EQ(error({"--aov", "albedo,", "-o", "a.png"}), "--aov albedo,: must be a list like a,b,c");
+    EXPECT_EQ(error({"-o", ""}), "--output '': must be the name of a file");
+    EXPECT_EQ(error({"--frames", "3"}), "--frames: unknown flag; --help lists them all");
+    EXPECT_EQ(error({"cornell"}), "cornell: unknown flag; --help lists them all");
+    for (const char* bad : {"nan", "inf", "-inf", "0", "-1", "1e400", "x", ""})
+        EXPECT_EQ(error({"--time-limit", bad}).rfind("--time-limit ", 0), 0u) << bad;
+    for (const char* bad : {"nan", "inf", "1e9", "one"})
+        EXPECT_EQ(error({"--exposure", bad}).rfind("--exposure ", 0), 0u) << bad;
+    EXPECT_NE(error({"--spp"}), "no error");  // the value is missing: --headless is taken for it
+}
+
+TEST_F(OptionsTest, FlagsThatMakeNoSenseSaySo) {
+    EXPECT_EQ(error({"--device", "0"}), "--device: a flag of ray-tracing-gpu");
+    EXPECT_EQ(error({"--list-devices"}), "--list-devices: a flag of ray-tracing-gpu");
+    EXPECT_EQ(error({"--validation"}), "--validation: a flag of ray-tracing-gpu");
+    EXPECT_EQ(error({"--window"}), "--window: needs a window, which this program does not have; use --headless");
+    EXPECT_EQ(error({"--engine", "compute"}), "--engine compute: must be multi or single");
+    EXPECT_EQ(error({"--sphere-light", "projected"}),
+              "--sphere-light projected: not available yet; must be auto, cone or area");
+    EXPECT_THROW(read({}), UsageError);
+    EXPECT_THROW(read({"--spp", "3"}), UsageError);
+    for (const auto& implied :
+         std::vector<std::vector<std::string>>{{"-o", "a.png"}, {"--stats", "-"}, {"--time-limit", "1"}})
+        EXPECT_TRUE(read(implied).has_value()) << implied[0];
+}
+
+TEST_F(OptionsTest, ContradictionsAreRefused) {
+    EXPECT_EQ(error({"--engine", "single", "--policy", "par"}), "--policy par: contradicts --engine single");
+    EXPECT_EQ(error({"--engine", "multi", "--policy", "seq"}), "--policy seq: contradicts --engine multi");
+    EXPECT_EQ(render({"--engine", "single"}).policy, Policy::Seq);
+    EXPECT_EQ(render({"--engine", "single", "--policy", "seq"}).policy, Policy::Seq);
+    EXPECT_EQ(error({"--json"}), "--json: only with --list-scenes");
+    EXPECT_EQ(error({"--aov", "depth"}), "--aov: needs --output");
+    EXPECT_EQ(error({"--save-every", "5"}), "--save-every: needs --checkpoint or --output");
+    EXPECT_EQ(error({"--replicates", "8", "--spp", "7"}), "--replicates 8: must be at most --spp 7");
+    EXPECT_EQ(read({"--list-scenes", "--json"})->command, Command::ListScenes);
+    EXPECT_EQ(read({"--export-scene", "a.json"})->command, Command::ExportScene);
+}
+
+TEST_F(OptionsTest, AnyTwoOfWidthHeightAspectGiveTheSize) {
+    const auto size = [](const Options& options) { return std::pair(options.settings.width, options.settings.height); };
+    EXPECT_EQ(size(sized({})), std::pair(600u, 600u));
+    EXPECT_EQ(size(sized({}, 1.5)), std::pair(600u, 400u));
+    EXPECT_EQ(size(sized({"--aspect", "2"}, 1.5)), std::pair(600u, 300u));
+    EXPECT_EQ(size(sized({"--width", "32"}, 2)), std::pair(32u, 16u));
+    EXPECT_EQ(size(sized({"--height", "32"}, 2)), std::pair(64u, 32u));
+    EXPECT_EQ(size(sized({"--height", "50", "--aspect", "0.5"})), std::pair(25u, 50u));
+    EXPECT_EQ(size(sized({"--width", "7", "--height", "3"}, 2)), std::pair(7u, 3u));
+    EXPECT_EQ(size(sized({"--width", "160", "--height", "90", "--aspect", "1.7777778"})), std::pair(160u, 90u));
+    EXPECT_EQ(size(sized({"--width", "1", "--aspect", "100"})), std::pair(1u, 1u));
+    EXPECT_EQ(error({"--width", "160", "--height", "90", "--aspect", "2"}),
+              "--aspect: contradicts --width 160 --height 90");
+    EXPECT_EQ(error({"--height", "16384", "--aspect", "2"}),
+              "--height 16384: makes an image larger than 16384 pixels a side");
+    EXPECT_EQ(error({"--aspect", "0"}), "--aspect 0: must be a number from 1/16384 to 16384");
+}
+
+TEST_F(OptionsTest, ErrorEstimatesAreKeptOnlyWhereSomethingReadsThem) {
+    EXPECT_FALSE(render({"-o", "a.png"}).settings.secondMoments);
+    EXPECT_TRUE(render({"--stats", "-"}).settings.secondMoments);
+    EXPECT_TRUE(render({"-o", "a.exr", "--aov", "variance"}).settings.secondMoments);
+    EXPECT_FALSE(render({"--stats", "-", "--replicates", "4"}).settings.secondMoments);
+    EXPECT_EQ(render({"--target-error", "0.1"}).settings.replicates, 4u);
+    EXPECT_EQ(render({"--target-error", "0.1", "--replicates", "8"}).settings.replicates, 8u);
+    EXPECT_FALSE(render({"--target-error", "0.1"}).settings.sppIsKnown);
+}
+
+TEST_F(OptionsTest, CheckpointStandsBesideTheOutput) {
+    EXPECT_EQ(render({"--save-every", "5", "-o", "dir/a.png"}).checkpoint, "dir/a.png.rtc");
+    EXPECT_EQ(render({"--save-every", "5", "-o", "a.png", "--resume", "b.rtc"}).checkpoint, "b.rtc");
+    EXPECT_EQ(render({"--save-every", "5", "-o", "a.png", "--checkpoint", "c.rtc"}).checkpoint, "c.rtc");
+    EXPECT_EQ(render({"-o", "a.png"}).checkpoint, "");
+}
+
+TEST_F(OptionsTest, FeatureNames) {
+    EXPECT_EQ(render({"--features", "auto"}).settings.features, std::nullopt);
+    EXPECT_EQ(render({"--features", "all"}).settings.features, shared::kFeatureAll);
+    EXPECT_EQ(render({"--features", "spheres,thin-lens"}).settings.features,
+              shared::kFeatureSpheres | shared::kFeatureThinLens);
+    EXPECT_EQ(error({"--features", "spheres,teapots"}).rfind("--features teapots: must be spheres, ", 0), 0u);
+    EXPECT_TRUE(absentFeatureNames(shared::kFeatureAll).empty());
+    EXPECT_EQ(featureNames(shared::kFeatureNoise), (std::vector<std::string>{"textures", "noise"}));
+    for (std::uint32_t bit = 0; bit < shared::kFeatureBits; ++bit)
+        EXPECT_EQ(parseFeatures(featureNames(1u << bit).back()), 1u << bit);
+}
+
+TEST_F(OptionsTest, EnvironmentCountsBetweenFlagAndFile) {
+    const std::string file = writeFile("c.json", R"({"threads": 5, "spp": 11})");
+    EXPECT_EQ(render({"--config", file}).threads, 5u);
+    setVariable("RT_THREADS", "3");
+    EXPECT_EQ(render({"--config", file}).threads, 3u);
+    EXPECT_EQ(render({"--config", file}).settings.spp, 11u);
+    EXPECT_EQ(render({"--config", file, "--threads", "2"}).threads, 2u);
+    setVariable("RT_THREADS", "many");
+    EXPECT_EQ(error({}), "RT_THREADS many: must be a whole number from 0 to 4096");
+}
+
+TEST_F(OptionsTest, ConfigurationFiles) {
+    const std::string json =
+        writeFile("c.json", R"({"spp": 5, "sampler": "stratified", "quiet": true, "aov": ["depth", "albedo"],
+                                "output": ["a.png", "b.exr"], "exposure": -0.5})");
+    const std::string toml =
+        writeFile("c.toml",
+                  "# ours\nspp = 5\nsampler = \"stratified\"\nquiet = true\naov = [\"depth\", \"albedo\"]\n"
+                  "output = [\"a.png\", \"b.exr\"]\nexposure = -0.5\n");
+    for (const std::string& file : {json, toml}) {
+        const Options options = render({"--config", file});
+        EXPECT_EQ(options.settings.spp, 5u);
+        EXPECT_EQ(options.settings.sampler, SamplerKind::Stratified);
+        EXPECT_TRUE(options.quiet);
+        EXPECT_EQ(options.aovs, (std::vector<Aov>{Aov::Depth, Aov::Albedo}));
+        EXPECT_EQ(options.outputs, (std::vector<std::string>{"a.png", "b.exr"}));
+        EXPECT_EQ(options.exposure, -0.5f);
+        EXPECT_EQ(render({"--config", file, "--spp", "6"}).settings.spp, 6u);
+    }
+}
+
+TEST_F(OptionsTest, TheUsersConfigurationIsReadUnlessRefused) {
+    writeFile("ray-tracing/config.json", R"({"spp": 13})");
+    EXPECT_EQ(render({}).settings.spp, 13u);
+    EXPECT_EQ(render({"--no-config"}).settings.spp, 100u);
+    writeFile("ray-tracing/config.toml", "spp = 17\n");
+    EXPECT_EQ(render({}).settings.spp, 17u);
+    writeFile("ray-tracing/config.toml", "spp = zero\n");
+    EXPECT_NE(error({}).find("config.toml: --spp zero: must be"), std::string::npos);
+}
+
+TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
+    const std::string missing = (home_ / "missing.json").string();
+    EXPECT_EQ(error({"--config", missing}), "--config " + missing + ": cannot be read");
+    for (const char* text : {"{\"spp\": 5", "{\"spp\": {\"a\": 1}}", "{\"samples_per_pixel\": 5}", "{\"spp\": 0}",
+                             "{\"list-scenes\": true}", "[1]x = 3", "frames = 3"}) {
+        const std::string file = writeFile("bad", text);
+        EXPECT_EQ(error({"--config", file}).rfind(file + ": ", 0), 0u) << text << " -> " << error({"--config", file});
+    }
+    const std::string file = writeFile("good.json", "{}");
+    EXPECT_EQ(error({"--config", file}), "no error");
+    EXPECT_EQ(error({"--config", file, "--no-config"}), "--no-config: contradicts --config");
+}
+
+TEST_F(OptionsTest, HelpAndVersion) {
+    std::ostringstream help, version;
+    EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--help"}, help).has_value());
+    for (const char* flag : {"--scene", "--light-sampling", "mis|mixture|bsdf", "--target-error", "--resume"})
+        EXPECT_NE(help.str().find(flag), std::string::npos) << flag;
+    EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--version"}, version).has_value());
+    EXPECT_EQ(version.str().rfind("ray-tracing-cpu ", 0), 0u);
+}
+
+}  // namespace
+}  // namespace rt::app
