@@ -1,0 +1,27 @@
+#include "Common/App/FilmEstimate.h"
+
+#include "Common/Image/Metrics.h"
+
+namespace rt::app {
+namespace {
+
+// A variance needs two replicates, or two blocks of one.
+bool hasVariance(const image::Film& film) {
+    if (film.desc().replicates >= 2) return film.minSamples() >= 2;
+    return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
+}
+
+}  // namespace
+
+FilmEstimate estimate(const image::Film& film) {
+    FilmEstimate result;
+    const image::Image mean = film.resolve();
+    result.meanRadiance = image::channelMeans(mean);
+    if (!hasVariance(film)) return result;
+    const image::Image variance = film.varianceOfMean();
+    result.standardError = image::standardErrors(variance);
+    result.relmse = image::estimatedRelMse(mean, variance);
+    return result;
+}
+
+}  // namespace rt::app

@@ -1,0 +1,25 @@
+// Ctrl-C and termination requests, by what standard C++ offers.
+#pragma once
+#include <atomic>
+
+namespace rt::app {
+
+// While it exists, SIGINT and SIGTERM end the program at once with exit code 130; after defer() only the second one
+// does, and the first asks to stop. One at a time.
+class Interrupt {
+  public:
+    Interrupt();
+    ~Interrupt();
+    Interrupt(const Interrupt&) = delete;
+    Interrupt& operator=(const Interrupt&) = delete;
+
+    void defer();
+    const std::atomic<bool>& requested() const;
+
+  private:
+    using Handler = void (*)(int);
+    Handler previousInt_;
+    Handler previousTerm_;
+};
+
+}  // namespace rt::app

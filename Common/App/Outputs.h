@@ -1,0 +1,31 @@
+// The files a render ends with: the picture in each format, and the images beside it.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Common/App/Engine.h"
+#include "Common/App/Options.h"
+#include "Common/Image/Film.h"
+
+namespace rt::app {
+
+bool isLinearFormat(const std::filesystem::path& path);  // by its extension: .exr, .hdr, .pfm
+
+// "dir/a.normal.png" for "dir/a.png" and Aov::Normal.
+std::filesystem::path aovPath(const std::filesystem::path& output, Aov aov);
+
+// Creates and removes a file beside each one that the options name, so that hours of rendering do not end with a
+// directory that does not exist. Throws UsageError for an unknown image format, RenderError for a place that cannot be
+// written.
+void checkOutputs(const Options& options);
+
+struct OutputResult {
+    std::vector<std::string> written;
+    std::vector<std::string> failures;  // one line each
+};
+// Writes all that can be written. PNG gets exposure and tone curve; what lies beside a PNG is brought into its range:
+// normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum.
+OutputResult writeOutputs(const Options& options, const image::Film& film, Engine& engine);
+
+}  // namespace rt::app

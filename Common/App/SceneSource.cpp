@@ -1,0 +1,68 @@
+#include "Common/App/SceneSource.h"
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/Image/ImageIo.h"
+#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/SceneCompiler.h"
+
+namespace rt::app {
+namespace {
+
+// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words.
+scene::TexelData readTexels(const std::filesystem::path& path) {
+    const image::Texels texels = image::loadTexels(path);
+    scene::TexelData data;
+    data.width = texels.width;
+    data.height = texels.height;
+    if (texels.srgb8.empty()) {
+        data.format = shared::kTexelLinearF32;
+        data.words.resize(texels.linear.size());
+        std::memcpy(data.words.data(), texels.linear.data(), texels.linear.size() * sizeof(float));
+        return data;
+    }
+    data.format = shared::kTexelSrgb8;
+    data.words.resize(texels.srgb8.size() / 3);
+    for (std::size_t i = 0; i < data.words.size(); ++i) {
+        const std::uint8_t* rgb = &texels.srgb8[3 * i];
+        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16;
+    }
+    return data;
+}
+
+}  // namespace
+
+scene::SceneDesc loadScene(const std::string& source) {
+    return scene::findBuiltinScene(source);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights) {
+    scene::CompileOptions options;
+    options.oneSidedLights = oneSidedLights;
+    options.loadTexels = readTexels;
+    return scene::compileScene(desc, options);
+}
+
+std::string listScenes(bool json) {
+    const std::span<const scene::BuiltinScene> scenes = scene::builtinScenes();
+    if (json) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const scene::BuiltinScene& scene : scenes)
+            list.push_back({{"id", scene.id}, {"title", scene.title}, {"description", scene.description}});
+        return list.dump(2) + "\n";
+    }
+    std::size_t longest = 0;
+    for (const scene::BuiltinScene& scene : scenes)
+        longest = std::max(longest, scene.id.size());
+    std::string text;
+    for (const scene::BuiltinScene& scene : scenes)
+        text +=
+            std::string(scene.id) + std::string(longest + 2 - scene.id.size(), ' ') + std::string(scene.title) + "\n";
+    return text;
+}
+
+}  // namespace rt::app

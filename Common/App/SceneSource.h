@@ -1,0 +1,20 @@
+// From what --scene names to a scene.
+#pragma once
+#include <memory>
+#include <string>
+
+#include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::app {
+
+// A .json scene file, an .obj file, or the id of a built-in scene. Throws InputError.
+scene::SceneDesc loadScene(const std::string& source);
+
+// With its textures. Throws InputError.
+std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights);
+
+// Ids and titles, one a line or as JSON: [{"id": …, "title": …, "description": …}].
+std::string listScenes(bool json);
+
+}  // namespace rt::app

@@ -1,0 +1,206 @@
+#include "Common/App/Session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "Common/App/FeatureNames.h"
+#include "Common/App/Interrupt.h"
+#include "Common/App/Outputs.h"
+#include "Common/App/Platform.h"
+#include "Common/App/RenderLoop.h"
+#include "Common/App/Resume.h"
+#include "Common/App/SceneSource.h"
+#include "Common/App/Statistics.h"
+#include "Common/App/Stopwatch.h"
+#include "Common/Core/AtomicFile.h"
+#include "Common/Core/Log.h"
+#include "Common/Image/ImageIo.h"
+
+namespace rt::app {
+namespace {
+
+void writeText(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        std::cout << text;  // whether that worked is asked at the end of main
+        return;
+    }
+    AtomicFile target(file);
+    target.stream() << text;
+    target.commit();
+}
+
+void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
+    const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
+    if (missing == 0) return;
+    std::string names;
+    for (const std::string& name : featureNames(missing))
+        names += (names.empty() ? "" : ",") + name;
+    throw UsageError("--features: the scene also needs " + names);
+}
+
+image::Image readReference(const std::string& file, const RenderSettings& settings) {
+    if (!isLinearFormat(file)) throw InputError(file + ": a reference must be linear: .exr, .hdr or .pfm");
+    image::Image reference = image::readImage(file);
+    const auto size = [](std::uint32_t width, std::uint32_t height, std::uint32_t channels) {
+        return std::to_string(width) + "x" + std::to_string(height) + " pixels of " + std::to_string(channels) +
+               " channels";
+    };
+    if (reference.width != settings.width || reference.height != settings.height || reference.channels != 3)
+        throw InputError(file + ": has " + size(reference.width, reference.height, reference.channels) +
+                         ", but the render " + size(settings.width, settings.height, 3));
+    if (!std::all_of(reference.data.begin(), reference.data.end(), [](float value) { return std::isfinite(value); }))
+        throw InputError(file + ": has values that are not finite");
+    return reference;
+}
+
+std::string describeEnd(const Statistics& statistics) {
+    const StopReason reason = statistics.stoppedBy;
+    std::string text = reason == StopReason::Interrupted   ? "interrupted"
+                       : reason == StopReason::TimeLimit   ? "time limit reached"
+                       : reason == StopReason::TargetError ? "target error reached"
+                                                           : "done";
+    if (statistics.error) text += ", relmse " + std::to_string(statistics.error->relmse);
+    return text;
+}
+
+// One render without a window, stage by stage.
+class HeadlessRender {
+  public:
+    explicit HeadlessRender(Options options) : options_(std::move(options)) {}
+
+    ExitCode run(const EngineFactory& makeEngine) {
+        checkOutputs(options_);  // before hours are spent
+        load();
+        engine_ = makeEngine();
+        interrupt_.defer();  // from here on there may be something to save
+        if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
+        startFilm();
+        sample();
+        write();
+        return statistics_.stoppedBy == StopReason::Interrupted ? ExitCode::Interrupted : ExitCode::Done;
+    }
+
+  private:
+    void load();
+    void startFilm();
+    void sample();
+    void write();
+    void save(const std::string& file) const;
+    std::string rescue() const;
+
+    Options options_;
+    Interrupt interrupt_;
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    std::optional<image::Image> reference_;
+    std::unique_ptr<Engine> engine_;
+    Statistics statistics_;
+};
+
+// Also settles what the options leave to the scene.
+void HeadlessRender::load() {
+    const Stopwatch watch;
+    scene_ = compile(loadScene(options_.scene), options_.oneSidedLights);
+    for (const std::string& notice : scene_->notices)
+        logWarning(scene_->id + ": " + notice);
+    settleImageSize(options_, scene_->defaults.aspect);
+    checkFeatures(options_.settings, *scene_);
+    if (!options_.reference.empty()) reference_ = readReference(options_.reference, options_.settings);
+    statistics_.seconds.load = watch.seconds();
+}
+
+void HeadlessRender::startFilm() {
+    if (options_.resume.empty()) return engine_->reset(scene_->camera, options_.settings);
+    image::Film film = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+    if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !film.desc().secondMoments)
+        throw InputError(options_.resume + ": second_moments is false in the checkpoint but --aov variance needs them");
+    statistics_.samplesRestored = film.totalSamples();
+    engine_->reset(scene_->camera, options_.settings);
+    engine_->restore(std::move(film));
+}
+
+void HeadlessRender::sample() {
+    const auto style = options_.quiet              ? Progress::Style::Silent
+                       : standardErrorIsTerminal() ? Progress::Style::Terminal
+                                                   : Progress::Style::Lines;
+    Progress progress(std::cerr, style);
+    const auto saveOrWarn = [this] {
+        try {
+            save(options_.checkpoint);
+        } catch (const Error& error) {
+            logWarning(error.what());  // the render itself is well
+        }
+    };
+    const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
+                                                   interrupt_.requested(), progress, saveOrWarn);
+    statistics_.stoppedBy = result.stoppedBy;
+    statistics_.seconds.render = result.seconds;
+    if (reference_) statistics_.error = image::compare(engine_->film().resolve(), *reference_);
+    progress.finish(result.progress, describeEnd(statistics_));
+}
+
+// Everything that can be written is written; after that the first failure counts.
+void HeadlessRender::write() {
+    const Stopwatch watch;
+    OutputResult outputs = writeOutputs(options_, engine_->film(), *engine_);
+    const bool outputsFailed = !outputs.failures.empty();
+    const auto attempt = [&outputs](const auto& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            outputs.failures.emplace_back(error.what());
+        }
+    };
+    if (!options_.checkpoint.empty()) attempt([this] { save(options_.checkpoint); });
+    statistics_.seconds.write = watch.seconds();
+    statistics_.outputs = outputs.written;
+    if (!options_.stats.empty())
+        attempt([this] {
+            writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), engine_->film()));
+        });
+    if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
+        logWarning(std::to_string(bad) + " samples were not finite and count as black");
+    if (outputs.failures.empty()) return;
+    for (std::size_t i = 1; i < outputs.failures.size(); ++i)
+        logWarning(outputs.failures[i]);
+    throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
+}
+
+void HeadlessRender::save(const std::string& file) const {
+    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->film());
+}
+
+// Samples that no output took must not be lost: they go to a checkpoint in the first place that takes it.
+std::string HeadlessRender::rescue() const {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const std::string beside = checkpointBeside(options_.outputs.front());
+    for (const fs::path& place : {fs::path(beside), fs::temp_directory_path(none) / fs::path(beside).filename()}) {
+        try {
+            save(place.string());
+            return "; its samples are in " + place.string() + " for --resume";
+        } catch (const Error& error) {
+            logWarning(error.what());
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+ExitCode runSession(Options options, const EngineFactory& makeEngine) {
+    switch (options.command) {
+        case Command::ListScenes:
+            std::cout << listScenes(options.json);
+            return ExitCode::Done;
+        case Command::ExportScene:
+            throw UsageError("--export-scene: not available yet");
+            return ExitCode::Done;
+        case Command::Render:
+            break;
+    }
+    return HeadlessRender(std::move(options)).run(makeEngine);
+}
+
+}  // namespace rt::app
