@@ -1,0 +1,109 @@
+// What traversal reads: nodes of eight children, and leaf blocks that hold primitives of one kind in arrays of lanes,
+// ready for one SIMD register a component. Plain data; CpuAccel owns the memory.
+#pragma once
+#include <cstdint>
+
+#include "Common/Shared/Types.h"
+
+namespace rt::accel {
+
+inline constexpr std::uint32_t kWidth = 8;       // children of a node and lanes of a leaf block
+inline constexpr std::uint32_t kFlatWidth = 16;  // lanes of the blocks of a flat scene
+
+// Bounds of the depth of a tree, and so of the stack of a traversal.
+inline constexpr std::uint32_t kMaxTreeDepth = 64;
+
+// ---- references
+// ------------------------------------------------------------------------------------------------------
+
+// What a child of a node is: another node (its index), or a run of leaf blocks of one kind.
+//   bit 31: leaf    30..28: kind    27..25: blocks - 1    24..0: index of the first block
+using Reference = std::uint32_t;
+
+enum class LeafKind : std::uint32_t { Sphere, MovingSphere, Quad, Triangle, Instance };
+inline constexpr std::uint32_t kLeafKinds = 5;
+
+inline constexpr Reference kLeafBit = 1u << 31;
+inline constexpr std::uint32_t kKindShift = 28;
+inline constexpr std::uint32_t kCountShift = 25;
+inline constexpr std::uint32_t kMaxLeafBlocks = 8;
+inline constexpr std::uint32_t kMaxBlocks = 1u << kCountShift;  // of one kind
+
+// ---- records
+// ---------------------------------------------------------------------------------------------------------
+
+// Slabs of the children: planes[2 a] are the lower bounds along axis a, planes[2 a + 1] the upper ones. The slab of a
+// child that does not exist is inverted, so no ray enters it.
+struct alignas(64) WideNode {
+    float planes[6][kWidth];
+    Reference child[kWidth];
+};
+
+// Lanes without a primitive hold NaN, which no ray hits. Lanes are in order of primitive index.
+template <std::uint32_t N>
+struct alignas(32) SphereBlock {
+    float center[3][N];
+    float radius[N];
+    std::uint32_t primitive[N];  // index into the scene's array, kNone for an empty lane
+};
+
+template <std::uint32_t N>
+struct alignas(32) MovingSphereBlock {
+    float center[3][N];  // at time 0
+    float motion[3][N];
+    float radius[N];
+    std::uint32_t primitive[N];
+};
+
+// See shared::QuadFrame.
+template <std::uint32_t N>
+struct alignas(32) QuadBlock {
+    float corner[3][N];
+    float normal[3][N];
+    float dualU[3][N];
+    float dualV[3][N];
+    float margin[N];
+    std::uint32_t primitive[N];
+};
+
+template <std::uint32_t N>
+struct alignas(32) TriangleBlock {
+    float vertex[3][3][N];  // vertex, axis
+    std::uint32_t primitive[N];
+};
+
+struct PlacedGeometry {
+    shared::vec4 toObject[3];  // rows, as in shared::Instance
+    Reference root;
+    std::uint32_t instance;
+};
+
+// All primitives of a scene that is too small to gain from a tree: blocks of one kind after another.
+template <class Block>
+struct FlatList {
+    const Block* blocks = nullptr;
+    std::uint32_t primitives = 0;  // in all blocks; the last block may have empty lanes
+};
+
+// ---- the whole
+// -------------------------------------------------------------------------------------------------------
+
+struct AccelView {
+    std::uint32_t kinds = 0;  // feature bits of the primitives that exist
+    bool flat = false;        // the lists below hold everything; otherwise the tree does
+
+    FlatList<SphereBlock<kFlatWidth>> flatSpheres;
+    FlatList<MovingSphereBlock<kFlatWidth>> flatMovingSpheres;
+    FlatList<QuadBlock<kFlatWidth>> flatQuads;
+    FlatList<TriangleBlock<kFlatWidth>> flatTriangles;
+
+    Reference root = 0;  // of the world: its own primitives and the instances
+    const WideNode* nodes = nullptr;
+    const SphereBlock<kWidth>* spheres = nullptr;
+    const MovingSphereBlock<kWidth>* movingSpheres = nullptr;
+    const QuadBlock<kWidth>* quads = nullptr;
+    const TriangleBlock<kWidth>* triangles = nullptr;
+    const PlacedGeometry* instances = nullptr;
+};
+
+}  // namespace rt::accel

@@ -1,0 +1,218 @@
+#include "Common/Accel/CpuAccel.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "Common/Accel/AccelStorage.h"
+#include "Common/Accel/BlockFill.h"
+#include "Common/Accel/Parallel.h"
+#include "Common/Accel/TreeItems.h"
+#include "Common/Accel/WideBvh.h"
+#include "Common/Shared/Features.h"
+
+namespace rt::accel {
+namespace {
+
+constexpr std::size_t kBoxChunk = 1u << 13;   // items whose boxes are made at a time
+constexpr std::size_t kLeafChunk = 1u << 10;  // leaves whose blocks are filled at a time
+
+// One geometry's tree between its construction and the filling of its leaf blocks.
+struct BuiltTree {
+    TreeItems items;
+    std::vector<std::uint32_t> order;  // of items
+    std::vector<WideLeaf> leaves;
+};
+
+template <class Block>
+FlatList<Block> fillFlat(Array<Block>& blocks, const AccelInput& input, std::uint32_t first, std::uint32_t count) {
+    blocks.allocate((count + kFlatWidth - 1) / kFlatWidth);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        Block& block = blocks.data[i / kFlatWidth];
+        if (i % kFlatWidth == 0) block = emptyBlock<Block>();
+        fillLane(block, i % kFlatWidth, input, first + i);
+    }
+    return {blocks.data.get(), count};
+}
+
+template <class Block>
+void fillLeaf(const Array<Block>& blocks, const WideLeaf& leaf, const BuiltTree& tree, const AccelInput& input) {
+    for (std::uint32_t i = 0; i < leaf.count; ++i) {
+        Block& block = blocks.data[leaf.firstBlock + i / kWidth];
+        if (i % kWidth == 0) block = emptyBlock<Block>();
+        fillLane(block, i % kWidth, input, tree.items.index(tree.order[leaf.firstItem + i]));
+    }
+}
+
+class Assembly {
+  public:
+    Assembly(const AccelInput& input, const BuildSettings& settings, const std::atomic<bool>* cancel,
+             std::atomic<std::uint64_t>* primitivesDone)
+        : input_(input), settings_(settings), cancel_(cancel), primitivesDone_(primitivesDone) {}
+
+    bool buildTrees();  // false: cancelled
+    void fill(AccelStorage& storage);
+    bool hasWorld() const {
+        return boxes_[0].lower.x <= boxes_[0].upper.x;
+    }  // instances may all be of empty geometries
+    Reference root() const { return roots_[0]; }
+
+  private:
+    bool buildTree(std::uint32_t geometry, std::vector<std::uint32_t> instances);
+    void fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const;
+
+    const AccelInput& input_;
+    const BuildSettings& settings_;
+    const std::atomic<bool>* cancel_;
+    std::atomic<std::uint64_t>* primitivesDone_;
+    WideBvh wide_;
+    std::vector<BuiltTree> trees_;
+    std::vector<Box> boxes_;        // of each geometry; empty for one that is not used or has nothing in it
+    std::vector<Reference> roots_;  // of each geometry
+};
+
+bool Assembly::buildTree(std::uint32_t geometry, std::vector<std::uint32_t> instances) {
+    BuiltTree tree{TreeItems(input_, input_.geometries[geometry], std::move(instances)), {}, {}};
+    if (tree.items.size() == 0) return true;
+    std::vector<Box> boxes(tree.items.size());
+    const Chunks chunks(boxes.size(), kBoxChunk);
+    parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
+        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+            boxes[i] = tree.items.box(static_cast<std::uint32_t>(i), boxes_);
+        }
+    });
+    const std::vector<std::uint8_t> kinds = tree.items.kinds();
+    BvhSettings settings = settings_.tree;
+    settings.singleGroup = static_cast<std::uint32_t>(LeafKind::Instance);
+    const std::span<const std::uint8_t> groups = kinds.size() == boxes.size() ? kinds : std::span<const std::uint8_t>{};
+    std::optional<Bvh> bvh = buildBvh({boxes, groups}, settings, cancel_, primitivesDone_);
+    if (!bvh) return false;
+    boxes_[geometry] = bvh->nodes[0].box;
+    roots_[geometry] = wide_.append(*bvh, kinds, tree.leaves);
+    tree.order = std::move(bvh->items);
+    trees_.push_back(std::move(tree));
+    return true;
+}
+
+bool Assembly::buildTrees() {
+    boxes_.resize(input_.geometries.size());
+    roots_.resize(input_.geometries.size());
+    std::vector<bool> used(input_.geometries.size(), false);
+    for (const shared::Instance& instance : input_.instances) {
+        used[instance.geometry] = true;
+    }
+    for (std::uint32_t g = 1; g < input_.geometries.size(); ++g) {
+        if (used[g] && !buildTree(g, {})) return false;
+    }
+    std::vector<std::uint32_t> placed;
+    for (std::uint32_t i = 0; i < input_.instances.size(); ++i) {
+        const Box& box = boxes_[input_.instances[i].geometry];
+        if (box.lower.x <= box.upper.x) placed.push_back(i);
+    }
+    return buildTree(0, std::move(placed));
+}
+
+void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const {
+    const Chunks chunks(tree.leaves.size(), kLeafChunk);
+    parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
+        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+            const WideLeaf& leaf = tree.leaves[i];
+            switch (leaf.kind) {
+                case LeafKind::Sphere:
+                    fillLeaf(storage.spheres, leaf, tree, input_);
+                    break;
+                case LeafKind::MovingSphere:
+                    fillLeaf(storage.movingSpheres, leaf, tree, input_);
+                    break;
+                case LeafKind::Quad:
+                    fillLeaf(storage.quads, leaf, tree, input_);
+                    break;
+                case LeafKind::Triangle:
+                    fillLeaf(storage.triangles, leaf, tree, input_);
+                    break;
+                case LeafKind::Instance: {
+                    const std::uint32_t index = tree.items.index(tree.order[leaf.firstItem]);
+                    const shared::Instance& instance = input_.instances[index];
+                    PlacedGeometry& placed = storage.instances.data[leaf.firstBlock];
+                    std::copy(std::begin(instance.toObject), std::end(instance.toObject), placed.toObject);
+                    placed.root = roots_[instance.geometry];
+                    placed.instance = index;
+                    break;
+                }
+            }
+        }
+    });
+}
+
+void Assembly::fill(AccelStorage& storage) {
+    const auto blocks = [&](LeafKind kind) { return wide_.blocks[static_cast<std::uint32_t>(kind)]; };
+    storage.nodes = std::move(wide_.nodes);
+    storage.spheres.allocate(blocks(LeafKind::Sphere));
+    storage.movingSpheres.allocate(blocks(LeafKind::MovingSphere));
+    storage.quads.allocate(blocks(LeafKind::Quad));
+    storage.triangles.allocate(blocks(LeafKind::Triangle));
+    storage.instances.allocate(blocks(LeafKind::Instance));
+    for (const BuiltTree& tree : trees_) {
+        fillLeaves(tree, storage);
+    }
+}
+
+std::uint32_t featuresOf(const AccelInput& input) {
+    std::uint32_t features = 0;
+    if (!input.spheres.empty()) {
+        features |= input.motions.empty() ? shared::kFeatureSpheres : shared::kFeatureMovingSpheres;
+    }
+    if (!input.quads.empty()) features |= shared::kFeatureQuads;
+    if (!input.triangles.empty()) features |= shared::kFeatureTriangles;
+    if (!input.instances.empty()) features |= shared::kFeatureInstances;
+    return features;
+}
+
+}  // namespace
+
+CpuAccel::CpuAccel() : storage_(std::make_unique<AccelStorage>()) {}
+CpuAccel::~CpuAccel() = default;
+
+std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSettings& settings,
+                                          const std::atomic<bool>* cancel, std::atomic<std::uint64_t>* primitivesDone) {
+    std::unique_ptr<CpuAccel> accel(new CpuAccel);
+    AccelStorage& storage = *accel->storage_;
+    AccelView& view = accel->view_;
+    view.kinds = featuresOf(input);
+
+    const shared::Geometry world = input.geometries[0];
+    const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
+    view.flat = input.instances.empty() && (primitives == 0 || primitives <= settings.flatPrimitives);
+    if (view.flat) {
+        if (input.motions.empty()) {
+            view.flatSpheres = fillFlat(storage.flatSpheres, input, world.firstSphere, world.sphereCount);
+        } else {
+            view.flatMovingSpheres = fillFlat(storage.flatMovingSpheres, input, world.firstSphere, world.sphereCount);
+        }
+        view.flatQuads = fillFlat(storage.flatQuads, input, world.firstQuad, world.quadCount);
+        view.flatTriangles = fillFlat(storage.flatTriangles, input, world.firstTriangle, world.triangleCount);
+        if (primitivesDone != nullptr) primitivesDone->fetch_add(primitives);
+        return accel;
+    }
+
+    Assembly assembly(input, settings, cancel, primitivesDone);
+    if (!assembly.buildTrees()) return nullptr;
+    assembly.fill(storage);
+    view.flat = !assembly.hasWorld();
+    view.root = assembly.root();
+    view.nodes = storage.nodes.data();
+    view.spheres = storage.spheres.data.get();
+    view.movingSpheres = storage.movingSpheres.data.get();
+    view.quads = storage.quads.data.get();
+    view.triangles = storage.triangles.data.get();
+    view.instances = storage.instances.data.get();
+    return accel;
+}
+
+std::size_t CpuAccel::bytes() const {
+    const AccelStorage& s = *storage_;
+    return sizeof(*this) + sizeof(s) + s.nodes.capacity() * sizeof(WideNode) + s.spheres.bytes() +
+           s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.instances.bytes() +
+           s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() + s.flatQuads.bytes() + s.flatTriangles.bytes();
+}
+
+}  // namespace rt::accel

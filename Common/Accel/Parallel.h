@@ -1,0 +1,63 @@
+// Work spread over threads: std::execution where the standard library has it, oneTBB where it has not (libc++).
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <numeric>
+#include <thread>
+#include <vector>
+
+#if __has_include(<execution>)
+#include <execution>
+#endif
+#if !defined(__cpp_lib_execution)
+#include <tbb/parallel_for.h>
+#endif
+
+namespace rt::accel {
+
+inline std::size_t threadCount(std::size_t threads) {
+    return threads != 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+}
+
+// Calls f(i) once for each i in [0, count), on up to `threads` threads (0: as many as the machine has). Calls start in
+// order of i, so the largest pieces of work belong first. f must not throw.
+template <class Function>
+void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
+    const std::size_t workers = std::min(threadCount(threads), count);
+    if (workers <= 1) {
+        for (std::size_t i = 0; i < count; ++i) {
+            f(i);
+        }
+        return;
+    }
+    std::atomic<std::size_t> next{0};
+    const auto work = [&](std::size_t) {
+        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+            f(i);
+        }
+    };
+#if defined(__cpp_lib_execution)
+    std::vector<std::size_t> indices(workers);
+    std::iota(indices.begin(), indices.end(), std::size_t{0});
+    std::for_each(std::execution::par, indices.begin(), indices.end(), work);
+#else
+    tbb::parallel_for(std::size_t{0}, workers, work);
+#endif
+}
+
+// The pieces of [0, count) that parallel loops work on: their number depends on count alone, never on the threads.
+struct Chunks {
+    std::size_t count;
+    std::size_t size;
+
+    Chunks(std::size_t items, std::size_t itemsPerChunk)
+        : count((items + itemsPerChunk - 1) / itemsPerChunk), size(itemsPerChunk), items_(items) {}
+    std::size_t begin(std::size_t chunk) const { return chunk * size; }
+    std::size_t end(std::size_t chunk) const { return std::min(items_, (chunk + 1) * size); }
+
+  private:
+    std::size_t items_;
+};
+
+}  // namespace rt::accel

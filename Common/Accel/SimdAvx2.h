@@ -1,0 +1,111 @@
+// Simd.h over AVX2 with FMA.
+#pragma once
+#include <immintrin.h>
+
+#include "Common/Shared/Shim.h"
+
+namespace rt::accel {
+namespace {
+
+constexpr bool kFusedMultiplyAdd = true;
+constexpr int kLanes = 8;  // of the widest Float
+
+template <int N>
+struct Float;
+template <int N>
+struct Mask;
+template <>
+struct Float<8> {
+    __m256 v;
+};
+template <>
+struct Mask<8> {
+    __m256 v;
+};
+using Float8 = Float<8>;
+using Mask8 = Mask<8>;
+
+template <int N>
+RT_FN Float<N> load(const float* p) {
+    return {_mm256_load_ps(p)};
+}
+template <int N>
+RT_FN Float<N> broadcast(float x) {
+    return {_mm256_set1_ps(x)};
+}
+RT_FN void store(float* p, Float8 a) {
+    _mm256_store_ps(p, a.v);
+}
+
+RT_FN Float8 operator+(Float8 a, Float8 b) {
+    return {_mm256_add_ps(a.v, b.v)};
+}
+RT_FN Float8 operator-(Float8 a, Float8 b) {
+    return {_mm256_sub_ps(a.v, b.v)};
+}
+RT_FN Float8 operator*(Float8 a, Float8 b) {
+    return {_mm256_mul_ps(a.v, b.v)};
+}
+RT_FN Float8 operator/(Float8 a, Float8 b) {
+    return {_mm256_div_ps(a.v, b.v)};
+}
+RT_FN Float8 multiplyAdd(Float8 a, Float8 b, Float8 c) {
+    return {_mm256_fmadd_ps(a.v, b.v, c.v)};
+}
+RT_FN Float8 multiplySubtract(Float8 a, Float8 b, Float8 c) {
+    return {_mm256_fmsub_ps(a.v, b.v, c.v)};
+}
+RT_FN Float8 negateMultiplyAdd(Float8 a, Float8 b, Float8 c) {
+    return {_mm256_fnmadd_ps(a.v, b.v, c.v)};
+}
+RT_FN Float8 minimum(Float8 a, Float8 b) {
+    return {_mm256_min_ps(a.v, b.v)};
+}
+RT_FN Float8 maximum(Float8 a, Float8 b) {
+    return {_mm256_max_ps(a.v, b.v)};
+}
+RT_FN Float8 squareRoot(Float8 a) {
+    return {_mm256_sqrt_ps(a.v)};
+}
+RT_FN Float8 absolute(Float8 a) {
+    return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)};
+}
+// |a| with the sign of b.
+RT_FN Float8 withSign(Float8 a, Float8 b) {
+    const __m256 sign = _mm256_set1_ps(-0.0f);
+    return {_mm256_or_ps(_mm256_andnot_ps(sign, a.v), _mm256_and_ps(sign, b.v))};
+}
+
+RT_FN Mask8 operator<(Float8 a, Float8 b) {
+    return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
+}
+RT_FN Mask8 operator<=(Float8 a, Float8 b) {
+    return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)};
+}
+RT_FN Mask8 operator==(Float8 a, Float8 b) {
+    return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)};
+}
+RT_FN Mask8 operator&(Mask8 a, Mask8 b) {
+    return {_mm256_and_ps(a.v, b.v)};
+}
+RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
+    return {_mm256_or_ps(a.v, b.v)};
+}
+RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
+    return {_mm256_blendv_ps(b.v, a.v, m.v)};
+}
+RT_FN unsigned bits(Mask8 m) {
+    return static_cast<unsigned>(_mm256_movemask_ps(m.v));
+}
+
+RT_FN float lane(Float8 a, unsigned i) {
+    return _mm256_cvtss_f32(_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(static_cast<int>(i))));
+}
+RT_FN float least(Float8 a) {
+    __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+    m = _mm_min_ps(m, _mm_movehl_ps(m, m));
+    return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
+}
+
+}  // namespace
+}  // namespace rt::accel

@@ -1,0 +1,136 @@
+// Simd.h in plain C++: loops over eight lanes, which compilers turn into whatever vectors the machine has.
+#pragma once
+#include <cmath>
+
+#include "Common/Shared/Shim.h"
+
+namespace rt::accel {
+namespace {
+
+#if defined(FP_FAST_FMAF)
+constexpr bool kFusedMultiplyAdd = true;
+#else
+constexpr bool kFusedMultiplyAdd = false;
+#endif
+constexpr int kLanes = 8;  // of the widest Float
+
+template <int N>
+struct Float {
+    float v[N];
+};
+template <int N>
+struct Mask {
+    bool v[N];
+};
+using Float8 = Float<8>;
+using Mask8 = Mask<8>;
+
+// Lane by lane; `expression` names the lane i.
+#define RT_EACH_LANE(Result, expression) \
+    Result r;                            \
+    for (int i = 0; i < 8; ++i) {        \
+        r.v[i] = expression;             \
+    }                                    \
+    return r
+
+RT_FN float scalarMultiplyAdd(float a, float b, float c) {
+    if constexpr (kFusedMultiplyAdd) {
+        return std::fma(a, b, c);
+    } else {
+        return a * b + c;
+    }
+}
+
+template <int N>
+RT_FN Float<N> load(const float* p) {
+    RT_EACH_LANE(Float8, p[i]);
+}
+template <int N>
+RT_FN Float<N> broadcast(float x) {
+    RT_EACH_LANE(Float8, x);
+}
+RT_FN void store(float* p, Float8 a) {
+    for (int i = 0; i < 8; ++i) {
+        p[i] = a.v[i];
+    }
+}
+
+RT_FN Float8 operator+(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] + b.v[i]);
+}
+RT_FN Float8 operator-(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] - b.v[i]);
+}
+RT_FN Float8 operator*(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] * b.v[i]);
+}
+RT_FN Float8 operator/(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] / b.v[i]);
+}
+RT_FN Float8 multiplyAdd(Float8 a, Float8 b, Float8 c) {
+    RT_EACH_LANE(Float8, scalarMultiplyAdd(a.v[i], b.v[i], c.v[i]));
+}
+RT_FN Float8 multiplySubtract(Float8 a, Float8 b, Float8 c) {
+    RT_EACH_LANE(Float8, scalarMultiplyAdd(a.v[i], b.v[i], -c.v[i]));
+}
+RT_FN Float8 negateMultiplyAdd(Float8 a, Float8 b, Float8 c) {
+    RT_EACH_LANE(Float8, scalarMultiplyAdd(-a.v[i], b.v[i], c.v[i]));
+}
+RT_FN Float8 minimum(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] < b.v[i] ? a.v[i] : b.v[i]);
+}
+RT_FN Float8 maximum(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, a.v[i] > b.v[i] ? a.v[i] : b.v[i]);
+}
+RT_FN Float8 squareRoot(Float8 a) {
+    RT_EACH_LANE(Float8, std::sqrt(a.v[i]));
+}
+RT_FN Float8 absolute(Float8 a) {
+    RT_EACH_LANE(Float8, std::fabs(a.v[i]));
+}
+// |a| with the sign of b.
+RT_FN Float8 withSign(Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, std::copysign(a.v[i], b.v[i]));
+}
+
+RT_FN Mask8 operator<(Float8 a, Float8 b) {
+    RT_EACH_LANE(Mask8, a.v[i] < b.v[i]);
+}
+RT_FN Mask8 operator<=(Float8 a, Float8 b) {
+    RT_EACH_LANE(Mask8, a.v[i] <= b.v[i]);
+}
+RT_FN Mask8 operator==(Float8 a, Float8 b) {
+    RT_EACH_LANE(Mask8, a.v[i] == b.v[i]);
+}
+RT_FN Mask8 operator&(Mask8 a, Mask8 b) {
+    RT_EACH_LANE(Mask8, a.v[i] && b.v[i]);
+}
+RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
+    RT_EACH_LANE(Mask8, a.v[i] || b.v[i]);
+}
+RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
+    RT_EACH_LANE(Float8, m.v[i] ? a.v[i] : b.v[i]);
+}
+RT_FN unsigned bits(Mask8 m) {
+    unsigned result = 0;
+    for (int i = 0; i < 8; ++i) {
+        result |= static_cast<unsigned>(m.v[i]) << i;
+    }
+    return result;
+}
+
+RT_FN float lane(Float8 a, unsigned i) {
+    return a.v[i];
+}
+RT_FN float least(Float8 a) {
+    float result = a.v[0];
+    for (int i = 1; i < 8; ++i) {
+        result = a.v[i] < result ? a.v[i] : result;
+    }
+    return result;
+}
+
+#undef RT_EACH_LANE
+
+}  // namespace
+}  // namespace rt::accel

@@ -1,0 +1,116 @@
+// Simd.h over SSE4.2: eight lanes in two registers.
+#pragma once
+#include <nmmintrin.h>
+
+#include "Common/Shared/Shim.h"
+
+namespace rt::accel {
+namespace {
+
+constexpr bool kFusedMultiplyAdd = false;
+constexpr int kLanes = 8;  // of the widest Float
+
+template <int N>
+struct Float;
+template <int N>
+struct Mask;
+template <>
+struct Float<8> {
+    __m128 lo, hi;
+};
+template <>
+struct Mask<8> {
+    __m128 lo, hi;
+};
+using Float8 = Float<8>;
+using Mask8 = Mask<8>;
+
+template <int N>
+RT_FN Float<N> load(const float* p) {
+    return {_mm_load_ps(p), _mm_load_ps(p + 4)};
+}
+template <int N>
+RT_FN Float<N> broadcast(float x) {
+    return {_mm_set1_ps(x), _mm_set1_ps(x)};
+}
+RT_FN void store(float* p, Float8 a) {
+    _mm_store_ps(p, a.lo);
+    _mm_store_ps(p + 4, a.hi);
+}
+
+RT_FN Float8 operator+(Float8 a, Float8 b) {
+    return {_mm_add_ps(a.lo, b.lo), _mm_add_ps(a.hi, b.hi)};
+}
+RT_FN Float8 operator-(Float8 a, Float8 b) {
+    return {_mm_sub_ps(a.lo, b.lo), _mm_sub_ps(a.hi, b.hi)};
+}
+RT_FN Float8 operator*(Float8 a, Float8 b) {
+    return {_mm_mul_ps(a.lo, b.lo), _mm_mul_ps(a.hi, b.hi)};
+}
+RT_FN Float8 operator/(Float8 a, Float8 b) {
+    return {_mm_div_ps(a.lo, b.lo), _mm_div_ps(a.hi, b.hi)};
+}
+RT_FN Float8 multiplyAdd(Float8 a, Float8 b, Float8 c) {
+    return a * b + c;
+}
+RT_FN Float8 multiplySubtract(Float8 a, Float8 b, Float8 c) {
+    return a * b - c;
+}
+RT_FN Float8 negateMultiplyAdd(Float8 a, Float8 b, Float8 c) {
+    return c - a * b;
+}
+RT_FN Float8 minimum(Float8 a, Float8 b) {
+    return {_mm_min_ps(a.lo, b.lo), _mm_min_ps(a.hi, b.hi)};
+}
+RT_FN Float8 maximum(Float8 a, Float8 b) {
+    return {_mm_max_ps(a.lo, b.lo), _mm_max_ps(a.hi, b.hi)};
+}
+RT_FN Float8 squareRoot(Float8 a) {
+    return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)};
+}
+RT_FN Float8 absolute(Float8 a) {
+    const __m128 sign = _mm_set1_ps(-0.0f);
+    return {_mm_andnot_ps(sign, a.lo), _mm_andnot_ps(sign, a.hi)};
+}
+// |a| with the sign of b.
+RT_FN Float8 withSign(Float8 a, Float8 b) {
+    const __m128 sign = _mm_set1_ps(-0.0f);
+    return {_mm_or_ps(_mm_andnot_ps(sign, a.lo), _mm_and_ps(sign, b.lo)),
+            _mm_or_ps(_mm_andnot_ps(sign, a.hi), _mm_and_ps(sign, b.hi))};
+}
+
+RT_FN Mask8 operator<(Float8 a, Float8 b) {
+    return {_mm_cmplt_ps(a.lo, b.lo), _mm_cmplt_ps(a.hi, b.hi)};
+}
+RT_FN Mask8 operator<=(Float8 a, Float8 b) {
+    return {_mm_cmple_ps(a.lo, b.lo), _mm_cmple_ps(a.hi, b.hi)};
+}
+RT_FN Mask8 operator==(Float8 a, Float8 b) {
+    return {_mm_cmpeq_ps(a.lo, b.lo), _mm_cmpeq_ps(a.hi, b.hi)};
+}
+RT_FN Mask8 operator&(Mask8 a, Mask8 b) {
+    return {_mm_and_ps(a.lo, b.lo), _mm_and_ps(a.hi, b.hi)};
+}
+RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
+    return {_mm_or_ps(a.lo, b.lo), _mm_or_ps(a.hi, b.hi)};
+}
+RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
+    return {_mm_blendv_ps(b.lo, a.lo, m.lo), _mm_blendv_ps(b.hi, a.hi, m.hi)};
+}
+RT_FN unsigned bits(Mask8 m) {
+    return static_cast<unsigned>(_mm_movemask_ps(m.lo)) | static_cast<unsigned>(_mm_movemask_ps(m.hi)) << 4;
+}
+
+RT_FN float lane(Float8 a, unsigned i) {
+    alignas(16) float lanes[8];
+    store(lanes, a);
+    return lanes[i];
+}
+RT_FN float least(Float8 a) {
+    __m128 m = _mm_min_ps(a.lo, a.hi);
+    m = _mm_min_ps(m, _mm_movehl_ps(m, m));
+    return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
+}
+
+}  // namespace
+}  // namespace rt::accel

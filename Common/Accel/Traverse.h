@@ -1,0 +1,364 @@
+// The two questions of a path tracer: what does a ray hit first, and does anything lie between two points. Header-only
+// with internal linkage, so that a kernel inlines it for its own instruction set. No recursion, no allocation, no
+// virtual call.
+//
+// `features` is a constant where these are called; primitives of kinds that it lacks cost nothing, and must not exist
+// in the scene. Rays start off their surface (every t > 0 counts); their direction has unit length in world space.
+//
+// Of hits at exactly the same t the one with the lowest (instance, kind, primitive) is reported, the world's own
+// geometry before all instances; so the answer depends neither on the tree nor on the order of traversal.
+#pragma once
+#include "Common/Accel/AccelView.h"
+#include "Common/Accel/ShapeBlocks.h"
+#include "Common/Accel/Simd.h"
+#include "Common/Shared/Features.h"
+
+namespace rt::accel {
+namespace {
+
+constexpr float kLargest = 3.402823466e+38f;
+
+// ---- nearest of the lanes that were hit
+// ------------------------------------------------------------------------------
+
+RT_FN bool comesBefore(shared::uint instance, shared::uint kind, shared::uint primitive, const shared::Hit& hit) {
+    if (instance != hit.instance) return instance + 1 < hit.instance + 1;  // kNone, the world, is the first
+    return kind != hit.kind ? kind < hit.kind : primitive < hit.primitive;
+}
+
+template <int N>
+RT_FN void acceptNearest(const LaneHits<N>& lanes, shared::uint kind, const std::uint32_t* primitives,
+                         shared::uint instance, shared::Hit& best) {
+    const Mask<N> mask = lanes.mask & (lanes.t <= broadcast<N>(best.t));
+    unsigned hits = bits(mask);
+    if (hits == 0) return;
+    if ((hits & (hits - 1)) != 0) {
+        const float nearest = least(select(mask, lanes.t, broadcast<N>(kLargest)));
+        hits = bits(mask & (lanes.t == broadcast<N>(nearest)));
+    }
+    const unsigned i = lowestBit(hits);
+    const float t = lane(lanes.t, i);
+    if (t == best.t && !comesBefore(instance, kind, primitives[i], best)) return;
+    best.t = t;
+    best.kind = kind;
+    best.primitive = primitives[i];
+    best.instance = instance;
+    best.u = lane(lanes.u, i);
+    best.v = lane(lanes.v, i);
+}
+
+// ---- scenes without a tree
+// -------------------------------------------------------------------------------------------
+
+// The nearest hit in each lane, over all blocks so far.
+struct FlatBest {
+    Float<kLanes> t, u, v;
+    Float<kLanes> chunk;  // number of the run of kLanes primitives that was hit
+    unsigned chunks;      // tested so far
+};
+
+template <class Block>
+RT_FN void testFlat(const ShapeRay& ray, const FlatList<Block>& list, FlatBest& best) {
+    for (unsigned i = 0; i < list.primitives; i += kLanes) {
+        const LaneHits<kLanes> lanes = intersectBlock<kLanes>(ray, list.blocks[i / kFlatWidth], i % kFlatWidth);
+        const Mask<kLanes> nearer = lanes.mask & (lanes.t < best.t);
+        best.t = select(nearer, lanes.t, best.t);
+        best.u = select(nearer, lanes.u, best.u);
+        best.v = select(nearer, lanes.v, best.v);
+        best.chunk = select(nearer, broadcast<kLanes>(static_cast<float>(best.chunks)), best.chunk);
+        ++best.chunks;
+    }
+}
+
+template <class Block>
+RT_FN bool testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, float tMax) {
+    for (unsigned i = 0; i < list.primitives; i += kLanes) {
+        const LaneHits<kLanes> lanes = intersectBlock<kLanes>(ray, list.blocks[i / kFlatWidth], i % kFlatWidth);
+        if (bits(lanes.mask & (lanes.t < broadcast<kLanes>(tMax))) != 0) return true;
+    }
+    return false;
+}
+
+// True when chunk number `chunk` belongs to the list: then the hit is named. Else `chunk` counts on from the next list.
+template <class Block>
+RT_FN bool nameFlatHit(const FlatList<Block>& list, shared::uint kind, unsigned lane, unsigned& chunk,
+                       shared::Hit& hit) {
+    const unsigned chunks = (list.primitives + kLanes - 1) / kLanes;
+    if (chunk >= chunks) {
+        chunk -= chunks;
+        return false;
+    }
+    const unsigned i = chunk * kLanes + lane;
+    hit.kind = kind;
+    hit.primitive = list.blocks[i / kFlatWidth].primitive[i % kFlatWidth];
+    return true;
+}
+
+RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+    const Float<kLanes> zero = broadcast<kLanes>(0.0f);
+    FlatBest best{broadcast<kLanes>(tMax), zero, zero, zero, 0};
+    if (shared::has(features, shared::kFeatureSpheres)) testFlat(ray, view.flatSpheres, best);
+    if (shared::has(features, shared::kFeatureMovingSpheres)) testFlat(ray, view.flatMovingSpheres, best);
+    if (shared::has(features, shared::kFeatureQuads)) testFlat(ray, view.flatQuads, best);
+    if (shared::has(features, shared::kFeatureTriangles)) testFlat(ray, view.flatTriangles, best);
+
+    shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
+    const float t = least(best.t);
+    if (!(t < tMax)) return hit;
+    unsigned lanes = bits(best.t == broadcast<kLanes>(t));
+    unsigned nearest = lowestBit(lanes);
+    unsigned chunk = static_cast<unsigned>(lane(best.chunk, nearest));
+    for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {  // a tie: the first in the order of lists
+        const unsigned i = lowestBit(lanes);
+        const unsigned other = static_cast<unsigned>(lane(best.chunk, i));
+        if (other < chunk) {
+            chunk = other;
+            nearest = i;
+        }
+    }
+    hit.t = t;
+    hit.u = lane(best.u, nearest);
+    hit.v = lane(best.v, nearest);
+    if (shared::has(features, shared::kFeatureSpheres) &&
+        nameFlatHit(view.flatSpheres, shared::kSphere, nearest, chunk, hit))
+        return hit;
+    if (shared::has(features, shared::kFeatureMovingSpheres) &&
+        nameFlatHit(view.flatMovingSpheres, shared::kSphere, nearest, chunk, hit))
+        return hit;
+    if (shared::has(features, shared::kFeatureQuads) && nameFlatHit(view.flatQuads, shared::kQuad, nearest, chunk, hit))
+        return hit;
+    nameFlatHit(view.flatTriangles, shared::kTriangle, nearest, chunk, hit);
+    return hit;
+}
+
+RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+    if (shared::has(features, shared::kFeatureSpheres) && testFlatAny(ray, view.flatSpheres, tMax)) return true;
+    if (shared::has(features, shared::kFeatureMovingSpheres) && testFlatAny(ray, view.flatMovingSpheres, tMax))
+        return true;
+    if (shared::has(features, shared::kFeatureQuads) && testFlatAny(ray, view.flatQuads, tMax)) return true;
+    return shared::has(features, shared::kFeatureTriangles) && testFlatAny(ray, view.flatTriangles, tMax);
+}
+
+// ---- nodes
+// -----------------------------------------------------------------------------------------------------------
+
+// A ray as the slab test wants it. Reciprocals are widened so that rounding, theirs and that of the primitives' own
+// tests, can only let more boxes in: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
+struct BoxRay {
+    float origin[3];
+    float inverseNear[3];
+    float inverseFar[3];
+    unsigned nearPlane[3];  // index into WideNode::planes; the far one differs in the last bit
+};
+
+const float kSlabError = 8.0f * shared::kEpsilon;
+
+RT_FN BoxRay makeBoxRay(const shared::Ray& ray) {
+    BoxRay r;
+    for (unsigned a = 0; a < 3; ++a) {
+        const float inverse = 1.0f / ray.direction[static_cast<int>(a)];  // infinite along a slab
+        r.origin[a] = ray.origin[static_cast<int>(a)];
+        r.inverseNear[a] = inverse * (1.0f - kSlabError);
+        r.inverseFar[a] = inverse * (1.0f + kSlabError);
+        r.nearPlane[a] = 2 * a + (shared::floatBitsToUint(ray.direction[static_cast<int>(a)]) >> 31);
+    }
+    return r;
+}
+
+// Bit i is set where the ray may meet child i within [0, tMax]; entry: where it enters each child. A ray that runs in
+// the plane of a slab gives 0 * infinity there; minimum and maximum pass over it because it is their first argument.
+RT_FN unsigned enterChildren(const WideNode& node, const BoxRay& ray, float tMax, Float8& entry) {
+    Float8 t0 = broadcast<8>(0.0f);
+    Float8 t1 = broadcast<8>(tMax);
+    for (unsigned a = 0; a < 3; ++a) {
+        const Float8 origin = broadcast<8>(ray.origin[a]);
+        const Float8 near = load<8>(node.planes[ray.nearPlane[a]]);
+        const Float8 far = load<8>(node.planes[ray.nearPlane[a] ^ 1u]);
+        t0 = maximum((near - origin) * broadcast<8>(ray.inverseNear[a]), t0);
+        t1 = minimum((far - origin) * broadcast<8>(ray.inverseFar[a]), t1);
+    }
+    entry = t0;
+    return bits(t0 <= t1);
+}
+
+struct StackEntry {
+    float t;  // where the ray enters
+    Reference reference;
+};
+
+constexpr unsigned kStackSize = kMaxTreeDepth * (kWidth - 1) + 1;
+
+// Of the children in `hits` the nearest is returned, the others go on the stack, the nearest of them on top.
+RT_FN Reference orderChildren(const WideNode& node, unsigned hits, Float8 entry, StackEntry* stack, unsigned& size) {
+    unsigned i = lowestBit(hits);
+    hits &= hits - 1;
+    if (hits == 0) return node.child[i];
+    alignas(32) float t[8];
+    store(t, entry);
+    StackEntry nearest{t[i], node.child[i]};
+    const unsigned bottom = size;
+    do {
+        i = lowestBit(hits);
+        hits &= hits - 1;
+        StackEntry next{t[i], node.child[i]};
+        if (next.t < nearest.t) {
+            const StackEntry swap = next;
+            next = nearest;
+            nearest = swap;
+        }
+        unsigned at = size++;
+        for (; at > bottom && stack[at - 1].t < next.t; --at) {
+            stack[at] = stack[at - 1];
+        }
+        stack[at] = next;
+    } while (hits != 0);
+    return nearest.reference;
+}
+
+RT_FN unsigned leafBlocks(Reference leaf) {
+    return (leaf >> kCountShift & (kMaxLeafBlocks - 1)) + 1;
+}
+RT_FN LeafKind leafKind(Reference leaf) {
+    return static_cast<LeafKind>(leaf >> kKindShift & 7u);
+}
+RT_FN std::uint32_t leafFirst(Reference leaf) {
+    return leaf & (kMaxBlocks - 1);
+}
+
+template <class Block>
+RT_FN void testLeaf(const ShapeRay& ray, const Block* blocks, Reference leaf, shared::uint kind, shared::uint instance,
+                    shared::Hit& best) {
+    const Block* block = blocks + leafFirst(leaf);
+    for (const Block* end = block + leafBlocks(leaf); block != end; ++block) {
+        acceptNearest(intersectBlock<8>(ray, *block, 0), kind, block->primitive, instance, best);
+    }
+}
+
+template <class Block>
+RT_FN bool testLeafAny(const ShapeRay& ray, const Block* blocks, Reference leaf, float tMax) {
+    const Block* block = blocks + leafFirst(leaf);
+    for (const Block* end = block + leafBlocks(leaf); block != end; ++block) {
+        const LaneHits<8> lanes = intersectBlock<8>(ray, *block, 0);
+        if (bits(lanes.mask & (lanes.t < broadcast<8>(tMax))) != 0) return true;
+    }
+    return false;
+}
+
+// ---- trees
+// -----------------------------------------------------------------------------------------------------------
+
+RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
+    shared::Ray r = ray;
+    for (int row = 0; row < 3; ++row) {
+        const shared::vec4 m = placed.toObject[row];
+        r.origin[row] = m.x * ray.origin.x + m.y * ray.origin.y + m.z * ray.origin.z + m.w;
+        r.direction[row] = m.x * ray.direction.x + m.y * ray.direction.y + m.z * ray.direction.z;
+    }
+    return r;
+}
+
+// Nearest hit below `root`, if nearer than `best`. Instances are followed one level down.
+template <bool World>
+RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+                     shared::uint instance, shared::Hit& best) {
+    const BoxRay boxRay = makeBoxRay(ray);
+    const ShapeRay shapeRay = makeShapeRay(features, ray);
+    StackEntry stack[kStackSize];
+    unsigned size = 0;
+    Reference current = root;
+    for (;;) {
+        if ((current & kLeafBit) == 0) {
+            const WideNode& node = view.nodes[current];
+            Float8 entry;
+            const unsigned hits = enterChildren(node, boxRay, best.t, entry);
+            if (hits != 0) {
+                current = orderChildren(node, hits, entry, stack, size);
+                continue;
+            }
+        } else {
+            const LeafKind kind = leafKind(current);
+            if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
+                testLeaf(shapeRay, view.triangles, current, shared::kTriangle, instance, best);
+            } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
+                testLeaf(shapeRay, view.spheres, current, shared::kSphere, instance, best);
+            } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
+                testLeaf(shapeRay, view.quads, current, shared::kQuad, instance, best);
+            } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
+                testLeaf(shapeRay, view.movingSpheres, current, shared::kSphere, instance, best);
+            } else if constexpr (World) {
+                if (shared::has(features, shared::kFeatureInstances)) {
+                    const PlacedGeometry* placed = view.instances + leafFirst(current);
+                    for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
+                        traceTree<false>(features, view, placed->root, toObject(*placed, ray), placed->instance, best);
+                    }
+                }
+            }
+        }
+        do {
+            if (size == 0) return;
+            --size;
+        } while (stack[size].t > best.t);
+        current = stack[size].reference;
+    }
+}
+
+template <bool World>
+RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+                        float tMax) {
+    const BoxRay boxRay = makeBoxRay(ray);
+    const ShapeRay shapeRay = makeShapeRay(features, ray);
+    Reference stack[kStackSize];
+    unsigned size = 0;
+    Reference current = root;
+    for (;;) {
+        if ((current & kLeafBit) == 0) {
+            const WideNode& node = view.nodes[current];
+            Float8 entry;
+            for (unsigned hits = enterChildren(node, boxRay, tMax, entry); hits != 0; hits &= hits - 1) {
+                stack[size++] = node.child[lowestBit(hits)];
+            }
+        } else {
+            const LeafKind kind = leafKind(current);
+            if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
+                if (testLeafAny(shapeRay, view.triangles, current, tMax)) return true;
+            } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
+                if (testLeafAny(shapeRay, view.spheres, current, tMax)) return true;
+            } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
+                if (testLeafAny(shapeRay, view.quads, current, tMax)) return true;
+            } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
+                if (testLeafAny(shapeRay, view.movingSpheres, current, tMax)) return true;
+            } else if constexpr (World) {
+                if (shared::has(features, shared::kFeatureInstances)) {
+                    const PlacedGeometry* placed = view.instances + leafFirst(current);
+                    for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
+                        if (occludedTree<false>(features, view, placed->root, toObject(*placed, ray), tMax))
+                            return true;
+                    }
+                }
+            }
+        }
+        if (size == 0) return false;
+        current = stack[--size];
+    }
+}
+
+// ---- the two questions
+// -----------------------------------------------------------------------------------------------
+
+// The nearest hit with 0 < t < tMax; its t is negative if there is none.
+RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
+    if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray), tMax);
+    shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
+    traceTree<true>(features, view, view.root, ray, shared::kNone, best);
+    if (!(best.t < tMax)) best.t = -1.0f;
+    return best;
+}
+
+// Whether anything is hit with 0 < t < tMax.
+RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
+    if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray), tMax);
+    return occludedTree<true>(features, view, view.root, ray, tMax);
+}
+
+}  // namespace
+}  // namespace rt::accel

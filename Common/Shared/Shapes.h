@@ -1,0 +1,133 @@
+// Intersection of a ray with one shape: the formulas of the GPU's own traversal, and the reference for the blocks of eight
+// that the CPU tests at a time (Common/Accel/ShapeBlocks.h).
+//
+// A ray's parameter t counts lengths of its direction, which needs no unit length. Origins lie off their surface already, so
+// every hit with 0 < t < tMax counts. No constant here has a unit of length: scaling a scene by a power of two changes no bit
+// of a decision.
+#ifndef RT_SHARED_SHAPES_H
+#define RT_SHARED_SHAPES_H
+#include "Types.h"
+
+RT_SHARED_BEGIN
+
+struct ShapeHit {
+    float t; // negative: missed
+    float u; // as in Hit
+    float v;
+};
+
+RT_FN ShapeHit missedShape() {
+    ShapeHit hit;
+    hit.t = -1.0f;
+    hit.u = 0.0f;
+    hit.v = 0.0f;
+    return hit;
+}
+
+RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
+    return centerAtStart + motion * time;
+}
+
+// The nearest t in (0, tMax) where the ray meets the sphere, or -1. The discriminant comes from the ray's distance to the
+// centre, so a distant sphere loses no digits (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
+// Tracing Gems, 2019), and the root that would cancel is found from the product of both.
+RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
+    vec3 f = ray.origin - center;
+    float a = dot(ray.direction, ray.direction);
+    float b = -dot(f, ray.direction);
+    vec3 l = f + (b / a) * ray.direction; // from the centre to the point of the line that is nearest to it
+    float discriminant = radius * radius - dot(l, l);
+    if (!(discriminant >= 0.0f)) return -1.0f;
+
+    float root = sqrt(a * discriminant);
+    float q = b + (b < 0.0f ? -root : root);
+    float near = (dot(f, f) - radius * radius) / q; // b < 0: the far root, positive only from inside
+    float t = near > 0.0f ? near : q / a;
+    return q != 0.0f && t > 0.0f && t < tMax ? t : -1.0f;
+}
+
+// What the test of a quad needs to know of it; computed once, or per test where memory is dearer.
+struct QuadFrame {
+    vec3 normal; // along edgeU x edgeV, of any length
+    vec3 dualU;  // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
+    vec3 dualV;
+    float margin; // relative error of u and v for a unit of t |direction|
+};
+
+// Bounds the rounding errors of u and v, relative to the terms they are sums of.
+const float kQuadError = 16.0f * kEpsilon;
+
+RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
+    QuadFrame frame;
+    vec3 n = cross(edgeU, edgeV);
+    frame.normal = n / dot(n, n);
+    frame.dualU = cross(edgeV, frame.normal);
+    frame.dualV = cross(frame.normal, edgeU);
+    frame.margin = kQuadError * sqrt(max(dot(frame.dualU, frame.dualU), dot(frame.dualV, frame.dualV)));
+    return frame;
+}
+
+// The parallelogram is closed and widened by what rounding may take off its edges, so that quads which share an edge leave
+// no gap. Only rays within the plane are rejected for their angle.
+RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) {
+    ShapeHit hit = missedShape();
+    vec3 f = corner - ray.origin;
+    float t = dot(frame.normal, f) / dot(frame.normal, ray.direction);
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
+    float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
+    float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
+    float reach = 0.5f + kQuadError + t * frame.margin * length(ray.direction);
+    if (!(max(abs(u - 0.5f), abs(v - 0.5f)) <= reach)) return hit;
+    hit.t = t;
+    hit.u = clamp(u, 0.0f, 1.0f);
+    hit.v = clamp(v, 0.0f, 1.0f);
+    return hit;
+}
+
+// p.x q.y - p.y q.x, rounded alike for both directions of an edge, however a compiler fuses products with sums: the two
+// triangles at an edge always agree on which side of it a ray passes.
+RT_FN float edgeFunction(vec2 p, vec2 q) {
+    bool swapped = p.x > q.x || (p.x == q.x && p.y > q.y);
+    vec2 a = swapped ? q : p;
+    vec2 b = swapped ? p : q;
+    float e = a.x * b.y - a.y * b.x;
+    return swapped ? -e : e;
+}
+
+RT_FN uint largestAxis(vec3 v) {
+    vec3 m = abs(v);
+    return m.x > m.y ? (m.x > m.z ? 0u : 2u) : (m.y > m.z ? 1u : 2u);
+}
+
+// Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along an
+// axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
+RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
+    ShapeHit hit = missedShape();
+    uint kz = largestAxis(ray.direction);
+    uint kx = kz == 2u ? 0u : kz + 1u;
+    uint ky = kx == 2u ? 0u : kx + 1u;
+    float shearX = ray.direction[kx] / ray.direction[kz];
+    float shearY = ray.direction[ky] / ray.direction[kz];
+    vec3 a = vertex0 - ray.origin;
+    vec3 b = vertex1 - ray.origin;
+    vec3 c = vertex2 - ray.origin;
+    vec2 a2 = vec2(a[kx] - shearX * a[kz], a[ky] - shearY * a[kz]);
+    vec2 b2 = vec2(b[kx] - shearX * b[kz], b[ky] - shearY * b[kz]);
+    vec2 c2 = vec2(c[kx] - shearX * c[kz], c[ky] - shearY * c[kz]);
+
+    float wa = edgeFunction(c2, b2);
+    float wb = edgeFunction(a2, c2);
+    float wc = edgeFunction(b2, a2);
+    if (min(wa, min(wb, wc)) < 0.0f && max(wa, max(wb, wc)) > 0.0f) return hit;
+    float sum = wa + wb + wc;
+    float t = (wa * a[kz] + wb * b[kz] + wc * c[kz]) / (sum * ray.direction[kz]);
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the triangle is seen edge-on
+    hit.t = t;
+    hit.u = wb / sum;
+    hit.v = wc / sum;
+    return hit;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,96 @@
+// Random geometry and rays for the tests of the acceleration structure, and the traversals that can run here.
+#pragma once
+#include <random>
+#include <string>
+#include <vector>
+
+#include "Common/Accel/CpuAccel.h"
+#include "Common/Accel/RayQuery.h"
+
+namespace rt::accel::testing {
+
+using shared::Hit;
+using shared::Ray;
+using shared::vec3;
+
+// The arrays behind an AccelInput.
+struct Geometry {
+    std::vector<shared::Sphere> spheres;
+    std::vector<vec3> motions;
+    std::vector<shared::Quad> quads;
+    std::vector<vec3> positions;
+    std::vector<shared::uvec3> triangles;
+    std::vector<shared::Geometry> geometries;
+    std::vector<shared::Instance> instances;
+
+    // Everything that is there belongs to the world, unless geometries were set.
+    AccelInput input() {
+        if (geometries.empty()) geometries.push_back(whole());
+        return {spheres, motions, quads, positions, triangles, geometries, instances};
+    }
+    shared::Geometry whole() const {
+        return {0, static_cast<std::uint32_t>(spheres.size()),  0, static_cast<std::uint32_t>(quads.size()),
+                0, static_cast<std::uint32_t>(triangles.size())};
+    }
+    void addSphere(vec3 center, float radius) { spheres.push_back({center, radius, 0, shared::kNone}); }
+    void addQuad(vec3 corner, vec3 u, vec3 v) {
+        quads.push_back({corner, u, v, shared::normalize(shared::cross(u, v)), 0, shared::kNone});
+    }
+    void addTriangle(vec3 a, vec3 b, vec3 c) {
+        const std::uint32_t first = static_cast<std::uint32_t>(positions.size());
+        positions.insert(positions.end(), {a, b, c});
+        triangles.push_back({first, first + 1, first + 2});
+    }
+};
+
+class Random {
+  public:
+    explicit Random(std::uint32_t seed) : generator_(seed) {}
+    float uniform(float low = 0.0f, float high = 1.0f) {
+        const float u = static_cast<float>(generator_() >> 8) * 0x1p-24f;
+        return low + (high - low) * u;
+    }
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(generator_()) % n; }
+    vec3 inCube(float half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
+    vec3 direction() {
+        for (;;) {
+            const vec3 v = inCube(1.0f);
+            const float squared = shared::dot(v, v);
+            if (squared > 0.01f && squared <= 1.0f) return v / shared::sqrt(squared);
+        }
+    }
+
+  private:
+    std::mt19937 generator_;
+};
+
+// A traversal under test; the plain C++ one is compiled into the tests.
+struct NamedQuery {
+    std::string name;
+    const RayQuery* query;
+};
+std::vector<NamedQuery> runnableQueries();
+
+inline std::vector<Hit> closestHits(const RayQuery& query, const AccelView& view, const std::vector<Ray>& rays,
+                                    float tMax = shared::kInfinity) {
+    std::vector<Hit> hits(rays.size());
+    const std::vector<float> ends(rays.size(), tMax);
+    query.closest(view, rays.data(), ends.data(), hits.data(), rays.size());
+    return hits;
+}
+
+inline std::vector<std::uint8_t> anyHits(const RayQuery& query, const AccelView& view, const std::vector<Ray>& rays,
+                                         const std::vector<float>& ends) {
+    std::vector<std::uint8_t> hits(rays.size());
+    query.any(view, rays.data(), ends.data(), hits.data(), rays.size());
+    return hits;
+}
+
+inline std::unique_ptr<CpuAccel> buildAccel(Geometry& geometry, std::uint32_t flatPrimitives = 0) {
+    BuildSettings settings;
+    settings.flatPrimitives = flatPrimitives;
+    return CpuAccel::build(geometry.input(), settings);
+}
+inline constexpr std::uint32_t kAlwaysFlat = 0xffffffff;
+
+}  // namespace rt::accel::testing
