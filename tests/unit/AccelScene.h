@@ -50,7 +50,7 @@ class Random {
         const float u = static_cast<float>(generator_() >> 8) * 0x1p-24f;
         return low + (high - low) * u;
     }
-    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(generator_()) % n; }
+    std::size_t below(std::size_t n) { return generator_() % n; }
     vec3 inCube(float half) { return {uniform(-half, half), uniform(-half, half), uniform(-half, half)}; }
     vec3 direction() {
         for (;;) {
