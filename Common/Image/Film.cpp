@@ -135,6 +135,23 @@ void Film::commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& 
     samples_[at] = closed + block.count;
 }
 
+Film::TileState Film::state(std::uint32_t tile, std::uint32_t replicate) const {
+    const std::size_t at = slot(tile, replicate);
+    TileState state{samples_[at], {&sums_[at * kTileValues], kTileValues}, {}, openBlock(at)};
+    if (desc_.secondMoments) state.squares = {&squares_[at * kTileValues], kTileValues};
+    return state;
+}
+
+void Film::assign(std::uint32_t tile, std::uint32_t replicate, const TileState& state) {
+    const std::size_t at = slot(tile, replicate);
+    if (!state.open.empty() && open_.empty())
+        throw std::logic_error("an unfilled block needs Film::reserveOpenBlocks()");
+    samples_[at] = state.samples;
+    std::copy(state.sums.begin(), state.sums.end(), &sums_[at * kTileValues]);
+    if (desc_.secondMoments) std::copy(state.squares.begin(), state.squares.end(), &squares_[at * kTileValues]);
+    if (!state.open.empty()) std::copy(state.open.begin(), state.open.end(), &open_[at * kTileValues]);
+}
+
 Image Film::resolve() const {
     Image image(desc_.width, desc_.height);
     forEachPixel(*this, image, [&](std::uint32_t tile, std::size_t index, float* pixel) {

@@ -65,6 +65,18 @@ class Film {
     // reserveOpenBlocks(). Throws std::logic_error when the block does not continue what the tile has.
     void commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& block);
 
+    // What a tile and replicate hold: kTilePixels * 3 values each, laid out as in TileBlock.
+    struct TileState {
+        std::uint32_t samples = 0;
+        std::span<const double> sums;     // of all closed blocks
+        std::span<const double> squares;  // of (block sum)^2 / kBlock; empty without second moments
+        std::span<const float> open;      // the open block; empty unless there is one
+    };
+    // For engines that keep the film elsewhere and copy it. assign() replaces the state; an open block needs
+    // reserveOpenBlocks().
+    TileState state(std::uint32_t tile, std::uint32_t replicate) const;
+    void assign(std::uint32_t tile, std::uint32_t replicate, const TileState& state);
+
     // Mean radiance: sum over all replicates / true count; pixels without samples are black.
     Image resolve() const;
     // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for
