@@ -6,6 +6,19 @@ namespace rt {
 
 namespace fs = std::filesystem;
 
+fs::path userCacheFolder() {
+#if defined(_WIN32)
+    constexpr const char* kVariables[][2] = {{"LOCALAPPDATA", "ray-tracing/cache"}};
+#elif defined(__APPLE__)
+    constexpr const char* kVariables[][2] = {{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", "Library/Caches/ray-tracing"}};
+#else
+    constexpr const char* kVariables[][2] = {{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", ".cache/ray-tracing"}};
+#endif
+    for (const auto& [variable, folder] : kVariables)
+        if (const char* value = std::getenv(variable); value && *value) return fs::path(value) / folder;
+    return {};
+}
+
 std::vector<fs::path> assetFolders() {
     std::vector<fs::path> candidates;
     if (const char* chosen = std::getenv("RT_ASSETS"); chosen && *chosen) candidates.emplace_back(chosen);

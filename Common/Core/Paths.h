@@ -9,6 +9,9 @@ namespace rt {
 // Absolute path of the running program; empty where the platform does not tell.
 std::filesystem::path executablePath();
 
+// $XDG_CACHE_HOME/ray-tracing or the platform's place for what can be made again; empty when the environment names none.
+std::filesystem::path userCacheFolder();
+
 // Folders searched for assets, in order: $RT_ASSETS, the Assets folder of the source tree that the program was built
 // in, the install place. Only folders that exist.
 std::vector<std::filesystem::path> assetFolders();

@@ -1,0 +1,174 @@
+#include "Common/Vulkan/DeviceSelection.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+#include "Common/Vulkan/Check.h"
+
+namespace rt::vulkan {
+namespace {
+
+std::string versionText(std::uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+void addMissing(std::string& list, const std::string& what) {
+    list += (list.empty() ? "" : ", ") + what;
+}
+
+// Names of the required extensions that the device lacks.
+std::string missingExtensions(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "Listing a device's extensions");
+    std::vector<VkExtensionProperties> extensions(count);
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
+          "Listing a device's extensions");
+    std::string missing;
+    for (const char* required : requiredExtensions()) {
+        const bool found = std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+            return std::strcmp(extension.extensionName, required) == 0;
+        });
+        if (!found) addMissing(missing, required);
+    }
+    return missing;
+}
+
+std::string missingFeatures(VkPhysicalDevice device) {
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
+    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &structure};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    std::string missing;
+    if (pipeline.rayTracingPipeline == VK_FALSE) addMissing(missing, "feature rayTracingPipeline");
+    if (structure.accelerationStructure == VK_FALSE) addMissing(missing, "feature accelerationStructure");
+    if (core.bufferDeviceAddress == VK_FALSE) addMissing(missing, "feature bufferDeviceAddress");
+    if (core.scalarBlockLayout == VK_FALSE) addMissing(missing, "feature scalarBlockLayout");
+    return missing;
+}
+
+std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice device) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    std::optional<std::uint32_t> best;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        // A queue that can draw as well serves a window too.
+        if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) continue;
+        if (!best || (families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) best = i;
+        if ((families[*best].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) break;
+    }
+    return best;
+}
+
+DeviceInfo describe(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    DeviceInfo info;
+    info.device = device;
+    info.name = properties.properties.deviceName;
+    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.version = versionText(properties.properties.apiVersion);
+    info.type = properties.properties.deviceType;
+    if (properties.properties.apiVersion < kApiVersion) {
+        info.missing = "Vulkan " + versionText(kApiVersion);
+        return info;
+    }
+    info.missing = missingExtensions(device);
+    if (info.missing.empty()) info.missing = missingFeatures(device);
+    const std::optional<std::uint32_t> family = findQueueFamily(device);
+    if (!family) addMissing(info.missing, "a compute queue");
+    info.queueFamily = family.value_or(0);
+    return info;
+}
+
+int rank(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
+        default: return 0;
+    }
+}
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const std::string& request) {
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(request.data(), request.data() + request.size(), index);
+    if (error == std::errc() && end == request.data() + request.size()) {
+        return index < devices.size() ? &devices[index] : nullptr;
+    }
+    const DeviceInfo* found = nullptr;
+    for (const DeviceInfo& device : devices) {
+        if (lowerCase(device.name).find(lowerCase(request)) == std::string::npos) continue;
+        if (found == nullptr || (device.suitable() && !found->suitable())) found = &device;
+    }
+    return found;
+}
+
+}  // namespace
+
+const std::vector<const char*>& requiredExtensions() {
+    static const std::vector<const char*> extensions{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
+                                                     VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                                     VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
+    return extensions;
+}
+
+std::vector<DeviceInfo> findDevices(const Instance& instance) {
+    std::uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(instance.get(), &count, nullptr), "Listing Vulkan devices");
+    std::vector<VkPhysicalDevice> handles(count);
+    check(vkEnumeratePhysicalDevices(instance.get(), &count, handles.data()), "Listing Vulkan devices");
+    std::vector<DeviceInfo> devices;
+    for (VkPhysicalDevice handle : handles) devices.push_back(describe(handle));
+    return devices;
+}
+
+std::string describeDevices(const std::vector<DeviceInfo>& devices) {
+    if (devices.empty()) return "no Vulkan device\n";
+    std::string text;
+    for (std::size_t i = 0; i < devices.size(); ++i) {
+        const DeviceInfo& device = devices[i];
+        text += std::to_string(i) + ": " + device.name + " (" + device.driver + ", Vulkan " + device.version + "): ";
+        text += device.suitable() ? "suitable\n" : "unsuitable, lacks " + device.missing + "\n";
+    }
+    return text;
+}
+
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request) {
+    const DeviceInfo* chosen = nullptr;
+    if (!request.empty()) {
+        chosen = findRequested(devices, request);
+        if (chosen == nullptr) {
+            throw NoDeviceError("no Vulkan device matches '" + request + "'; --list-devices shows what there is");
+        }
+        if (!chosen->suitable()) throw NoDeviceError(chosen->name + " cannot trace rays: it lacks " + chosen->missing);
+        return *chosen;
+    }
+    for (const DeviceInfo& device : devices) {
+        if (device.suitable() && (chosen == nullptr || rank(device.type) > rank(chosen->type))) chosen = &device;
+    }
+    if (chosen == nullptr) {
+        std::string found = devices.empty() ? "there is no Vulkan device" : "";
+        for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + device.missing);
+        throw NoDeviceError("no Vulkan device can trace rays: " + found +
+                            "; a newer driver may help (Mesa's software driver: 25.0 or newer)");
+    }
+    return *chosen;
+}
+
+}  // namespace rt::vulkan

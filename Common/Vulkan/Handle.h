@@ -1,0 +1,41 @@
+// Ownership of one Vulkan object.
+#pragma once
+#include <utility>
+
+#include <vulkan/vulkan.h>
+
+namespace rt::vulkan {
+
+// Destroys the object with its device's function, unless empty.
+template <class T>
+class Handle {
+  public:
+    using Destroy = void(VKAPI_PTR*)(VkDevice, T, const VkAllocationCallbacks*);
+
+    Handle() = default;
+    Handle(VkDevice device, T object, Destroy destroy) : device_(device), object_(object), destroy_(destroy) {}
+    Handle(Handle&& other) noexcept { swap(other); }
+    Handle& operator=(Handle&& other) noexcept {
+        Handle(std::move(other)).swap(*this);
+        return *this;
+    }
+    ~Handle() {
+        if (object_ != T{}) destroy_(device_, object_, nullptr);
+    }
+
+    T get() const { return object_; }
+    explicit operator bool() const { return object_ != T{}; }
+
+  private:
+    void swap(Handle& other) noexcept {
+        std::swap(device_, other.device_);
+        std::swap(object_, other.object_);
+        std::swap(destroy_, other.destroy_);
+    }
+
+    VkDevice device_ = VK_NULL_HANDLE;
+    T object_ = T{};
+    Destroy destroy_ = nullptr;
+};
+
+}  // namespace rt::vulkan

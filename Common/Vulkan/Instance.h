@@ -1,0 +1,30 @@
+// The Vulkan instance and, with validation, the counter of its messages.
+#pragma once
+#include <atomic>
+#include <cstdint>
+
+#include <vulkan/vulkan.h>
+
+namespace rt::vulkan {
+
+inline constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_2;
+
+class Instance {
+  public:
+    // With validation the Khronos validation layer checks every call, synchronization included; its messages are logged and
+    // counted. Throws NoDeviceError where there is no driver at all, RenderError where the layer is not installed.
+    explicit Instance(bool validation);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    VkInstance get() const { return instance_; }
+    std::uint64_t validationMessages() const { return messages_.load(std::memory_order_relaxed); }
+
+  private:
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    std::atomic<std::uint64_t> messages_{0};
+};
+
+}  // namespace rt::vulkan

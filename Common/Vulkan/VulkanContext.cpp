@@ -1,0 +1,194 @@
+#include "Common/Vulkan/VulkanContext.h"
+
+#include <array>
+#include <chrono>
+#include <cstring>
+#include <limits>
+
+#include "Common/Vulkan/Check.h"
+
+namespace rt::vulkan {
+namespace {
+
+constexpr std::uint32_t kBegin = 0; // the two timestamps of runTimed
+constexpr std::uint32_t kEnd = 1;
+
+template <class Function>
+void load(VkDevice device, const char* name, Function& function) {
+    function = reinterpret_cast<Function>(vkGetDeviceProcAddr(device, name));
+    if (function == nullptr) throw RenderError(std::string("the Vulkan driver lacks the function ") + name);
+}
+
+}  // namespace
+
+VulkanContext::VulkanContext(const ContextOptions& options)
+    : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device)) {
+    vkGetPhysicalDeviceMemoryProperties(info_.device, &memory_);
+    queryLimits();
+    createDevice();
+    try {
+        loadFunctions();
+        VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+        pool.queueFamilyIndex = info_.queueFamily;
+        VkCommandPool commandPool = VK_NULL_HANDLE;
+        check(vkCreateCommandPool(device_, &pool, nullptr, &commandPool), "Creating a command pool");
+        commandPool_ = {device_, commandPool, vkDestroyCommandPool};
+
+        VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        buffer.commandPool = commandPool;
+        buffer.commandBufferCount = 1;
+        check(vkAllocateCommandBuffers(device_, &buffer, &commands_), "Creating a command buffer");
+
+        const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        VkFence fence = VK_NULL_HANDLE;
+        check(vkCreateFence(device_, &fenceInfo, nullptr, &fence), "Creating a fence");
+        fence_ = {device_, fence, vkDestroyFence};
+
+        VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+        queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+        queries.queryCount = 2;
+        VkQueryPool queryPool = VK_NULL_HANDLE;
+        check(vkCreateQueryPool(device_, &queries, nullptr, &queryPool), "Creating timestamps");
+        timestamps_ = {device_, queryPool, vkDestroyQueryPool};
+    } catch (...) {
+        timestamps_ = {};
+        fence_ = {};
+        commandPool_ = {};
+        vkDestroyDevice(device_, nullptr);
+        throw;
+    }
+}
+
+VulkanContext::~VulkanContext() {
+    vkDeviceWaitIdle(device_);
+    timestamps_ = {};
+    fence_ = {};
+    commandPool_ = {};
+    vkDestroyDevice(device_, nullptr);
+}
+
+void VulkanContext::createDevice() {
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    pipeline.rayTracingPipeline = VK_TRUE;
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
+    structure.accelerationStructure = VK_TRUE;
+    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &structure};
+    core.bufferDeviceAddress = VK_TRUE;
+    core.scalarBlockLayout = VK_TRUE;
+    const VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
+
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = info_.queueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(requiredExtensions().size());
+    info.ppEnabledExtensionNames = requiredExtensions().data();
+    check(vkCreateDevice(info_.device, &info, nullptr, &device_), "Opening " + info_.name);
+    vkGetDeviceQueue(device_, info_.queueFamily, 0, &queue_);
+}
+
+void VulkanContext::loadFunctions() {
+    RayTracingFunctions& f = rayTracing_;
+    load(device_, "vkCreateAccelerationStructureKHR", f.createAccelerationStructure);
+    load(device_, "vkDestroyAccelerationStructureKHR", f.destroyAccelerationStructure);
+    load(device_, "vkGetAccelerationStructureBuildSizesKHR", f.getBuildSizes);
+    load(device_, "vkGetAccelerationStructureDeviceAddressKHR", f.getAccelerationStructureAddress);
+    load(device_, "vkCmdBuildAccelerationStructuresKHR", f.cmdBuild);
+    load(device_, "vkCmdCopyAccelerationStructureKHR", f.cmdCopy);
+    load(device_, "vkCmdWriteAccelerationStructuresPropertiesKHR", f.cmdWriteProperties);
+    load(device_, "vkCreateRayTracingPipelinesKHR", f.createPipelines);
+    load(device_, "vkGetRayTracingShaderGroupHandlesKHR", f.getGroupHandles);
+    load(device_, "vkCmdTraceRaysKHR", f.cmdTraceRays);
+}
+
+void VulkanContext::queryLimits() {
+    VkPhysicalDeviceAccelerationStructurePropertiesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
+    VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pipeline};
+    vkGetPhysicalDeviceProperties2(info_.device, &properties);
+    limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
+    limits_.groupHandleAlignment = pipeline.shaderGroupHandleAlignment;
+    limits_.groupBaseAlignment = pipeline.shaderGroupBaseAlignment;
+    limits_.maxInvocations = pipeline.maxRayDispatchInvocationCount;
+    limits_.scratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
+    limits_.maxPrimitives = structure.maxPrimitiveCount;
+    limits_.maxInstances = structure.maxInstanceCount;
+    std::memcpy(limits_.pipelineCacheId, properties.properties.pipelineCacheUUID, VK_UUID_SIZE);
+
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(info_.device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(info_.device, &count, families.data());
+    const std::uint32_t bits = families[info_.queueFamily].timestampValidBits;
+    if (bits > 0) limits_.timestampSeconds = properties.properties.limits.timestampPeriod * 1e-9;
+    limits_.timestampMask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
+}
+
+void VulkanContext::run(const std::function<void(VkCommandBuffer)>& record) {
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
+    record(commands_);
+    check(vkEndCommandBuffer(commands_), "Recording commands");
+
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    const VkFence fence = fence_.get();
+    check(vkQueueSubmit(queue_, 1, &submit, fence), "Running on " + info_.name);
+    check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+          "Running on " + info_.name);
+    check(vkResetFences(device_, 1, &fence), "Running on " + info_.name);
+}
+
+double VulkanContext::runTimed(const std::function<void(VkCommandBuffer)>& record) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const bool clock = limits_.timestampSeconds > 0;
+    const VkQueryPool pool = timestamps_.get();
+    run([&](VkCommandBuffer commands) {
+        if (clock) {
+            vkCmdResetQueryPool(commands, pool, 0, 2);
+            vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, pool, kBegin);
+        }
+        record(commands);
+        if (clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, kEnd);
+    });
+    if (!clock) return std::chrono::duration<double>(Clock::now() - start).count();
+    std::array<std::uint64_t, 2> ticks{};
+    check(vkGetQueryPoolResults(device_, pool, 0, 2, sizeof ticks, ticks.data(), sizeof ticks[0],
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "Reading timestamps");
+    return static_cast<double>((ticks[kEnd] - ticks[kBegin]) & limits_.timestampMask) * limits_.timestampSeconds;
+}
+
+std::uint32_t VulkanContext::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                                        VkMemoryPropertyFlags preferred) const {
+    for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+            const bool isAllowed = (allowed >> i & 1u) != 0;
+            if (isAllowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+        }
+    }
+    throw RenderError(info_.name + " has no memory of the kind that is needed");
+}
+
+void barrier(VkCommandBuffer commands) {
+    VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    memory.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    memory.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0, nullptr, 0,
+                         nullptr);
+}
+
+}  // namespace rt::vulkan

@@ -1,0 +1,98 @@
+// One device with one queue, and all that is known about it: enough for headless rendering.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "Common/Vulkan/DeviceSelection.h"
+#include "Common/Vulkan/Handle.h"
+#include "Common/Vulkan/Instance.h"
+
+namespace rt::vulkan {
+
+struct ContextOptions {
+    std::string device; // index or part of a name; empty: the best
+    bool validation = false;
+};
+
+// Entry points of the extensions, which the loader does not export.
+struct RayTracingFunctions {
+    PFN_vkCreateAccelerationStructureKHR createAccelerationStructure = nullptr;
+    PFN_vkDestroyAccelerationStructureKHR destroyAccelerationStructure = nullptr;
+    PFN_vkGetAccelerationStructureBuildSizesKHR getBuildSizes = nullptr;
+    PFN_vkGetAccelerationStructureDeviceAddressKHR getAccelerationStructureAddress = nullptr;
+    PFN_vkCmdBuildAccelerationStructuresKHR cmdBuild = nullptr;
+    PFN_vkCmdCopyAccelerationStructureKHR cmdCopy = nullptr;
+    PFN_vkCmdWriteAccelerationStructuresPropertiesKHR cmdWriteProperties = nullptr;
+    PFN_vkCreateRayTracingPipelinesKHR createPipelines = nullptr;
+    PFN_vkGetRayTracingShaderGroupHandlesKHR getGroupHandles = nullptr;
+    PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
+};
+
+// What a device allows and prescribes; nothing is assumed.
+struct DeviceLimits {
+    std::uint32_t groupHandleSize = 0;      // bytes, of a shader binding table's entries
+    std::uint32_t groupHandleAlignment = 0;
+    std::uint32_t groupBaseAlignment = 0;
+    std::uint32_t maxInvocations = 0;       // of one launch of rays
+    std::uint32_t scratchAlignment = 0;     // bytes, of acceleration structure builds
+    std::uint64_t maxPrimitives = 0;        // of one acceleration structure
+    std::uint64_t maxInstances = 0;
+    double timestampSeconds = 0;            // of one tick; 0: the queue has no timestamps
+    std::uint64_t timestampMask = 0;
+    std::uint8_t pipelineCacheId[VK_UUID_SIZE] = {};
+};
+
+// Not thread-safe. Must outlive everything that is made with it.
+class VulkanContext {
+  public:
+    // Throws NoDeviceError or RenderError.
+    explicit VulkanContext(const ContextOptions& options);
+    ~VulkanContext();
+    VulkanContext(const VulkanContext&) = delete;
+    VulkanContext& operator=(const VulkanContext&) = delete;
+
+    VkDevice device() const { return device_; }
+    const DeviceInfo& info() const { return info_; }
+    const DeviceLimits& limits() const { return limits_; }
+    const RayTracingFunctions& rayTracing() const { return rayTracing_; }
+    std::uint64_t validationMessages() const { return instance_.validationMessages(); }
+
+    // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError.
+    void run(const std::function<void(VkCommandBuffer)>& record);
+    // The same, and returns how long the device took for it in seconds: by its own clock if it has one.
+    double runTimed(const std::function<void(VkCommandBuffer)>& record);
+
+    // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
+    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+
+    // Bytes of device memory that buffers hold at present; buffers count themselves.
+    std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
+
+  private:
+    void createDevice();
+    void loadFunctions();
+    void queryLimits();
+
+    Instance instance_;
+    DeviceInfo info_;
+    DeviceLimits limits_;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+    RayTracingFunctions rayTracing_;
+    Handle<VkCommandPool> commandPool_;
+    Handle<VkFence> fence_;
+    Handle<VkQueryPool> timestamps_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    std::atomic<std::uint64_t> deviceBytes_{0};
+};
+
+// Makes everything that the commands before wrote visible to the commands behind and to the host:
+// nothing of ours overlaps anyway.
+void barrier(VkCommandBuffer commands);
+
+}  // namespace rt::vulkan

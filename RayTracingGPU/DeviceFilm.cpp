@@ -1,0 +1,208 @@
+#include "RayTracingGPU/DeviceFilm.h"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "Common/Vulkan/Check.h"
+#include "RayTracingGPU/RtPipeline.h"
+
+namespace rt::gpu {
+namespace {
+
+using image::Film;
+using shared::FilmSum;
+using shared::kTilePixels;
+using shared::vec3;
+
+static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && Film::kTilePixels == kTilePixels);
+
+constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
+constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
+
+// Exact for what toDouble() returned.
+FilmSum toPair(const double* values) {
+    FilmSum sum;
+    for (int c = 0; c < 3; ++c) {
+        sum.high[c] = static_cast<float>(values[c]);
+        sum.low[c] = static_cast<float>(values[c] - static_cast<double>(sum.high[c]));
+    }
+    return sum;
+}
+
+void toDouble(const FilmSum& sum, double* values) {
+    for (int c = 0; c < 3; ++c) values[c] = static_cast<double>(sum.high[c]) + static_cast<double>(sum.low[c]);
+}
+
+void appendPairs(std::span<const double> values, std::vector<FilmSum>& pairs) {
+    for (std::size_t i = 0; i < values.size(); i += 3) pairs.push_back(toPair(&values[i]));
+}
+
+void appendTriples(std::span<const float> values, std::vector<vec3>& triples) {
+    for (std::size_t i = 0; i < kTileValues; i += 3) {
+        triples.push_back(values.empty() ? vec3(0.0f) : vec3(values[i], values[i + 1], values[i + 2]));
+    }
+}
+
+std::span<const double> toDoubles(const FilmSum* sums, std::vector<double>& values) {
+    values.resize(kTileValues);
+    for (std::size_t i = 0; i < kTilePixels; ++i) toDouble(sums[i], &values[3 * i]);
+    return values;
+}
+
+}  // namespace
+
+DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles)
+    : context_(context),
+      desc_(desc),
+      tilesX_((desc.width + shared::kTile - 1) / shared::kTile),
+      capacity_(tiles * desc.replicates) {
+    const VkDeviceSize pixels = VkDeviceSize{capacity_} * kTilePixels;
+    const auto make = [&](VkDeviceSize bytes) {
+        return vulkan::Buffer(context, bytes, 0, vulkan::Memory::Device, "the film");
+    };
+    samplesBuffer_ = make(VkDeviceSize{capacity_} * sizeof(std::uint32_t));
+    sums_ = make(pixels * sizeof(FilmSum));
+    if (desc.secondMoments) squares_ = make(pixels * sizeof(FilmSum));
+}
+
+void DeviceFilm::reserveOpenBlocks() {
+    if (open_) return;
+    const VkDeviceSize bytes = VkDeviceSize{capacity_} * kTilePixels * sizeof(vec3);
+    open_ = vulkan::Buffer(context_, bytes, 0, vulkan::Memory::Device, "the film");
+}
+
+void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
+    firstTile_ = firstTile;
+    const std::uint32_t tiles = std::min(capacity_ / desc_.replicates, film.tileCount() - firstTile);
+    samples_.assign(std::size_t{tiles} * desc_.replicates, 0);
+    std::vector<FilmSum> sums;
+    std::vector<FilmSum> squares;
+    std::vector<vec3> open;
+    bool anyOpen = false;
+    for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
+        const Film::TileState state = film.state(firstTile + slot / desc_.replicates, slot % desc_.replicates);
+        samples_[slot] = state.samples;
+        anyOpen = anyOpen || !state.open.empty();
+        appendPairs(state.sums, sums);
+        appendPairs(state.squares, squares);
+        appendTriples(state.open, open);
+        if ((slot + 1) % kChunk != 0 && slot + 1 != slotCount()) continue;
+        const VkDeviceSize firstPixel = VkDeviceSize{slot / kChunk * kChunk} * kTilePixels;
+        vulkan::upload(context_, sums_, std::as_bytes(std::span(sums)), firstPixel * sizeof(FilmSum));
+        vulkan::upload(context_, squares_, std::as_bytes(std::span(squares)), firstPixel * sizeof(FilmSum));
+        if (anyOpen) {
+            reserveOpenBlocks();
+            vulkan::upload(context_, open_, std::as_bytes(std::span(open)), firstPixel * sizeof(vec3));
+        }
+        sums.clear();
+        squares.clear();
+        open.clear();
+    }
+    vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(samples_)));
+}
+
+void DeviceFilm::store(Film& film) const {
+    std::vector<FilmSum> sums;
+    std::vector<FilmSum> squares;
+    std::vector<vec3> open;
+    std::vector<double> sumValues;
+    std::vector<double> squareValues;
+    if (open_) film.reserveOpenBlocks();
+    for (std::uint32_t first = 0; first < slotCount(); first += kChunk) {
+        const std::uint32_t count = std::min(kChunk, slotCount() - first);
+        const VkDeviceSize firstPixel = VkDeviceSize{first} * kTilePixels;
+        const auto fetch = [&](const vulkan::Buffer& from, auto& values) {
+            if (!from) return;
+            values.resize(std::size_t{count} * kTilePixels);
+            vulkan::download(context_, from, std::as_writable_bytes(std::span(values)), firstPixel * sizeof values[0]);
+        };
+        fetch(sums_, sums);
+        fetch(squares_, squares);
+        fetch(open_, open);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::size_t pixel = std::size_t{i} * kTilePixels;
+            Film::TileState state;
+            state.samples = samples_[first + i];
+            state.sums = toDoubles(&sums[pixel], sumValues);
+            if (squares_) state.squares = toDoubles(&squares[pixel], squareValues);
+            if (state.samples % Film::kBlock != 0) state.open = {&open[pixel].x, kTileValues};
+            const std::uint32_t slot = first + i;
+            film.assign(firstTile_ + slot / desc_.replicates, slot % desc_.replicates, state);
+        }
+    }
+}
+
+void DeviceFilm::describe(shared::FilmLaunch& launch) const {
+    launch.samples = samplesBuffer_.address();
+    launch.sums = sums_.address();
+    launch.squares = squares_.address();
+    launch.open = open_.address();
+    launch.firstTile = firstTile_;
+    launch.tilesX = tilesX_;
+    launch.replicates = desc_.replicates;
+    launch.keepSquares = squares_ ? 1u : 0u;
+}
+
+std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
+    const std::uint32_t tile = firstTile_ + slot / desc_.replicates;
+    return std::min(shared::kTile, desc_.width - tile % tilesX_ * shared::kTile) *
+           std::min(shared::kTile, desc_.height - tile / tilesX_ * shared::kTile);
+}
+
+std::uint64_t DeviceFilm::leastSamples() const {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    for (std::size_t tile = 0; tile < samples_.size(); tile += desc_.replicates) {
+        std::uint64_t samples = 0;
+        for (std::uint32_t r = 0; r < desc_.replicates; ++r) samples += samples_[tile + r];
+        least = std::min(least, samples);
+    }
+    return least;
+}
+
+std::uint64_t DeviceFilm::advance(const shared::FilmLaunch& launch) {
+    std::uint64_t added = 0;
+    for (std::uint32_t slot = launch.firstSlot; slot < launch.firstSlot + launch.slotCount; ++slot) {
+        const std::uint32_t end = shared::replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
+        const std::uint32_t reached = shared::blockRange(samples_[slot], launch.blocks - 1, end).y;
+        if (reached <= samples_[slot]) continue;
+        added += std::uint64_t{reached - samples_[slot]} * pixelsInside(slot);
+        samples_[slot] = reached;
+    }
+    return added;
+}
+
+// ---- reduction -------------------------------------------------------------------------------------------------------
+
+FilmReducer::FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache) {
+    const VkDevice device = context.device();
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shared::FilmLaunch)};
+    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layoutInfo.pushConstantRangeCount = 1;
+    layoutInfo.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    vulkan::check(vkCreatePipelineLayout(device, &layoutInfo, nullptr, &layout), "Creating the film's pipeline");
+    layout_ = {device, layout, vkDestroyPipelineLayout};
+
+    const vulkan::Handle<VkShaderModule> module = makeShaderModule(device, Shader::FilmReduce);
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module.get();
+    info.stage.pName = "main";
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vulkan::check(vkCreateComputePipelines(device, cache.get(), 1, &info, nullptr, &pipeline),
+                  "Creating the film's pipeline");
+    pipeline_ = {device, pipeline, vkDestroyPipeline};
+}
+
+void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const {
+    constexpr std::uint32_t kMaxGroups = 65535; // per dimension, the least that Vulkan guarantees
+    const std::uint32_t columns = std::min(launch.slotCount, kMaxGroups);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
+    vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
+    vkCmdDispatch(commands, columns, (launch.slotCount + columns - 1) / columns, 1);
+}
+
+}  // namespace rt::gpu

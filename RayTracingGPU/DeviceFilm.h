@@ -1,0 +1,60 @@
+// The part of a film that is on the device: the sums of consecutive tiles.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "Common/Image/Film.h"
+#include "Common/Vulkan/PipelineCache.h"
+#include "Common/Vulkan/VulkanResources.h"
+#include "Shaders/Records.h"
+
+namespace rt::gpu {
+
+// A slot is a tile in one replicate; slots are counted from the first tile here.
+class DeviceFilm {
+  public:
+    // Room for `tiles` tiles of such a film, not initialised: load() comes first.
+    DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles);
+
+    // Replaces the contents by the film's from tile `firstTile` on.
+    void load(const image::Film& film, std::uint32_t firstTile);
+    // Copies the contents into the film.
+    void store(image::Film& film) const;
+    // Makes room for blocks that stay open.
+    void reserveOpenBlocks();
+
+    std::uint32_t firstTile() const { return firstTile_; }
+    std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
+    std::uint64_t leastSamples() const; // of any pixel, all replicates
+    // Fills in what a launch needs to know of the film.
+    void describe(shared::FilmLaunch& launch) const;
+    // To be called after a launch: what it added, in samples of pixels inside of the image.
+    std::uint64_t advance(const shared::FilmLaunch& launch);
+
+  private:
+    std::uint32_t pixelsInside(std::uint32_t slot) const;
+
+    vulkan::VulkanContext& context_;
+    image::FilmDesc desc_;
+    std::uint32_t tilesX_;
+    std::uint32_t firstTile_ = 0;
+    std::uint32_t capacity_; // slots
+    std::vector<std::uint32_t> samples_; // per slot, as on the device
+    vulkan::Buffer samplesBuffer_;
+    vulkan::Buffer sums_;
+    vulkan::Buffer squares_; // empty without second moments
+    vulkan::Buffer open_;    // empty until reserved
+};
+
+// The compute pipeline that adds the block sums of a launch to the film.
+class FilmReducer {
+  public:
+    FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
+    void reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const;
+
+  private:
+    vulkan::Handle<VkPipelineLayout> layout_;
+    vulkan::Handle<VkPipeline> pipeline_;
+};
+
+}  // namespace rt::gpu

@@ -1,0 +1,36 @@
+#include "RayTracingGPU/EmbeddedShaders.h"
+
+namespace {
+
+using std::uint32_t; // the generated headers say uint32_t
+
+#include "Aov.rgen.h"
+#include "FilmReduce.comp.h"
+#include "RayTracing.Procedural.rchit.h"
+#include "RayTracing.Procedural.rint.h"
+#include "RayTracing.Quad.rchit.h"
+#include "RayTracing.rchit.h"
+#include "RayTracing.rgen.h"
+#include "RayTracing.rmiss.h"
+#include "Shadow.rmiss.h"
+
+}  // namespace
+
+namespace rt::gpu {
+
+std::span<const std::uint32_t> shaderCode(Shader shader) {
+    switch (shader) {
+        case Shader::RayGeneration: return RayTracing_rgen;
+        case Shader::AovGeneration: return Aov_rgen;
+        case Shader::Miss: return RayTracing_rmiss;
+        case Shader::ShadowMiss: return Shadow_rmiss;
+        case Shader::TriangleHit: return RayTracing_rchit;
+        case Shader::QuadHit: return RayTracing_Quad_rchit;
+        case Shader::SphereHit: return RayTracing_Procedural_rchit;
+        case Shader::SphereIntersection: return RayTracing_Procedural_rint;
+        case Shader::FilmReduce: return FilmReduce_comp;
+    }
+    return {};
+}
+
+}  // namespace rt::gpu

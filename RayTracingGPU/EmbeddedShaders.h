@@ -1,0 +1,23 @@
+// The compiled shaders, which are part of the program.
+#pragma once
+#include <cstdint>
+#include <span>
+
+namespace rt::gpu {
+
+enum class Shader {
+    RayGeneration,
+    AovGeneration,
+    Miss,
+    ShadowMiss,
+    TriangleHit,
+    QuadHit,
+    SphereHit,
+    SphereIntersection,
+    FilmReduce,
+};
+
+// SPIR-V words, living as long as the program.
+std::span<const std::uint32_t> shaderCode(Shader shader);
+
+}  // namespace rt::gpu

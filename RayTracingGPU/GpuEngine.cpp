@@ -1,0 +1,304 @@
+#include "RayTracingGPU/GpuEngine.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "Common/App/RenderParams.h"
+#include "Common/Core/Error.h"
+#include "Common/Scene/CameraRecord.h"
+#include "Common/Shared/Features.h"
+#include "Common/Vulkan/PipelineCache.h"
+#include "RayTracingGPU/AovPass.h"
+#include "RayTracingGPU/DeviceFilm.h"
+#include "RayTracingGPU/GpuScene.h"
+#include "RayTracingGPU/Launches.h"
+#include "RayTracingGPU/RtPipeline.h"
+
+namespace rt::gpu {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using image::Film;
+using vulkan::Memory;
+
+constexpr std::uint32_t kInvocations = 1u << 18;    // that share the work of a launch; fills the largest devices
+constexpr std::uint32_t kRegionSlots = 1u << 18;    // of the film that are on the device at a time: 4096 x 4096 pixels
+constexpr std::uint64_t kMaxBlockSums = 10'000'000; // of a launch: 120 MB
+constexpr std::uint64_t kRegionRounds = 8;          // per pass where regions take turns, each turn costing two copies
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class GpuEngine final : public app::Engine {
+  public:
+    GpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options)
+        : context_(context),
+          cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
+          bindings_(context, std::max(sizeof(shared::FilmLaunch), sizeof(shared::AovLaunch))),
+          reducer_(context, cache_),
+          constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
+                     "constants"),
+          counters_(context, kCounterBytes, 0, Memory::Device, "counters"),
+          countersOnHost_(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
+
+    bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
+        auto prepared = std::make_unique<GpuScene>(context_, std::move(compiled));
+        if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return false;
+        scene_ = std::move(prepared);
+        return true;
+    }
+
+    void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override;
+    void restore(Film film) override { setFilm(std::move(film)); }
+    app::RenderStatus renderSome(const app::Budget& budget) override;
+    const Film& film() override;
+    app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
+    app::EngineReport report() const override;
+
+  private:
+    static constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
+
+    void setFilm(Film film);
+    void uploadConstants(const scene::CameraDesc& camera);
+    bool beginPass(double seconds);
+    void launchNext(double seconds);
+    void run(const shared::FilmLaunch& launch);
+    bool nextRegion();
+    void refresh();
+
+    std::uint64_t pixels() const { return std::uint64_t{settings_.width} * settings_.height; }
+    bool isOneRegion() const { return region_->slotCount() == film_.tileCount() * settings_.replicates; }
+
+    vulkan::VulkanContext& context_;
+    vulkan::PipelineCache cache_;
+    RenderBindings bindings_;
+    FilmReducer reducer_;
+    vulkan::Buffer constants_;
+    vulkan::Buffer counters_;
+    vulkan::Buffer countersOnHost_;
+    vulkan::Buffer blockSums_;
+
+    std::unique_ptr<GpuScene> scene_;
+    app::RenderSettings settings_;
+    shared::RenderParams params_{};
+    std::uint32_t features_ = 0;
+    std::optional<RtPipeline> pipeline_;
+
+    Film film_;                          // the whole film, on the host
+    std::unique_ptr<DeviceFilm> region_; // the part that is being rendered: all of it unless it is large
+    bool dirty_ = false;                 // region_ is ahead of film_
+    bool failed_ = false;                // the device did: nothing can be read from it any more
+    Clock::time_point refreshed_;
+    std::uint64_t samplesDone_ = 0;
+    bool inPass_ = false;
+    std::uint32_t passEnd_ = 0;   // samples per pixel that the pass in progress leads to
+    std::uint32_t passRounds_ = 0; // blocks of each slot that it takes
+    std::uint32_t nextSlot_ = 0;  // of the region: the first that the pass has not launched
+    LaunchSize launchSize_;
+    app::EngineReport report_;
+};
+
+// ---- set-up ----------------------------------------------------------------------------------------------------------
+
+void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
+    features_ = scene_->compiled().features & ~shared::kFeatureThinLens;
+    if (camera.defocusAngle > 0) features_ |= shared::kFeatureThinLens;
+    if (settings.features) features_ |= *settings.features;
+    if (shared::has(features_, shared::kFeatureMovingSpheres)) scene_->provideMotion(context_);
+    settings_ = settings;
+    params_ = app::makeRenderParams(settings);
+    setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
+    uploadConstants(camera);
+    bindings_.update(scene_->accel().topLevel(), constants_);
+
+    const PipelineDecisions decisions = makeDecisions(features_, params_);
+    if (!pipeline_ || pipeline_->decisions() != decisions) {
+        const Clock::time_point start = Clock::now();
+        pipeline_.emplace(context_, cache_, bindings_, decisions, Shader::RayGeneration);
+        cache_.save();
+        report_.pipelineSeconds = secondsSince(start);
+    }
+    launchSize_ = {};
+    report_.rays = {};
+    report_.nonfiniteSamples = 0;
+    report_.renderDeviceSeconds = 0;
+}
+
+void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
+    const scene::CompiledScene& s = scene_->compiled();
+    shared::RenderConstants constants;
+    constants.arrays = scene_->arrays();
+    constants.globals = s.globals;
+    constants.params = params_;
+    constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
+    vulkan::upload(context_, constants_, std::as_bytes(std::span(&constants, 1)));
+}
+
+void GpuEngine::setFilm(Film film) {
+    film_ = std::move(film);
+    const std::uint32_t tiles = std::min(film_.tileCount(), std::max(1u, kRegionSlots / settings_.replicates));
+    region_ = nullptr; // its memory may be needed for the next one
+    region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
+    region_->load(film_, 0);
+    samplesDone_ = film_.totalSamples();
+    dirty_ = false;
+    inPass_ = false;
+    refreshed_ = Clock::now();
+}
+
+// ---- rendering -------------------------------------------------------------------------------------------------------
+
+app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
+    const Clock::time_point start = Clock::now();
+    const double seconds = budget.time.count();
+    try {
+        while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
+            if (!inPass_ && !beginPass(seconds)) break;
+            launchNext(seconds);
+            if (secondsSince(start) >= seconds) break;
+        }
+        if (dirty_ && secondsSince(refreshed_) > kRefreshSeconds) refresh();
+    } catch (const RenderError&) {
+        failed_ = true;
+        throw;
+    }
+    app::RenderStatus status;
+    status.samplesTotal = pixels() * settings_.spp;
+    status.samplesDone = samplesDone_;
+    status.finished = samplesDone_ >= status.samplesTotal;
+    return status;
+}
+
+// Opens the next pass, which takes every pixel some rounds further, a round being one block of each replicate: as many as fit
+// in a launch, but at least one. False: all done.
+bool GpuEngine::beginPass(double seconds) {
+    if (samplesDone_ >= pixels() * settings_.spp) return false;
+    if (region_->firstTile() != 0) region_->load(film_, 0);
+    const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
+    const std::uint64_t least = isOneRegion() ? region_->leastSamples() : film_.minSamples();
+    std::uint64_t rounds = kRegionRounds;
+    if (isOneRegion()) {
+        const std::uint64_t fitting = launchSize_.suggest(seconds) / (pixels() * round);
+        const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels);
+        rounds = std::max<std::uint64_t>(1, std::min(fitting, room));
+    }
+    const std::uint64_t end = std::min<std::uint64_t>((least / round + rounds) * round, settings_.spp);
+    passEnd_ = static_cast<std::uint32_t>(end);
+    passRounds_ = static_cast<std::uint32_t>((end + round - 1) / round - least / round);
+    if (end % round != 0) region_->reserveOpenBlocks();
+    nextSlot_ = 0;
+    inPass_ = true;
+    return true;
+}
+
+// Launches the next slots of the pass; behind the last one of the last region the pass is over.
+void GpuEngine::launchNext(double seconds) {
+    const std::uint64_t sums = std::uint64_t{passRounds_} * shared::kTilePixels; // of a slot
+    const std::uint64_t fitting = launchSize_.suggest(seconds) / (sums * shared::kBlock);
+    const std::uint64_t most = std::min<std::uint64_t>(region_->slotCount() - nextSlot_, kMaxBlockSums / sums);
+    shared::FilmLaunch launch{};
+    region_->describe(launch);
+    launch.firstSlot = nextSlot_;
+    launch.slotCount = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, std::max<std::uint64_t>(most, 1)));
+    launch.blocks = passRounds_;
+    launch.spp = passEnd_;
+    run(launch);
+    nextSlot_ += launch.slotCount;
+    if (nextSlot_ == region_->slotCount()) inPass_ = nextRegion();
+}
+
+void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
+    shared::FilmLaunch launch = launchWithoutBuffers;
+    const std::uint32_t items = launch.slotCount * launch.blocks * shared::kTilePixels;
+    const VkDeviceSize bytes = VkDeviceSize{items} * sizeof(shared::vec3);
+    if (blockSums_.bytes() < bytes) {
+        blockSums_ = {};
+        blockSums_ = vulkan::Buffer(context_, bytes, 0, Memory::Device, "a launch");
+    }
+    launch.blockSums = blockSums_.address();
+    launch.counters = counters_.address();
+    const std::uint32_t invocations = std::min({items, kInvocations, context_.limits().maxInvocations});
+    const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
+        vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+        vulkan::barrier(commands);
+        pipeline_->trace(commands, bindings_, launch, invocations, 1);
+        vulkan::barrier(commands);
+        reducer_.reduce(commands, launch);
+        const VkBufferCopy all{0, 0, kCounterBytes};
+        vkCmdCopyBuffer(commands, counters_.get(), countersOnHost_.get(), 1, &all);
+        vulkan::barrier(commands);
+    });
+    dirty_ = true;
+    const std::uint64_t samples = region_->advance(launch);
+    samplesDone_ += samples;
+    launchSize_.measured(samples, seconds);
+
+    report_.renderDeviceSeconds += seconds;
+    report_.rays.camera += samples;
+    const std::span<const std::uint32_t> counters = countersOnHost_.mapped<const std::uint32_t>();
+    for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
+        report_.rays.scattered += counters[line + shared::kCounterScattered];
+        report_.rays.shadow += counters[line + shared::kCounterShadow];
+        report_.nonfiniteSamples += counters[line + shared::kCounterNonfinite];
+    }
+}
+
+// Goes on to the next part of a large film. False: this one was the last.
+bool GpuEngine::nextRegion() {
+    if (isOneRegion()) return false;
+    refresh();
+    const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;
+    if (next >= film_.tileCount()) return false;
+    region_->load(film_, next);
+    nextSlot_ = 0;
+    return true;
+}
+
+void GpuEngine::refresh() {
+    region_->store(film_);
+    dirty_ = false;
+    refreshed_ = Clock::now();
+}
+
+const Film& GpuEngine::film() {
+    if (dirty_ && !failed_) {
+        try {
+            refresh();
+        } catch (const RenderError&) {
+            failed_ = true; // the next call returns what there is
+            throw;
+        }
+    }
+    return film_;
+}
+
+// ---- the rest --------------------------------------------------------------------------------------------------------
+
+app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32_t samples) {
+    const RtPipeline pipeline(context_, cache_, bindings_, makeDecisions(features_, params_), Shader::AovGeneration);
+    cache_.save();
+    return renderAovPass(context_, bindings_, pipeline, settings_.width, settings_.height, request, samples);
+}
+
+app::EngineReport GpuEngine::report() const {
+    app::EngineReport report = report_;
+    report.engine = "pipeline";
+    report.device = context_.info().name;
+    report.features = features_;
+    if (pipeline_) report.kernel = pipeline_->name();
+    if (scene_) report.accelBuildSeconds = scene_->accel().buildSeconds();
+    report.deviceBytes = context_.deviceBytes();
+    return report;
+}
+
+}  // namespace
+
+std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options) {
+    return std::make_unique<GpuEngine>(context, options);
+}
+
+}  // namespace rt::gpu

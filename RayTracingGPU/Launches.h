@@ -1,0 +1,33 @@
+// How much work one launch gets: as much as takes a bounded time, found by measuring.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+
+namespace rt::gpu {
+
+// No watchdog fires and a cancelled render ends soon when launches are short; a device is busy when they are not too short.
+inline constexpr double kLaunchSeconds = 0.04;
+
+class LaunchSize {
+  public:
+    // Samples for a launch of `seconds`, but at most kLaunchSeconds.
+    std::uint64_t suggest(double seconds) {
+        suggested_ = samples_ * std::clamp(seconds / kLaunchSeconds, 0.0, 1.0);
+        return static_cast<std::uint64_t>(std::max(suggested_, 1.0));
+    }
+
+    // A launch of `samples` took `seconds`.
+    void measured(std::uint64_t samples, double seconds) {
+        constexpr double kLargestStep = 4;
+        const double done = static_cast<double>(samples);
+        // What remained of a pass may be too little to tell how fast the device is.
+        if (done < 0.5 * suggested_ && seconds < kLaunchSeconds) return;
+        samples_ = done * std::min(kLaunchSeconds / std::max(seconds, 1e-6), kLargestStep);
+    }
+
+  private:
+    double samples_ = 1 << 14; // that take kLaunchSeconds; at first few, since nothing is known of device and scene
+    double suggested_ = 0;
+};
+
+}  // namespace rt::gpu

@@ -1,0 +1,55 @@
+#include "RayTracingGPU/ShaderTable.h"
+
+#include <cstring>
+#include <span>
+
+#include "Common/Vulkan/Check.h"
+
+namespace rt::gpu {
+namespace {
+
+VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
+    return (value + alignment - 1) / alignment * alignment;
+}
+
+}  // namespace
+
+ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, const ShaderGroups& groups)
+    : cmdTraceRays_(context.rayTracing().cmdTraceRays) {
+    const vulkan::DeviceLimits& limits = context.limits();
+    const VkDeviceSize handleSize = limits.groupHandleSize;
+    const VkDeviceSize base = limits.groupBaseAlignment;
+    const VkDeviceSize stride = roundUp(handleSize, limits.groupHandleAlignment);
+    // The one record of ray generation is as long as its stride and begins at a base address, as do the others' first ones.
+    const VkDeviceSize rayGenerationSize = roundUp(stride, base);
+    const VkDeviceSize missSize = roundUp(stride * groups.miss.size(), base);
+    const VkDeviceSize hitSize = stride * groups.hit.size();
+    const VkDeviceSize size = rayGenerationSize + missSize + hitSize;
+
+    std::vector<std::byte> handles(handleSize * groups.count);
+    vulkan::check(context.rayTracing().getGroupHandles(context.device(), pipeline, 0, groups.count, handles.size(),
+                                                       handles.data()),
+                  "Reading shader group handles");
+    std::vector<std::byte> table(size);
+    const auto place = [&](VkDeviceSize at, std::optional<std::uint32_t> group) {
+        if (group) std::memcpy(&table[at], &handles[*group * handleSize], handleSize);
+    };
+    place(0, groups.rayGeneration);
+    for (std::size_t i = 0; i < groups.miss.size(); ++i) place(rayGenerationSize + i * stride, groups.miss[i]);
+    for (std::size_t i = 0; i < groups.hit.size(); ++i) place(rayGenerationSize + missSize + i * stride, groups.hit[i]);
+
+    buffer_ = vulkan::Buffer(context, size + base, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR, vulkan::Memory::Device,
+                             "the shader binding table");
+    const VkDeviceAddress start = roundUp(buffer_.address(), base);
+    vulkan::upload(context, buffer_, table, start - buffer_.address());
+    rayGeneration_ = {start, rayGenerationSize, rayGenerationSize};
+    miss_ = {start + rayGenerationSize, stride, stride * groups.miss.size()};
+    hit_ = {start + rayGenerationSize + missSize, stride, hitSize};
+}
+
+void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const {
+    const VkStridedDeviceAddressRegionKHR callable{};
+    cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &callable, width, height, 1);
+}
+
+}  // namespace rt::gpu

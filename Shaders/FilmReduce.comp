@@ -1,0 +1,66 @@
+// Adds the block sums of a launch to the film, those of a pixel in the order of their samples.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "Records.h"
+
+layout(local_size_x = 64) in; // the pixels of one slot
+layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
+
+// s + x. Knuth's exact sum, renormalised; then the low word is rounded to 53 bits below the leading bit of the high one, so
+// that a double holds both.
+void add(inout float high, inout float low, float x) {
+    precise float sum = high + x;
+    precise float virtual_ = sum - high;
+    precise float error = (high - (sum - virtual_)) + (x - virtual_);
+    precise float rest = low + error;
+    precise float newHigh = sum + rest;
+    precise float newLow = rest - (newHigh - sum);
+    float scale = uintBitsToFloat(floatBitsToUint(newHigh) & 0x7f800000u); // power of two below |high|
+    precise float grid = scale * 2.7939677e-9f;                            // 1.5 * 2^-29
+    precise float shifted = newLow + grid;
+    precise float rounded = shifted - grid;
+    high = newHigh;
+    low = rounded;
+}
+
+void add(inout FilmSum s, vec3 x) {
+    for (int c = 0; c < 3; c++) {
+        float high = s.high[c];
+        float low = s.low[c];
+        add(high, low, x[c]);
+        s.high[c] = high;
+        s.low[c] = low;
+    }
+}
+
+void main() {
+    uint slot = launch.firstSlot + gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (slot >= launch.firstSlot + launch.slotCount) return;
+    uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
+    uint done = launch.samples.at[slot];
+    uint end = replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
+    bool squares = launch.keepSquares != 0u;
+    FilmSum sum = launch.sums.at[pixel];
+    FilmSum square;
+    if (squares) square = launch.squares.at[pixel];
+    uint samples = done;
+    for (uint block = 0u; block < launch.blocks; block++) {
+        uvec2 range = blockRange(done, block, end);
+        if (range.x >= range.y) break;
+        samples = range.y;
+        uint item = (block * launch.slotCount + slot - launch.firstSlot) * kTilePixels + gl_LocalInvocationID.x;
+        vec3 blockSum = launch.blockSums.at[item];
+        if (range.y % kBlock == 0u) {
+            add(sum, blockSum);
+            if (squares) add(square, blockSum * blockSum / float(kBlock));
+        } else {
+            launch.open.at[pixel] = blockSum;
+        }
+    }
+    launch.sums.at[pixel] = sum;
+    if (squares) launch.squares.at[pixel] = square;
+    barrier(); // every invocation has read the count
+    if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = samples;
+}

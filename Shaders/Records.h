@@ -1,0 +1,187 @@
+// What the engine hands to its shaders, valid as C++20 and as GLSL like Common/Shared: addresses of arrays, the records of
+// the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
+#ifndef RT_SHADERS_RECORDS_H
+#define RT_SHADERS_RECORDS_H
+#include "Common/Shared/Types.h"
+
+// A read-only array of `Type` on the device; in C++ its address.
+#ifdef __cplusplus
+#define RT_ARRAY(Name, Type) using Name = std::uint64_t;
+#define RT_MUTABLE_ARRAY(Name, Type) using Name = std::uint64_t;
+#else
+#define RT_ARRAY(Name, Type)                                                    \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Name { \
+        Type at[];                                                              \
+    };
+#define RT_MUTABLE_ARRAY(Name, Type)                                   \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
+        Type at[];                                                     \
+    };
+#endif
+
+RT_SHARED_BEGIN
+
+// ---- scene -----------------------------------------------------------------------------------------------------------
+
+RT_ARRAY(SphereArray, Sphere)
+RT_ARRAY(QuadArray, Quad)
+RT_ARRAY(MeshArray, Mesh)
+RT_ARRAY(GeometryArray, Geometry)
+RT_ARRAY(InstanceArray, Instance)
+RT_ARRAY(MaterialArray, Material)
+RT_ARRAY(TextureArray, Texture)
+RT_ARRAY(ImageArray, Image)
+RT_ARRAY(MediumArray, Medium)
+RT_ARRAY(LightArray, Light)
+RT_ARRAY(LightBoundArray, LightBound)
+RT_ARRAY(VectorArray, vec3)
+RT_ARRAY(PairArray, vec2)
+RT_ARRAY(TripleArray, uvec3)
+RT_ARRAY(WordArray, uint)
+RT_ARRAY(FloatArray, float)
+
+// The compiled scene's arrays; 0 where the scene has none.
+struct SceneArrays {
+    SphereArray spheres;
+    VectorArray sphereMotions;
+    QuadArray quads;
+    VectorArray positions;
+    VectorArray normals;
+    PairArray uvs;
+    TripleArray triangles;
+    MeshArray meshes;
+    WordArray triangleMesh;
+    GeometryArray geometries;
+    InstanceArray instances;
+    MaterialArray materials;
+    TextureArray textures;
+    ImageArray images;
+    WordArray texels;
+    VectorArray perlinGradients;
+    WordArray perlinPermutations;
+    MediumArray media;
+    LightArray lights;
+    LightBoundArray lightBounds;
+    FloatArray skyCdf;
+};
+
+// The uniform buffer.
+struct RenderConstants {
+    SceneArrays arrays;
+    SceneGlobals globals;
+    RenderParams params;
+    Camera camera;
+};
+
+// ---- film ------------------------------------------------------------------------------------------------------------
+// Slots follow each other as in image::Film: tiles of 8x8 pixels row by row, the replicates of each tile side by side. A value
+// of a pixel stands at slot * kTilePixels + (row * 8 + column) in its array, slots counted from the film's first.
+
+const uint kTile = 8u;
+const uint kTilePixels = 64u;
+const uint kBlock = 16u; // samples summed in order by one invocation
+
+// An unevaluated sum of two floats, high + low, |low| <= half an ulp of high: 48 bits. The sum of both is always exact in a
+// double, so that a film that went through the host goes on bit for bit.
+struct FilmSum {
+    vec3 high;
+    vec3 low;
+};
+
+RT_MUTABLE_ARRAY(FilmSumArray, FilmSum)
+RT_MUTABLE_ARRAY(MutableVectorArray, vec3)
+RT_MUTABLE_ARRAY(MutableWordArray, uint)
+
+// Push constants of a launch: slots firstSlot .. firstSlot + slotCount - 1 of the film on the device.
+struct FilmLaunch {
+    MutableWordArray samples;     // per slot: samples that its pixels have
+    FilmSumArray sums;            // of closed blocks
+    FilmSumArray squares;         // of (block sum)^2 / kBlock, if keepSquares
+    MutableVectorArray open;      // sums of open blocks; needed only where a block is or stays open
+    MutableVectorArray blockSums; // one per item of work
+    MutableWordArray counters;    // kCounters per line, see below
+    uint firstTile;  // of the image: the film's first
+    uint tilesX;     // of the image
+    uint replicates;
+    uint firstSlot;
+    uint slotCount;
+    uint blocks;     // that the launch may take each slot further
+    uint spp;        // per pixel, all replicates, at which the launch stops
+    uint keepSquares;
+};
+
+// Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
+const uint kCounterWork = 0u;      // of line 0: items handed out
+const uint kCounterScattered = 1u; // rays
+const uint kCounterShadow = 2u;
+const uint kCounterNonfinite = 3u; // samples that were dropped
+const uint kCounters = 8u;
+const uint kCounterLines = 64u;
+
+// Samples of replicate r among the first `spp` of a pixel: sample s belongs to replicate s mod R.
+RT_FN uint replicateSamples(uint spp, uint replicate, uint replicates) {
+    return replicate < spp ? (spp - 1u - replicate) / replicates + 1u : 0u;
+}
+
+// Samples x .. y - 1 of a slot that has `done` samples: those of its `block`-th block from now on, up to `end`. Empty when
+// x >= y.
+RT_FN uvec2 blockRange(uint done, uint block, uint end) {
+    uint first = done / kBlock * kBlock + block * kBlock;
+    return uvec2(max(first, done), min(first + kBlock, end));
+}
+
+// What an item of work, 64 a block and slot, is about. Neighbours share a tile.
+struct WorkItem {
+    uint slot;
+    uint block;
+    uint tilePixel;
+};
+
+RT_FN WorkItem workItem(FilmLaunch launch, uint item) {
+    WorkItem w;
+    w.tilePixel = item % kTilePixels;
+    uint rest = item / kTilePixels;
+    w.slot = launch.firstSlot + rest % launch.slotCount;
+    w.block = rest / launch.slotCount;
+    return w;
+}
+
+RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
+    uint tile = launch.firstTile + slot / launch.replicates;
+    return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
+}
+
+// ---- first-hit features ----------------------------------------------------------------------------------------------
+
+RT_MUTABLE_ARRAY(MutableFloatArray, float)
+
+// Push constants of Aov.rgen: rows firstRow and following, one invocation a pixel.
+struct AovLaunch {
+    MutableFloatArray values; // kAovValues per pixel: albedo, normal, depth
+    uint firstRow;
+    uint samples;
+};
+const uint kAovValues = 7u;
+
+// ---- shader binding table -------------------------------------------------------------------------------------------
+
+// A hit group's record is the offset of the instance plus the index of the geometry in its structure, so that a structure may
+// hold triangles and quads.
+const uint kHitRecordTriangle = 0u;
+const uint kHitRecordQuad = 1u;
+const uint kHitRecordSphere = 2u;
+const uint kHitRecords = 3u;
+const uint kMissRecordNothing = 0u;
+const uint kMissRecordShadow = 1u;
+const uint kMissRecords = 2u;
+
+// ---- rays ------------------------------------------------------------------------------------------------------------
+
+// An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin: a
+// product with a power of two is exact, and no hit lies that near.
+const float kTimeToTMin = 8.67361738e-19f; // 2^-60
+const float kTMinToTime = 1.15292150e18f;  // 2^60
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,72 @@
+// Gives Common/Shared its access to the scene on the GPU: SceneRef, every load...(), tracing. Of a ray generation shader.
+#include "Bindings.glsl"
+#include "Common/Shared/Color.h"
+#include "Common/Shared/Lights.h"
+
+layout(location = 0) rayPayloadEXT HitPayload hitPayload;
+layout(location = 1) rayPayloadEXT uint shadowPayload; // 1: occluded
+
+struct SceneRef {
+    uint unused;
+};
+
+SceneGlobals loadGlobals(SceneRef scene) { return constants.globals; }
+Sphere loadSphere(SceneRef scene, uint i) { return constants.arrays.spheres.at[i]; }
+vec3 loadSphereMotion(SceneRef scene, uint i) { return constants.arrays.sphereMotions.at[i]; }
+Quad loadQuad(SceneRef scene, uint i) { return constants.arrays.quads.at[i]; }
+vec3 loadPosition(SceneRef scene, uint i) { return constants.arrays.positions.at[i]; }
+vec3 loadNormal(SceneRef scene, uint i) { return constants.arrays.normals.at[i]; }
+vec2 loadUv(SceneRef scene, uint i) { return constants.arrays.uvs.at[i]; }
+uvec3 loadTriangle(SceneRef scene, uint i) { return constants.arrays.triangles.at[i]; }
+Mesh loadMesh(SceneRef scene, uint i) { return constants.arrays.meshes.at[i]; }
+uint loadTriangleMesh(SceneRef scene, uint i) { return constants.arrays.triangleMesh.at[i]; }
+Instance loadInstance(SceneRef scene, uint i) { return constants.arrays.instances.at[i]; }
+Material loadMaterial(SceneRef scene, uint i) { return constants.arrays.materials.at[i]; }
+Texture loadTexture(SceneRef scene, uint i) { return constants.arrays.textures.at[i]; }
+Image loadImage(SceneRef scene, uint i) { return constants.arrays.images.at[i]; }
+vec3 loadPerlinGradient(SceneRef scene, uint i) { return constants.arrays.perlinGradients.at[i]; }
+uint loadPerlinPermutation(SceneRef scene, uint i) { return constants.arrays.perlinPermutations.at[i]; }
+Medium loadMedium(SceneRef scene, uint i) { return constants.arrays.media.at[i]; }
+Light loadLight(SceneRef scene, uint i) { return constants.arrays.lights.at[i]; }
+LightBound loadLightBound(SceneRef scene, uint i) { return constants.arrays.lightBounds.at[i]; }
+float loadSkyCdf(SceneRef scene, uint i) { return constants.arrays.skyCdf.at[i]; }
+
+vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
+    uint texel = y * image.width + x;
+    if (image.format == kTexelSrgb8) return decodeSrgb8(constants.arrays.texels.at[image.firstTexel + texel]);
+    uint first = image.firstTexel + 3u * texel;
+    return vec3(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
+                uintBitsToFloat(constants.arrays.texels.at[first + 2u]));
+}
+
+LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
+    LightWeights weights;
+    uint count = min(constants.globals.lightCount, kContributionLights);
+    for (uint i = 0u; i < count; i++) weights.weight[i] = lightContribution(constants.arrays.lightBounds.at[i], position, normal);
+    return weights;
+}
+
+float rayTMin(uint features, Ray ray) {
+    return has(features, kFeatureMovingSpheres) ? ray.time * kTimeToTMin : 0.0f;
+}
+
+Hit traceRay(uint features, SceneRef scene, Ray ray) {
+    traceRayEXT(topLevel, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, kMissRecordNothing, ray.origin, rayTMin(features, ray),
+                ray.direction, kInfinity, 0);
+    Hit hit;
+    hit.t = hitPayload.t;
+    hit.kind = hitPayload.kind;
+    hit.primitive = hitPayload.primitive;
+    hit.instance = hitPayload.instance;
+    hit.u = hitPayload.uv.x;
+    hit.v = hitPayload.uv.y;
+    return hit;
+}
+
+bool isOccluded(uint features, SceneRef scene, Ray ray, float tMax) {
+    shadowPayload = 1u;
+    traceRayEXT(topLevel,
+                gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xffu, 0u,
+                1u, kMissRecordShadow, ray.origin, rayTMin(features, ray), ray.direction, tMax, 1);
+    return shadowPayload != 0u;
+}

@@ -1,0 +1,33 @@
+# Shaders are compiled to SPIR-V, checked, and become arrays of C++ headers: nothing is looked up at run time.
+find_program(RT_GLSLANG NAMES glslangValidator glslang)
+find_program(RT_SPIRV_VAL spirv-val)
+mark_as_advanced(RT_GLSLANG RT_SPIRV_VAL)
+
+# For each of the files in Shaders/, X.ext becomes the header "X.ext.h" in an include folder of `target`, with the array
+# X_ext of words. A change of any file that a shader includes builds it anew.
+function(rt_embed_shaders target)
+    set(folder ${PROJECT_BINARY_DIR}/shaders)
+    file(MAKE_DIRECTORY ${folder})
+    foreach(shader IN LISTS ARGN)
+        set(source ${PROJECT_SOURCE_DIR}/Shaders/${shader})
+        set(binary ${folder}/${shader}.spv)
+        set(header ${folder}/${shader}.h)
+        string(REPLACE "." "_" symbol ${shader})
+        set(compile ${RT_GLSLANG} --quiet --target-env vulkan1.2 -I${PROJECT_SOURCE_DIR})
+        set(validate)
+        if(RT_SPIRV_VAL)
+            set(validate COMMAND ${RT_SPIRV_VAL} --target-env vulkan1.2 --scalar-block-layout ${binary})
+        endif()
+        add_custom_command(
+            OUTPUT ${binary} ${header}
+            COMMAND ${compile} --depfile ${header}.d -o ${binary} ${source}
+            ${validate}
+            COMMAND ${compile} --vn ${symbol} -o ${header} ${source}
+            DEPENDS ${source}
+            DEPFILE ${header}.d
+            COMMENT "Shader ${shader}"
+            VERBATIM)
+        target_sources(${target} PRIVATE ${header})
+    endforeach()
+    target_include_directories(${target} PRIVATE ${folder})
+endfunction()
