@@ -2,6 +2,19 @@
 find_program(RT_GLSLANG NAMES glslangValidator glslang)
 find_program(RT_SPIRV_VAL spirv-val)
 mark_as_advanced(RT_GLSLANG RT_SPIRV_VAL)
+find_package(Vulkan QUIET)
+set(RT_CAN_BUILD_GPU OFF)
+if(Vulkan_FOUND AND RT_GLSLANG)
+    set(RT_CAN_BUILD_GPU ON)
+endif()
+
+# What a build with RT_BUILD_GPU=ON cannot do without.
+function(rt_require_gpu)
+    if(NOT RT_CAN_BUILD_GPU)
+        message(FATAL_ERROR "RT_BUILD_GPU needs Vulkan's headers and loader and glslangValidator. "
+                            "Debian, Ubuntu: apt install libvulkan-dev glslang-tools spirv-tools.")
+    endif()
+endfunction()
 
 # For each of the files in Shaders/, X.ext becomes the header "X.ext.h" in an include folder of `target`, with the array
 # X_ext of words. A change of any file that a shader includes builds it anew.
