@@ -110,7 +110,7 @@ RT_FN vec3 sampleSphericalTriangle(SphericalTriangle t, vec2 u) {
     vec2 sc = sinCos2Pi(u.x * t.solidAngle * (0.25f * kInvPi));
     vec3 h = t.a * (t.det * sc.y - t.dots * sc.x) + t.c * (t.base * sc.x);
     vec3 split = h * (2.0f * dot(t.a, h) / max(dot(h, h), 1.0e-37f)) - t.a;
-    return sampleArc(t.b, split, u.y);
+    return normalize(sampleArc(t.b, split, u.y));
 }
 
 // ---- rectangle -------------------------------------------------------------------------------------------------------
@@ -129,9 +129,14 @@ struct SphericalRectangle {
     float solidAngle; // [0, 2 pi]
 };
 
-// Solid angle of the part [x0, x0 + width] x [y0, y0 + height]: the sum of two triangles. Their half angles are arguments
-// of complex numbers, so that of the product is half the sum and one arc tangent serves both.
-RT_FN float rectangleSolidAngle(float x0, float width, float y0, float height, float h) {
+// Sums of angles below are arguments of products of complex numbers, so that one arc tangent serves.
+RT_FN vec2 complexProduct(vec2 a, vec2 b) {
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// Solid angle of a rectangle that no coordinate axis through the foot (0, 0) crosses, or that is small as seen from there:
+// two triangles, without cancellation however small they are.
+RT_FN float smallRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
     float x1 = x0 + width;
     float y1 = y0 + height;
     float h2 = h * h;
@@ -141,11 +146,45 @@ RT_FN float rectangleSolidAngle(float x0, float width, float y0, float height, f
     float i01 = 1.0f / sqrt(x0 * x0 + y1 * y1 + h2);
     float diagonal = (x0 * x1 + y0 * y1 + h2) * i00 * i11;
     float det = width * i00 * (height * i11) * h;
-    float n1 = det * i10;
-    float n2 = det * i01;
     float d1 = 1.0f + diagonal + (x0 * x1 + y0 * y0 + h2) * i00 * i10 + (x1 * x1 + y0 * y1 + h2) * i10 * i11;
     float d2 = 1.0f + diagonal + (x0 * x1 + y1 * y1 + h2) * i11 * i01 + (x0 * x0 + y0 * y1 + h2) * i01 * i00;
-    return 2.0f * arcTan(n1 * d2 + n2 * d1, d1 * d2 - n1 * n2);
+    vec2 z = complexProduct(vec2(d1, det * i10), vec2(d2, det * i01));
+    return 2.0f * arcTan(z.y, z.x);
+}
+
+// The same for any rectangle, within 3e-7 absolutely: the angles atan(x y / (h R)) of the rectangles between the foot and
+// each corner, added with signs.
+RT_FN float wideRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
+    float x1 = x0 + width;
+    float y1 = y0 + height;
+    float h2 = h * h;
+    float i00 = 1.0f / sqrt(x0 * x0 + y0 * y0 + h2);
+    float i10 = 1.0f / sqrt(x1 * x1 + y0 * y0 + h2);
+    float i11 = 1.0f / sqrt(x1 * x1 + y1 * y1 + h2);
+    float i01 = 1.0f / sqrt(x0 * x0 + y1 * y1 + h2);
+    vec2 z = complexProduct(complexProduct(vec2(h * i00, x0 * i00 * (y0 * i00)), vec2(h * i10, -x1 * i10 * (y0 * i10))),
+                            complexProduct(vec2(h * i11, x1 * i11 * (y1 * i11)), vec2(h * i01, -x0 * i01 * (y1 * i01))));
+    float angle = arcTan(z.y, z.x);
+    // Small negative angles are the noise of small rectangles.
+    return angle < -4.0e-6f ? angle + 2.0f * kPi : angle;
+}
+
+const float kSmallRectangle = 0.05f; // solid angle below which absolute accuracy does not suffice
+
+// Solid angle of [x0, x0 + width] x [y0, y0 + height] at height h: relative error below 1e-5.
+RT_FN float rectangleSolidAngle(float x0, float width, float y0, float height, float h) {
+    float omega = wideRectangleSolidAngle(x0, width, y0, height, h);
+    if (omega >= kSmallRectangle) return omega;
+    // Corners on both sides of the foot may lie almost opposite each other: cut the long side there.
+    bool cutY = y0 < 0.0f && y0 + height > 0.0f;
+    bool cutX = x0 < 0.0f && x0 + width > 0.0f && !(cutY && height > width);
+    cutY = cutY && !cutX;
+    omega = smallRectangleSolidAngle(x0, cutX ? -x0 : width, y0, cutY ? -y0 : height, h);
+    if (cutX || cutY) {
+        omega += smallRectangleSolidAngle(cutX ? 0.0f : x0, cutX ? x0 + width : width, cutY ? 0.0f : y0,
+                                          cutY ? y0 + height : height, h);
+    }
+    return omega;
 }
 
 // `corner` relative to the point; edgeU and edgeV at right angles; `normal` unit, either side.
@@ -235,7 +274,7 @@ RT_FN float rectangleColumnNewton(SphericalRectangle r, float u) {
 // Position on the rectangle, (a, b) in [0, width] x [0, height], such that the direction is uniform in solid angle: first
 // a column, then y in the column.
 RT_FN vec2 sampleSphericalRectangle(SphericalRectangle r, vec2 u) {
-    float a = r.solidAngle >= 0.05f ? rectangleColumn(r, u.x) : rectangleColumnNewton(r, u.x);
+    float a = r.solidAngle >= kSmallRectangle ? rectangleColumn(r, u.x) : rectangleColumnNewton(r, u.x);
     a = clamp(a, 0.0f, r.width);
     float d2 = square(r.x0 + a) + r.h * r.h;
     float y1 = r.y0 + r.height;
