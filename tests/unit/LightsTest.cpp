@@ -1,0 +1,407 @@
+#include "Common/Shared/Lights.h"
+
+#include <array>
+#include <functional>
+#include <string>
+
+#include "tests/unit/Oracles.h"
+#include "tests/unit/Statistics.h"
+
+namespace rt::shared {
+namespace {
+
+using glm::dvec3;
+using test::agrees;
+using test::Mean;
+using test::Uniforms;
+
+constexpr double kPiD = test::kPi;
+
+Light flatLight(uint kind, const dvec3& corner, const dvec3& edgeU, const dvec3& edgeV) {
+    Light light{};
+    light.kind = kind;
+    light.position = vec3(corner);
+    light.edgeU = vec3(edgeU);
+    light.edgeV = vec3(edgeV);
+    const dvec3 n = glm::cross(dvec3(light.edgeU), dvec3(light.edgeV));
+    light.normal = vec3(glm::normalize(n));
+    light.area = static_cast<float>(glm::length(n) * (kind == kLightQuad ? 1 : 0.5));
+    light.emission = vec3(1);
+    light.sides = kSidesBoth;
+    return light;
+}
+
+Light quad(const dvec3& corner, const dvec3& edgeU, const dvec3& edgeV) {
+    return flatLight(kLightQuad, corner, edgeU, edgeV);
+}
+
+Light triangle(const dvec3& a, const dvec3& b, const dvec3& c) {
+    return flatLight(kLightTriangle, a, b - a, c - a);
+}
+
+Light sphere(const dvec3& center, double radius) {
+    Light light{};
+    light.kind = kLightSphere;
+    light.position = vec3(center);
+    light.radius = static_cast<float>(radius);
+    light.area = static_cast<float>(4 * kPiD * radius * radius);
+    light.emission = vec3(1);
+    light.sides = kSidesFront;
+    return light;
+}
+
+RenderParams withMethod(uint method) {
+    RenderParams params{};
+    params.sphereLight = params.quadLight = params.triangleLight = method;
+    return params;
+}
+
+std::vector<dvec3> vertices(const Light& light) {
+    const dvec3 p(light.position), u(light.edgeU), v(light.edgeV);
+    if (light.kind == kLightTriangle) return {p, p + u, p + v};
+    return {p, p + u, p + u + v, p + v};
+}
+
+double irradiance(const Light& light, const dvec3& normal) {
+    if (light.kind == kLightSphere) return test::sphereIrradiance(dvec3(light.position), light.radius, normal);
+    return test::polygonIrradiance(vertices(light), normal);
+}
+
+double solidAngle(const Light& light) {
+    if (light.kind == kLightSphere) {
+        const double s = light.radius / glm::length(dvec3(light.position));
+        return 2 * kPiD * s * s / (1 + std::sqrt((1 - s) * (1 + s)));
+    }
+    const auto v = vertices(light);
+    double sum = test::triangleSolidAngle(v[0], v[1], v[2]);
+    if (v.size() == 4) sum += test::triangleSolidAngle(v[0], v[2], v[3]);
+    return sum;
+}
+
+// The shading point is the origin, its normal +z.
+struct Case {
+    std::string name;
+    Light light;
+    bool areaIsHopeless = false;  // unbounded weights: no standard error to test with
+};
+
+std::vector<Case> cases() {
+    return {
+        {"quad over the point", quad({-0.5, -0.3, 0.5}, {1, 0, 0}, {0, 0.6, 0})},
+        {"quad 2 x 2 at 0.5", quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0})},
+        {"quad off axis", quad({3, 1, 2}, {1, 0, 0}, {0, 0.5, 0.4})},
+        {"quad on a wall", quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2}), true},
+        {"quad across the horizon", quad({1, -1, -1}, {0, 2, 0}, {0, 0, 2})},
+        {"quad far", quad({30, 10, 60}, {1, 0, 0}, {0, 1, 0})},
+        {"quad very far", quad({3e4, 1e4, 6e4}, {1, 0, 0}, {0, 1, 0})},
+        {"strip", quad({-2, 0.5, 0.3}, {4, 0, 0}, {0, 0, 0.05}), true},
+        {"strip along v", quad({-2, 0.5, 0.3}, {0, 0, 0.1}, {4, 1, 0})},
+        {"strip end on", quad({0.3, -0.02, 0.05}, {3, 0, 0.1}, {0, 0.04, 0}), true},
+        {"strip across the horizon", quad({0.4, -0.5, -1}, {0, 0.1, 0}, {0, 0, 3})},
+        {"parallelogram", quad({-0.2, -0.3, 1}, {1, 0, 0}, {0.3, 0.6, 0.1})},
+        {"parallelogram far", quad({-2, -3, 10}, {1, 0, 0}, {0.3, 0.6, 0.1})},
+        {"triangle", triangle({-0.5, -0.3, 0.5}, {0.5, -0.3, 0.6}, {-0.2, 0.5, 0.5})},
+        {"triangle across the horizon", triangle({1, -1, -1}, {1, 1, -1}, {1, 0, 2})},
+        {"triangle far", triangle({5, -0.3, 50}, {6, -0.3, 50}, {5, 0.5, 50})},
+        {"triangle sliver", triangle({-0.5, 0.2, 1}, {0.5, 0.2, 1}, {0.1, 0.201, 1})},
+        {"triangle grazing", triangle({1, -0.5, 0.2}, {1, 0.5, 0.21}, {2, 0.1, 0.2})},
+        {"sphere overhead", sphere({0, 0, 1}, 0.2)},
+        {"sphere near", sphere({0.1, 0.3, 1}, 0.9), true},
+        {"sphere far", sphere({0, 30, 100}, 1)},
+        {"sphere very far", sphere({0, 3e4, 1e5}, 1)},
+        {"sphere cut by the horizon", sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)},
+        {"sphere below the horizon but for a cap", sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)},
+    };
+}
+
+const std::array kMethods{kShapeAuto, kShapeSolidAngle, kShapeArea};
+const vec3 kUp(0, 0, 1);
+
+class LightCase : public testing::TestWithParam<Case> {};
+
+TEST_P(LightCase, IrradianceIsAnalyticForEveryMethod) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    for (const uint method : kMethods) {
+        if (method == kShapeArea && areaIsHopeless) continue;
+        Uniforms uniform(1);
+        Mean mean;
+        for (int i = 0; i < 1 << 16; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
+        }
+        EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kUp)))) << name << ", method " << method;
+    }
+}
+
+// Seen from a point in a medium nothing is clipped, and the mean of 1 / pdf is the solid angle.
+TEST_P(LightCase, InverseDensitySumsToTheSolidAngle) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    for (const uint method : kMethods) {
+        if (method == kShapeArea && areaIsHopeless) continue;
+        Uniforms uniform(2);
+        Mean mean;
+        for (int i = 0; i < 1 << 16; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
+            mean.add(s.pdf > 0 ? 1 / double(s.pdf) : 0);
+        }
+        EXPECT_TRUE(agrees(mean, solidAngle(light))) << name << ", method " << method;
+    }
+}
+
+TEST_P(LightCase, SampleIsOneGeometry) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    for (const uint method : kMethods) {
+        Uniforms uniform(3);
+        double pdf = 0, point = 0, surface = 0, length = 0;
+        for (int i = 0; i < 1 << 13; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
+            if (!(s.pdf > 0)) continue;
+            const float again =
+                lightPdf(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, s.wi, s.distance, s.normal);
+            pdf = std::max(pdf, std::abs(double(again) / double(s.pdf) - 1));
+            point = std::max(point, glm::length(dvec3(s.point) - dvec3(s.wi) * double(s.distance)) / double(s.distance));
+            length = std::max(length, std::abs(glm::length(dvec3(s.wi)) - 1));
+            const dvec3 away = dvec3(s.point) - dvec3(light.position);
+            surface = std::max(surface, light.kind == kLightSphere
+                                            ? std::abs(glm::length(away) - light.radius) / glm::length(dvec3(light.position))
+                                            : std::abs(glm::dot(away, dvec3(light.normal))) / double(s.distance));
+            if (light.kind != kLightSphere) {
+                const dvec3 placed = dvec3(light.edgeU) * double(s.uv.x) + dvec3(light.edgeV) * double(s.uv.y);
+                surface = std::max(surface, glm::length(placed - away) / double(s.distance));
+            }
+        }
+        // Area densities far out on a strip depend on the cosine, which a float direction resolves to 2^-24 / cosine.
+        EXPECT_LE(pdf, 2e-5) << name << ", method " << method;
+        EXPECT_LE(point, 2e-6) << name << ", method " << method;
+        EXPECT_LE(surface, 2e-6) << name << ", method " << method;
+        EXPECT_LE(length, 1e-6) << name << ", method " << method;
+    }
+}
+
+// All lengths times 2^k: every direction and uv the same bits, densities too.
+TEST_P(LightCase, ScalesExactly) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    for (const uint method : kMethods) {
+        for (const float scale : {0x1p-16f, 0x1p16f}) {
+            Light scaled = light;
+            scaled.position *= scale, scaled.edgeU *= scale, scaled.edgeV *= scale, scaled.radius *= scale;
+            scaled.area *= scale * scale;
+            Uniforms uniform(4);
+            for (int i = 0; i < 256; ++i) {
+                const vec2 u = uniform.pair();
+                const LightSample a = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, u);
+                const LightSample b = sampleLight(kFeatureAll, withMethod(method), scaled, vec3(0), kUp, 0, u);
+                ASSERT_EQ(a.wi, b.wi) << name << ", method " << method;
+                ASSERT_EQ(a.pdf, b.pdf) << name << ", method " << method;
+                ASSERT_EQ(a.point * scale, b.point) << name << ", method " << method;
+            }
+        }
+    }
+}
+
+TEST_P(LightCase, CornersOfTheUnitSquareAreFinite) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    const float last = 0x0.ffffffp0f;
+    for (const uint method : kMethods) {
+        for (const vec2 u : {vec2(0, 0), vec2(last, 0), vec2(0, last), vec2(last, last), vec2(0.5f, 0.5f)}) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, u);
+            EXPECT_TRUE(isFinite(s.wi) && isFinite(s.point) && isFinite(s.normal) && isFinite(s.pdf)) << name;
+            EXPECT_GE(s.pdf, 0.0f) << name;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lights, LightCase, testing::ValuesIn(cases()), [](const auto& info) {
+    std::string name = info.param.name;
+    for (char& c : name)
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+    return name;
+});
+
+// ---- what cannot contribute ------------------------------------------------------------------------------------------
+
+TEST(Lights, DarkSideAndHorizon) {
+    Uniforms uniform(5);
+    Light front = quad({-0.5, -0.3, 0.5}, {1, 0, 0}, {0, 0.6, 0});  // faces +z, away from the point
+    front.sides = kSidesFront;
+    const Light below = quad({-0.5, -0.3, -0.5}, {1, 0, 0}, {0, 0.6, 0});
+    Light facing = quad({-0.5, -0.3, 0.5}, {0, 0.6, 0}, {1, 0, 0});
+    facing.sides = kSidesFront;
+    for (const uint method : kMethods) {
+        for (int i = 0; i < 100; ++i) {
+            const vec2 u = uniform.pair();
+            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), front, vec3(0), kUp, 0, u).pdf, 0.0f);
+            EXPECT_EQ(sampleLight(kFeatureAll, withMethod(method), below, vec3(0), kUp, 0, u).pdf, 0.0f);
+            EXPECT_GT(sampleLight(kFeatureAll, withMethod(method), below, vec3(0), vec3(0), 0, u).pdf, 0.0f);
+            EXPECT_GT(sampleLight(kFeatureAll, withMethod(method), facing, vec3(0), kUp, 0, u).pdf, 0.0f);
+        }
+    }
+    // In the light's own plane.
+    const LightSample edge = sampleLight(kFeatureAll, withMethod(kShapeArea), quad({1, 0, 0}, {1, 0, 0}, {0, 0, 1}), vec3(0),
+                                         vec3(0), 0, vec2(0.3f, 0.6f));
+    EXPECT_EQ(edge.pdf, 0.0f);
+}
+
+TEST(Lights, InsideASphere) {
+    Light light = sphere({0.3, -0.2, 0.4}, 2);
+    const RenderParams params = withMethod(kShapeAuto);
+    Uniforms uniform(6);
+    EXPECT_EQ(sampleLight(kFeatureAll, params, light, vec3(0), kUp, 0, uniform.pair()).pdf, 0.0f);
+    light.sides = kSidesBoth;
+    Mean surface, medium;
+    for (int i = 0; i < 1 << 14; ++i) {
+        const vec2 u = uniform.pair();
+        const LightSample s = sampleLight(kFeatureAll, params, light, vec3(0), kUp, 0, u);
+        ASSERT_GT(s.pdf, 0.0f);
+        surface.add(double(s.wi.z) / double(s.pdf));
+        EXPECT_NEAR(glm::length(dvec3(s.point) - dvec3(light.position)), 2, 2e-6);
+        EXPECT_NEAR(lightPdf(kFeatureAll, params, light, vec3(0), kUp, 0, s.wi, s.distance, s.normal), s.pdf, 1e-6f);
+        const LightSample m = sampleLight(kFeatureAll, params, light, vec3(0), vec3(0), 0, u);
+        medium.add(1 / double(m.pdf));
+        EXPECT_EQ(lightPdf(kFeatureAll, params, light, vec3(0), vec3(0), 0, m.wi, m.distance, m.normal), m.pdf);
+    }
+    EXPECT_TRUE(agrees(surface, kPiD));
+    EXPECT_TRUE(agrees(medium, 4 * kPiD));
+}
+
+TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
+    Light light = sphere({-1, 0, 2}, 0.3);
+    light.edgeU = vec3(2, 0, 0);
+    const vec2 u(0.3f, 0.7f);
+    const LightSample moved = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0.5f, u);
+    const LightSample still = sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kUp, 0, u);
+    EXPECT_EQ(moved.wi, still.wi);
+    EXPECT_EQ(moved.pdf, still.pdf);
+}
+
+// Relative variances of single samples of the irradiance, to 10 %.
+TEST(Lights, VarianceOfSolidAngleSampling) {
+    const auto variance = [](const Light& light) {
+        Uniforms uniform(7);
+        Mean mean;
+        for (int i = 0; i < 1 << 18; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(kShapeSolidAngle), light, vec3(0), kUp, 0, uniform.pair());
+            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
+        }
+        return mean.relativeVariance();
+    };
+    EXPECT_NEAR(variance(quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0})), 0.059, 0.006);
+    EXPECT_NEAR(variance(quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2})), 0.34, 0.034);
+    EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.9)), 0.052, 0.005);
+    EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)), 0.93, 0.09);
+    EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)), 3.7, 0.37);
+}
+
+// ---- choosing --------------------------------------------------------------------------------------------------------
+
+LightBound boundOf(const Light& light) {
+    LightBound bound{};
+    if (light.kind == kLightSphere) {
+        bound.center = light.position;
+        bound.radius = light.radius;
+        bound.intensity = kPi * light.radius * light.radius;
+        return bound;
+    }
+    dvec3 middle(0);
+    for (const dvec3& v : vertices(light)) middle += v / double(vertices(light).size());
+    for (const dvec3& v : vertices(light))
+        bound.radius = std::max(bound.radius, static_cast<float>(glm::length(v - middle) * 1.000001));
+    bound.center = vec3(middle);
+    bound.axis = light.normal;
+    bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
+    bound.intensity = light.area;
+    return bound;
+}
+
+Light randomLight(Uniforms& uniform, double size) {
+    const auto inBox = [&](double extent) {
+        return dvec3(uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent));
+    };
+    switch (uniform.word() % 3) {
+    case 0: return sphere(inBox(3), size);
+    case 1: return quad(inBox(3), inBox(size), inBox(size));
+    default: {
+        const dvec3 a = inBox(3);
+        return triangle(a, a + inBox(size), a + inBox(size));
+    }
+    }
+}
+
+TEST(LightContribution, IsNeverZeroWhereTheLightContributes) {
+    Uniforms uniform(8);
+    int zero = 0;
+    for (int i = 0; i < 100000; ++i) {
+        Light light = randomLight(uniform, uniform.logBetween(1e-3, 3));
+        if (light.kind == kLightSphere && glm::length(light.position) <= light.radius * 1.0001f) continue;
+        const bool oneSided = light.kind != kLightSphere && (i & 1);
+        if (oneSided) light.sides = kSidesFront;
+        const float contribution = lightContribution(boundOf(light), vec3(0), kUp);
+        ASSERT_TRUE(isFinite(contribution) && contribution >= 0);
+        const bool lit = !oneSided || glm::dot(dvec3(light.normal), -dvec3(light.position)) > 1e-6;
+        const double exact = lit ? irradiance(light, dvec3(kUp)) : 0;
+        if (exact > 1e-9) {
+            ASSERT_GT(contribution, 0.0f) << i;
+        }
+        zero += contribution == 0;
+        // In a medium only the dark side is dark.
+        const float inMedium = lightContribution(boundOf(light), vec3(0), vec3(0));
+        if (lit) {
+            ASSERT_GT(inMedium, 0.0f);
+        }
+    }
+    EXPECT_GT(zero, 30000);  // and it does exclude lights
+}
+
+TEST(LightContribution, IsTheIrradianceOfSmallLights) {
+    Uniforms uniform(9);
+    for (int i = 0; i < 20000; ++i) {
+        Light light = randomLight(uniform, 0.01);
+        const dvec3 center(boundOf(light).center);
+        if (center.z < 0.1 * glm::length(center) || glm::length(center) < 1) continue;
+        if (light.kind != kLightSphere && std::abs(glm::dot(dvec3(light.normal), glm::normalize(center))) < 0.1) continue;
+        const double exact = irradiance(light, dvec3(kUp));
+        ASSERT_NEAR(lightContribution(boundOf(light), vec3(0), kUp), exact, 0.1 * exact);
+    }
+}
+
+TEST(LightContribution, ScalesExactly) {
+    Uniforms uniform(10);
+    for (int i = 0; i < 1000; ++i) {
+        const LightBound bound = boundOf(randomLight(uniform, 1));
+        LightBound scaled = bound;
+        scaled.center *= 0x1p16f, scaled.radius *= 0x1p16f, scaled.intensity *= 0x1p32f;
+        ASSERT_EQ(lightContribution(bound, vec3(0), kUp), lightContribution(scaled, vec3(0), kUp));
+    }
+}
+
+// Choosing in proportion to the contributions must be worth it: in a room of lights the sum of variances shrinks.
+TEST(LightContribution, BeatsChoiceByPower) {
+    Uniforms uniform(11);
+    std::vector<Light> lights;
+    for (int i = 0; i < 16; ++i) lights.push_back(randomLight(uniform, 0.3));
+    const RenderParams params = withMethod(kShapeAuto);
+    const auto variance = [&](const std::function<double(const Light&)>& weight) {
+        std::vector<double> weights;
+        double total = 0;
+        for (const Light& light : lights) total += weights.emplace_back(weight(light));
+        Mean mean;
+        for (int i = 0; i < 1 << 16; ++i) {
+            double x = uniform.between(0, total);
+            std::size_t chosen = 0;
+            while (chosen + 1 < lights.size() && x >= weights[chosen]) x -= weights[chosen++];
+            const LightSample s = sampleLight(kFeatureAll, params, lights[chosen], vec3(0), kUp, 0, uniform.pair());
+            mean.add(s.pdf > 0 && weights[chosen] > 0 ? double(s.wi.z) / s.pdf * total / weights[chosen] : 0);
+        }
+        return std::pair(mean, mean.relativeVariance());
+    };
+    const auto [byContribution, low] = variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kUp)); });
+    const auto [byPower, high] = variance([](const Light& l) { return double(l.area); });
+    double exact = 0;
+    for (const Light& light : lights) exact += irradiance(light, dvec3(kUp));
+    EXPECT_TRUE(agrees(byContribution, exact));
+    EXPECT_TRUE(agrees(byPower, exact));
+    EXPECT_LT(low * 5, high);
+}
+
+}  // namespace
+}  // namespace rt::shared
