@@ -23,8 +23,9 @@ constexpr double kMaxAspect = image::kMaxImageSide;
 struct Parsed {
     Options options;
     bool listScenes = false;
+    bool listDevices = false;
     bool headless = false;
-    std::string engine = "multi";
+    std::string engine;
 };
 
 // ---- the flags ------------------------------------------------------------------------------------------------------
@@ -117,7 +118,7 @@ void addDuration(FlagSet& flags, Options& options) {
     flags.addFile("--resume", options.resume, "go on from a checkpoint as if never stopped")->configurable(false);
 }
 
-void addMachine(FlagSet& flags, Parsed& parsed) {
+void addProcessor(FlagSet& flags, Parsed& parsed) {
     flags.group("Machine");
     flags.addWhole("--threads", parsed.options.threads, 0, kMaxThreads, "0: all; RT_THREADS")->default_str("0");
     flags.readEnvironment("--threads", "RT_THREADS");
@@ -129,6 +130,26 @@ void addMachine(FlagSet& flags, Parsed& parsed) {
               });
     for (const char* flag : {"--device", "--list-devices", "--validation"})
         flags.refuse(flag, "a flag of ray-tracing-gpu");
+}
+
+void addDevice(FlagSet& flags, Parsed& parsed) {
+    flags.group("Machine");
+    flags.add("--device", "N|TEXT", "Vulkan device by index or part of its name; RT_DEVICE",
+              [&parsed](const std::string& flag, const std::string& text) {
+                  if (text.empty()) refuseValue(flag, text, "an index of --list-devices or part of a name");
+                  parsed.options.device = text;
+              });
+    flags.readEnvironment("--device", "RT_DEVICE");
+    flags.addSwitch("--list-devices", parsed.listDevices, "print devices, and why one is unsuitable, and exit")
+        ->configurable(false);
+    flags.addSwitch("--validation", parsed.options.validation, "check every Vulkan call; a message makes exit code 1");
+    flags.add("--engine", "auto|pipeline", "pipeline: Vulkan's ray tracing pipeline",
+              [](const std::string& flag, const std::string& text) {
+                  if (text == "compute") throw UsageError(flag + " compute: not available yet; must be auto or pipeline");
+                  if (text != "auto" && text != "pipeline") refuseValue(flag, text, "auto or pipeline");
+              });
+    for (const char* flag : {"--threads", "--policy"})
+        flags.refuse(flag, "a flag of ray-tracing-cpu");
 }
 
 void addProgram(FlagSet& flags, Parsed& parsed) {
@@ -148,6 +169,7 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
     if (parsed.listScenes && !options.exportFile.empty()) throw UsageError("--export-scene: contradicts --list-scenes");
     if (parsed.listScenes) options.command = Command::ListScenes;
     if (!options.exportFile.empty()) options.command = Command::ExportScene;
+    if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
     if (!parsed.headless && options.outputs.empty() && !flags.given("--stats") && !flags.given("--time-limit"))
         throw UsageError("this program has no window: say --output FILE, --stats FILE or --headless");
@@ -188,7 +210,7 @@ void settleFiles(Options& options) {
 
 void settlePolicy(const FlagSet& flags, Parsed& parsed) {
     Policy& policy = parsed.options.policy;
-    if (!flags.given("--engine")) return;
+    if (parsed.engine.empty()) return;
     const bool single = parsed.engine == "single";
     if (flags.given("--policy") && single != (policy == Policy::Seq))
         throw UsageError("--policy " + nameOf(kPolicies, policy) + ": contradicts --engine " + parsed.engine);
@@ -206,13 +228,15 @@ std::uint32_t rounded(double pixels, const std::string& what) {
 std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out) {
     Parsed parsed;
     parsed.options.program = program;
-    FlagSet flags(program, "Path tracer on the CPU. Any two of --width, --height, --aspect give the size.");
+    const bool gpu = program == kGpuProgram;
+    FlagSet flags(program, std::string("Path tracer on the ") + (gpu ? "GPU" : "CPU") +
+                               ". Any two of --width, --height, --aspect give the size.");
     addScene(flags, parsed);
     addImage(flags, parsed.options);
     addEstimator(flags, parsed.options.settings);
     addOutput(flags, parsed.options);
     addDuration(flags, parsed.options);
-    addMachine(flags, parsed);
+    gpu ? addDevice(flags, parsed) : addProcessor(flags, parsed);
     addProgram(flags, parsed);
     if (!flags.parse(std::move(arguments), out)) return std::nullopt;
 

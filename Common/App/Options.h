@@ -12,7 +12,7 @@
 
 namespace rt::app {
 
-enum class Command { Render, ListScenes, ExportScene };
+enum class Command { Render, ListScenes, ExportScene, ListDevices };
 
 // At most two say all; settleImageSize() checks a third.
 struct SizeRequest {
@@ -21,7 +21,7 @@ struct SizeRequest {
 };
 
 struct Options {
-    std::string program;  // "ray-tracing-cpu"
+    std::string program;  // "ray-tracing-cpu" or "ray-tracing-gpu"
     Command command = Command::Render;
     bool json = false;       // of --list-scenes
     std::string exportFile;  // of Command::ExportScene
@@ -46,6 +46,8 @@ struct Options {
 
     std::uint32_t threads = 0;  // 0: all
     Policy policy = Policy::Par;
+    std::string device;       // of ray-tracing-gpu: index or part of a name; empty: the best
+    bool validation = false;  // of ray-tracing-gpu: check every Vulkan call
 
     bool quiet = false;
     bool verbose = false;
@@ -53,6 +55,8 @@ struct Options {
 
     bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
 };
+
+inline constexpr const char* kGpuProgram = "ray-tracing-gpu";  // its flags differ where machines do
 
 // Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is
 // returned after --help and --version, which are answered on `out`. Throws UsageError.

@@ -11,11 +11,12 @@
 
 namespace rt::app {
 
-enum class StopReason { Spp, TimeLimit, TargetError, Interrupted };
+enum class StopReason { Spp, TimeLimit, TargetError, Interrupted, Failure };
 inline constexpr Named<StopReason> kStopReasons[] = {{"spp", StopReason::Spp},
                                                      {"time_limit", StopReason::TimeLimit},
                                                      {"target_error", StopReason::TargetError},
-                                                     {"interrupted", StopReason::Interrupted}};
+                                                     {"interrupted", StopReason::Interrupted},
+                                                     {"failure", StopReason::Failure}};
 
 struct RenderResult {
     StopReason stoppedBy = StopReason::Spp;

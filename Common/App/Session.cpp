@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
 #include "Common/App/FeatureNames.h"
 #include "Common/App/Interrupt.h"
@@ -77,7 +78,14 @@ class HeadlessRender {
         interrupt_.defer();  // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
         startFilm();
-        sample();
+        try {
+            sample();
+        } catch (const RenderError&) {
+            logWarning("the render failed; what there is of it is written");
+            statistics_.stoppedBy = StopReason::Failure;
+            write();
+            throw;
+        }
         write();
         return statistics_.stoppedBy == StopReason::Interrupted ? ExitCode::Interrupted : ExitCode::Done;
     }
@@ -197,6 +205,8 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine) {
         case Command::ExportScene:
             throw UsageError("--export-scene: not available yet");
             return ExitCode::Done;
+        case Command::ListDevices:
+            throw std::logic_error("devices are listed by the program that knows them");
         case Command::Render:
             break;
     }
