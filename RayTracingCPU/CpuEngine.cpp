@@ -1,0 +1,327 @@
+#include "RayTracingCPU/CpuEngine.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "Common/Accel/CpuAccel.h"
+#include "Common/App/RenderParams.h"
+#include "Common/Core/Error.h"
+#include "Common/Scene/CameraRecord.h"
+#include "RayTracingCPU/KernelArgs.h"
+#include "RayTracingCPU/Workers.h"
+
+namespace rt::cpu {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using image::Film;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::span<const Kernel> kernelTable(InstructionSet set) {
+#if defined(__x86_64__) || defined(_M_X64)
+    switch (set) {
+        case InstructionSet::X86_64_v4: return {kernels_x86_64_v4(), kKernelCount};
+        case InstructionSet::X86_64_v3: return {kernels_x86_64_v3(), kKernelCount};
+        case InstructionSet::X86_64_v2: return {kernels_x86_64_v2(), kKernelCount};
+        case InstructionSet::Generic: break;
+    }
+    throw UsageError("this processor lacks the instruction set x86-64-v2 (SSE4.2), the least that kernels are made for");
+#else
+    return {kernels_generic(), kKernelCount};
+#endif
+}
+
+// The leanest kernel that covers the features. The last one of a table covers all.
+const Kernel& chooseKernel(std::span<const Kernel> kernels, std::uint32_t features) {
+    const Kernel* best = &kernels.back();
+    for (const Kernel& kernel : kernels) {
+        const bool covers = (features & ~kernel.features) == 0;
+        if (covers && std::popcount(kernel.features) < std::popcount(best->features)) best = &kernel;
+    }
+    return *best;
+}
+
+std::array<float, 256> makeSrgbTable() {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        const double encoded = static_cast<double>(i) / 255.0;
+        table[i] = static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}
+
+LightBoundsSoa makeLightBoundsSoa(const scene::CompiledScene& scene) {
+    LightBoundsSoa soa;
+    const std::size_t count = std::min<std::size_t>(scene.globals.lightCount, shared::kContributionLights);
+    for (std::size_t i = 0; i < shared::kContributionLights; ++i) {
+        soa.radius[i] = 1.0f; // keeps the arithmetic of padding finite
+        if (i >= count) continue;
+        const shared::LightBound& bound = scene.lightBounds[i];
+        soa.centerX[i] = bound.center.x;
+        soa.centerY[i] = bound.center.y;
+        soa.centerZ[i] = bound.center.z;
+        soa.radius[i] = bound.radius;
+        soa.axisX[i] = bound.axis.x;
+        soa.axisY[i] = bound.axis.y;
+        soa.axisZ[i] = bound.axis.z;
+        soa.twoSided[i] = bound.twoSided;
+        soa.intensity[i] = bound.intensity;
+    }
+    return soa;
+}
+
+// A scene with everything that tracing it on the CPU needs.
+struct PreparedScene {
+    std::shared_ptr<const scene::CompiledScene> compiled;
+    std::unique_ptr<accel::CpuAccel> accel;
+    LightBoundsSoa lightBounds;
+    std::array<float, 256> srgbToLinear = makeSrgbTable();
+    CpuScene view;
+};
+
+CpuScene makeView(const PreparedScene& prepared) {
+    const scene::CompiledScene& s = *prepared.compiled;
+    CpuScene view;
+    view.accel = prepared.accel->view();
+    view.spheres = s.spheres.data();
+    view.sphereMotions = s.sphereMotions.empty() ? nullptr : s.sphereMotions.data();
+    view.quads = s.quads.data();
+    view.positions = s.positions.data();
+    view.normals = s.normals.data();
+    view.uvs = s.uvs.data();
+    view.triangles = s.triangles.data();
+    view.meshes = s.meshes.data();
+    view.triangleMesh = s.triangleMesh.data();
+    view.instances = s.instances.data();
+    view.materials = s.materials.data();
+    view.textures = s.textures.data();
+    view.images = s.images.data();
+    view.texels = s.texels.data();
+    view.srgbToLinear = prepared.srgbToLinear.data();
+    view.perlinGradients = s.perlinGradients.data();
+    view.perlinPermutations = s.perlinPermutations.data();
+    view.media = s.media.data();
+    view.lights = s.lights.data();
+    view.lightBounds = s.lightBounds.data();
+    view.lightBoundsSoa = &prepared.lightBounds;
+    view.skyCdf = s.skyCdf.data();
+    view.globals = s.globals;
+    return view;
+}
+
+class CpuEngine final : public app::Engine {
+  public:
+    explicit CpuEngine(const CpuEngineOptions& options)
+        : policy_(options.policy), set_(options.instructionSet), kernels_(kernelTable(options.instructionSet)) {
+        const std::uint32_t all = std::max(1u, std::thread::hardware_concurrency());
+        threads_ = policy_ == Policy::Seq ? 1u : options.threads == 0 ? all : options.threads;
+    }
+
+    bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
+        const Clock::time_point start = Clock::now();
+        auto prepared = std::make_unique<PreparedScene>();
+        const scene::CompiledScene& s = *compiled;
+        accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
+                                s.triangles, s.geometries,    s.instances};
+        accel::BuildSettings settings;
+        settings.threads = threads_;
+        prepared->accel = accel::CpuAccel::build(input, settings, cancel);
+        if (!prepared->accel) return false;
+        prepared->lightBounds = makeLightBoundsSoa(s);
+        prepared->compiled = std::move(compiled);
+        prepared->view = makeView(*prepared);
+        scene_ = std::move(prepared);
+        report_.accelBuildSeconds = secondsSince(start);
+        return true;
+    }
+
+    void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override {
+        const scene::CompiledScene& s = *scene_->compiled;
+        features_ = s.features & ~shared::kFeatureThinLens;
+        if (camera.defocusAngle > 0) features_ |= shared::kFeatureThinLens;
+        if (settings.features) features_ |= *settings.features;
+        kernel_ = &chooseKernel(kernels_, features_);
+        settings_ = settings;
+        context_ = {&scene_->view, app::makeRenderParams(settings),
+                    scene::makeCamera(camera, settings.width, settings.height, s.origin)};
+        film_ = Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
+        passEnd_ = 0;
+        nextTile_ = kNoTile;
+        counters_ = {};
+        report_.renderDeviceSeconds = 0;
+    }
+
+    void restore(image::Film film) override {
+        film_ = std::move(film);
+        nextTile_ = kNoTile;
+    }
+
+    app::RenderStatus renderSome(const app::Budget& budget) override {
+        const Clock::time_point start = Clock::now();
+        const Clock::time_point deadline = start + std::chrono::duration_cast<Clock::duration>(budget.time);
+        while (!cancelled(budget)) {
+            if (nextTile_ >= film_.tileCount() && !beginPass()) break;
+            runPass(deadline, budget.cancel);
+            if (Clock::now() >= deadline) break;
+        }
+        report_.renderDeviceSeconds += secondsSince(start);
+        return status();
+    }
+
+    const image::Film& film() override { return film_; }
+
+    app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override {
+        const std::uint32_t width = settings_.width;
+        const std::uint32_t height = settings_.height;
+        app::AovImages images;
+        if (request.albedo) images.albedo = image::Image(width, height, 3);
+        if (request.normal) images.normal = image::Image(width, height, 3);
+        if (request.depth) images.depth = image::Image(width, height, 1);
+        std::atomic<std::uint32_t> nextRow{0};
+        runWorkers(policy_, threads_, [&](std::uint32_t) {
+            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < height;
+                 y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
+                const AovTask task{y, samples, request.albedo ? images.albedo.pixel(0, y) : nullptr,
+                                   request.normal ? images.normal.pixel(0, y) : nullptr,
+                                   request.depth ? images.depth.pixel(0, y) : nullptr};
+                kernel_->renderAovs(context_, task);
+            }
+        });
+        return images;
+    }
+
+    app::EngineReport report() const override {
+        app::EngineReport report = report_;
+        report.engine = policy_ == Policy::Seq ? "single" : "multi";
+        report.device = processorName();
+        report.threads = threads_;
+        report.features = features_;
+        if (kernel_ != nullptr) report.kernel = std::string(kernel_->name) + "/" + name(set_);
+        report.rays = {counters_.camera, counters_.scattered, counters_.shadow};
+        report.nonfiniteSamples = counters_.nonfinite;
+        report.deviceBytes = film_.bytes() + (scene_ ? scene_->accel->bytes() : 0);
+        return report;
+    }
+
+  private:
+    static constexpr std::uint32_t kNoTile = ~0u; // no pass is in progress
+
+    static bool cancelled(const app::Budget& budget) {
+        return budget.cancel != nullptr && budget.cancel->load(std::memory_order_relaxed);
+    }
+
+    // Samples of replicate r among the first `total` of a pixel: sample s belongs to replicate s mod R.
+    std::uint32_t replicateSamples(std::uint64_t total, std::uint32_t replicate) const {
+        const std::uint64_t replicates = settings_.replicates;
+        return static_cast<std::uint32_t>((total + replicates - 1 - replicate) / replicates);
+    }
+
+    // Opens the next pass, which takes every pixel to passEnd_ samples: one more block of each replicate. False: all done.
+    bool beginPass() {
+        const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
+        const std::uint64_t done = film_.minSamples();
+        if (done >= settings_.spp) return false;
+        passEnd_ = std::min<std::uint64_t>((done / block + 1) * block, settings_.spp);
+        if (passEnd_ % block != 0) film_.reserveOpenBlocks();
+        nextTile_ = 0;
+        return true;
+    }
+
+    // Workers take tiles until the pass or the time is over. A tile that was cancelled half-way is not committed, so a later
+    // call renders it again.
+    void runPass(Clock::time_point deadline, const std::atomic<bool>* cancel) {
+        std::atomic<std::uint32_t> next{nextTile_};
+        std::atomic<bool> abandoned{false};
+        runWorkers(policy_, threads_, [&](std::uint32_t) {
+            KernelCounters counters;
+            for (;;) {
+                const std::uint32_t tile = next.fetch_add(1, std::memory_order_relaxed);
+                if (tile >= film_.tileCount()) break;
+                if (!renderTile(tile, cancel, counters)) abandoned.store(true, std::memory_order_relaxed);
+                if (abandoned.load(std::memory_order_relaxed) || Clock::now() >= deadline) break;
+            }
+            addCounters(counters);
+        });
+        // After an interruption tiles below `next` may be unfinished: the pass starts over, and finished tiles are skipped.
+        nextTile_ = abandoned.load() ? 0 : std::min(next.load(), film_.tileCount());
+    }
+
+    bool renderTile(std::uint32_t tile, const std::atomic<bool>* cancel, KernelCounters& counters) {
+        const std::uint32_t x = tile % film_.tilesX() * Film::kTile;
+        const std::uint32_t y = tile / film_.tilesX() * Film::kTile;
+        Film::TileBlock block;
+        for (std::uint32_t replicate = 0; replicate < settings_.replicates; ++replicate) {
+            const std::uint32_t end = replicateSamples(passEnd_, replicate);
+            while (film_.samples(tile, replicate) < end) {
+                film_.begin(tile, replicate, block);
+                TileTask task;
+                task.x = x;
+                task.y = y;
+                task.width = std::min(Film::kTile, settings_.width - x);
+                task.height = std::min(Film::kTile, settings_.height - y);
+                task.stride = Film::kTile;
+                task.replicate = replicate;
+                task.first = block.firstSample + block.count;
+                task.count = std::min(Film::kBlock - block.count, end - task.first);
+                task.sum = block.sum;
+                task.cancel = cancel;
+                if (!kernel_->renderTile(context_, task, counters)) return false;
+                block.count += task.count;
+                film_.commit(tile, replicate, block);
+            }
+        }
+        return true;
+    }
+
+    void addCounters(const KernelCounters& counters) {
+        const std::scoped_lock lock(countersMutex_);
+        counters_.camera += counters.camera;
+        counters_.scattered += counters.scattered;
+        counters_.shadow += counters.shadow;
+        counters_.nonfinite += counters.nonfinite;
+    }
+
+    app::RenderStatus status() const {
+        app::RenderStatus status;
+        status.samplesTotal = std::uint64_t{settings_.width} * settings_.height * settings_.spp;
+        status.samplesDone = film_.totalSamples();
+        status.finished = film_.minSamples() >= settings_.spp;
+        return status;
+    }
+
+    Policy policy_;
+    InstructionSet set_;
+    std::span<const Kernel> kernels_;
+    std::uint32_t threads_ = 1;
+
+    std::unique_ptr<PreparedScene> scene_;
+    app::RenderSettings settings_;
+    std::uint32_t features_ = 0;
+    const Kernel* kernel_ = nullptr;
+    KernelContext context_;
+
+    Film film_;
+    std::uint64_t passEnd_ = 0;   // samples per pixel that the pass in progress leads to
+    std::uint32_t nextTile_ = kNoTile; // first tile that the pass has not handed out
+
+    std::mutex countersMutex_;
+    KernelCounters counters_;
+    app::EngineReport report_;
+};
+
+}  // namespace
+
+std::unique_ptr<app::Engine> makeCpuEngine(const CpuEngineOptions& options) {
+    return std::make_unique<CpuEngine>(options);
+}
+
+}  // namespace rt::cpu

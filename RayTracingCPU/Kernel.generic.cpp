@@ -1,0 +1,5 @@
+#include "RayTracingCPU/PathKernel.h"
+
+const rt::cpu::Kernel* rt::cpu::kernels_generic() {
+    return kKernels;
+}

@@ -1,0 +1,95 @@
+// The loops around a path on the CPU: tiles, pixels, samples. Included by one translation unit per instruction set; all it
+// defines has internal linkage.
+#pragma once
+#include "RayTracingCPU/SceneAccess.h"
+
+#include "Common/Shared/PathStep.h"
+
+namespace rt::cpu {
+namespace {
+
+using namespace rt::shared;
+
+template <std::uint32_t kFeatures>
+void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum, KernelCounters& counters) {
+    vec3 total(sum[0], sum[1], sum[2]);
+    Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
+    for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
+        PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel);
+        while (pathStep(kFeatures, *context.scene, context.params, smp, path)) {
+        }
+        counters.scattered += path.vertex - 1u;
+        counters.shadow += path.shadowRays;
+        // A sample that is not a number is dropped and counted, and stays in the divisor.
+        if (isFinite(path.radiance)) {
+            total += path.radiance;
+        } else {
+            ++counters.nonfinite;
+        }
+    }
+    for (int c = 0; c < 3; ++c) sum[c] = total[c];
+}
+
+template <std::uint32_t kFeatures>
+bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+    for (std::uint32_t y = 0; y < task.height; ++y) {
+        for (std::uint32_t x = 0; x < task.width; ++x) {
+            if (task.cancel != nullptr && task.cancel->load(std::memory_order_relaxed)) return false;
+            float* sum = task.sum + 3 * (y * task.stride + x);
+            renderPixel<kFeatures>(context, task, uvec2(task.x + x, task.y + y), sum, counters);
+        }
+    }
+    counters.camera += std::uint64_t{task.width} * task.height * task.count;
+    return true;
+}
+
+template <std::uint32_t kFeatures>
+void renderAovs(const KernelContext& context, const AovTask& task) {
+    const CpuScene& scene = *context.scene;
+    for (std::uint32_t x = 0; x < context.params.width; ++x) {
+        vec3 albedo(0.0f), normal(0.0f);
+        float depth = 0.0f;
+        Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
+        for (; smp.index < task.count; ++smp.index) {
+            const Ray ray = startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y)).ray;
+            const Hit hit = traceRay(kFeatures, scene, ray);
+            if (hit.t < 0.0f) continue;
+            const Surface surface = makeSurface(kFeatures, scene, ray, hit);
+            const Material material = loadMaterial(scene, surface.material);
+            albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+            normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
+            depth += hit.t;
+        }
+        const float scale = 1.0f / static_cast<float>(task.count);
+        for (std::uint32_t c = 0; c < 3; ++c) {
+            const int i = static_cast<int>(c);
+            if (task.albedo != nullptr) task.albedo[3 * x + c] = albedo[i] * scale;
+            if (task.normal != nullptr) task.normal[3 * x + c] = normal[i] * scale;
+        }
+        if (task.depth != nullptr) task.depth[x] = depth * scale;
+    }
+}
+
+// What the kernels cover, from the leanest; the last covers everything.
+constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
+                                       kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
+                                       kFeatureQuadLights | kFeatureTargets;
+constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
+                                           kFeatureDielectric | kFeatureSky | kFeatureThinLens;
+constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
+                                        kFeatureTriangleLights | kFeatureManyLights;
+constexpr std::uint32_t kSolidFeatures =
+    kFeatureAll & ~(kFeatureVolumes | kFeatureInstances | kFeatureSkyImage | kFeatureMovingSpheres | kFeatureMotion);
+
+template <std::uint32_t kFeatures>
+constexpr Kernel makeKernel(const char* name) {
+    return {kFeatures, name, &renderTile<kFeatures>, &renderAovs<kFeatures>};
+}
+
+constexpr Kernel kKernels[kKernelCount] = {
+    makeKernel<kBoxFeatures>("box"),     makeKernel<kSpheresFeatures>("spheres"), makeKernel<kMeshFeatures>("mesh"),
+    makeKernel<kSolidFeatures>("solid"), makeKernel<kFeatureAll>("all"),
+};
+
+}  // namespace
+}  // namespace rt::cpu

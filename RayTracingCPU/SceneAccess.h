@@ -1,0 +1,70 @@
+// Gives Common/Shared its access to the scene on the CPU: SceneRef, every load...(), tracing. Include it before the headers
+// that fetch; everything here has internal linkage.
+#pragma once
+#include "Common/Accel/Traverse.h"
+#include "Common/Shared/Lights.h"
+#include "RayTracingCPU/KernelArgs.h"
+
+RT_SHARED_BEGIN
+
+using SceneRef = const cpu::CpuScene&;
+
+RT_FN SceneGlobals loadGlobals(SceneRef scene) { return scene.globals; }
+RT_FN Sphere loadSphere(SceneRef scene, uint i) { return scene.spheres[i]; }
+RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
+    return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
+}
+RT_FN Quad loadQuad(SceneRef scene, uint i) { return scene.quads[i]; }
+RT_FN vec3 loadPosition(SceneRef scene, uint i) { return scene.positions[i]; }
+RT_FN vec3 loadNormal(SceneRef scene, uint i) { return scene.normals[i]; }
+RT_FN vec2 loadUv(SceneRef scene, uint i) { return scene.uvs[i]; }
+RT_FN uvec3 loadTriangle(SceneRef scene, uint i) { return scene.triangles[i]; }
+RT_FN Mesh loadMesh(SceneRef scene, uint i) { return scene.meshes[i]; }
+RT_FN uint loadTriangleMesh(SceneRef scene, uint i) { return scene.triangleMesh[i]; }
+RT_FN Instance loadInstance(SceneRef scene, uint i) { return scene.instances[i]; }
+RT_FN Material loadMaterial(SceneRef scene, uint i) { return scene.materials[i]; }
+RT_FN Texture loadTexture(SceneRef scene, uint i) { return scene.textures[i]; }
+RT_FN Image loadImage(SceneRef scene, uint i) { return scene.images[i]; }
+RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) { return scene.perlinGradients[i]; }
+RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) { return scene.perlinPermutations[i]; }
+RT_FN Medium loadMedium(SceneRef scene, uint i) { return scene.media[i]; }
+RT_FN Light loadLight(SceneRef scene, uint i) { return scene.lights[i]; }
+RT_FN LightBound loadLightBound(SceneRef scene, uint i) { return scene.lightBounds[i]; }
+RT_FN float loadSkyCdf(SceneRef scene, uint i) { return scene.skyCdf[i]; }
+
+RT_FN vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
+    const uint texel = y * image.width + x;
+    if (image.format == kTexelLinearF32) {
+        const uint* words = scene.texels + image.firstTexel + 3u * texel;
+        return vec3(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]));
+    }
+    const uint word = scene.texels[image.firstTexel + texel];
+    return vec3(scene.srgbToLinear[word & 255u], scene.srgbToLinear[word >> 8u & 255u],
+                scene.srgbToLinear[word >> 16u & 255u]);
+}
+
+RT_FN Hit traceRay(uint features, SceneRef scene, Ray ray) {
+    return accel::traceClosest(features, scene.accel, ray, kInfinity);
+}
+RT_FN bool isOccluded(uint features, SceneRef scene, Ray ray, float tMax) {
+    return accel::occluded(features, scene.accel, ray, tMax);
+}
+
+// In whole vectors of lights; the entries that pad the table have no intensity and so no weight.
+RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
+    LightWeights weights;
+    const cpu::LightBoundsSoa& bounds = *scene.lightBoundsSoa;
+    const uint padded = (scene.globals.lightCount + 7u) & ~7u;
+    for (uint i = 0u; i < padded; i++) {
+        LightBound bound;
+        bound.center = vec3(bounds.centerX[i], bounds.centerY[i], bounds.centerZ[i]);
+        bound.radius = bounds.radius[i];
+        bound.axis = vec3(bounds.axisX[i], bounds.axisY[i], bounds.axisZ[i]);
+        bound.twoSided = bounds.twoSided[i];
+        bound.intensity = bounds.intensity[i];
+        weights.weight[i] = lightContribution(bound, position, normal);
+    }
+    return weights;
+}
+
+RT_SHARED_END

@@ -1,0 +1,41 @@
+// Runs workers under a std::execution policy, or oneTBB where the standard library has no parallel policies.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#if __has_include(<execution>)
+#include <execution>
+#endif
+#if !defined(__cpp_lib_execution) && !defined(__cpp_lib_parallel_algorithm)
+#include <tbb/parallel_for_each.h>
+#define RT_NO_STD_EXECUTION 1
+#endif
+
+#include "RayTracingCPU/CpuEngine.h"
+
+namespace rt::cpu {
+
+// Calls work(i) once for each i below count. The policies know no number of threads: at most `count` calls run at a time, so
+// each call is a worker that pulls its share of the work itself.
+template <class Work>
+void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
+    if (policy == Policy::Seq || count == 1) {
+        for (std::uint32_t i = 0; i < count; ++i) work(i);
+        return;
+    }
+    std::vector<std::uint32_t> indices(count);
+    std::iota(indices.begin(), indices.end(), 0u);
+#if defined(RT_NO_STD_EXECUTION)
+    tbb::parallel_for_each(indices.begin(), indices.end(), work);
+#else
+    if (policy == Policy::Par) {
+        std::for_each(std::execution::par, indices.begin(), indices.end(), work);
+    } else {
+        std::for_each(std::execution::par_unseq, indices.begin(), indices.end(), work);
+    }
+#endif
+}
+
+}  // namespace rt::cpu
