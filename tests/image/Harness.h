@@ -1,0 +1,45 @@
+// Renders small images for tests and states how far their mean may lie from the truth.
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Engine.h"
+#include "Common/Scene/SceneCompiler.h"
+#include "RayTracingCPU/CpuEngine.h"
+
+namespace rt::test {
+
+using scene::SceneDesc;
+
+// Replicates are independent scramblings, so the spread across them is the honest error of any sampler.
+inline constexpr std::uint32_t kReplicates = 32;
+
+struct Estimate {
+    glm::dvec3 mean{0};          // over all pixels
+    glm::dvec3 standardError{0}; // of mean
+    std::uint64_t nonfinite = 0;
+    image::Image image;
+    image::Image variance; // of each pixel's mean
+};
+
+app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp);
+
+std::string describe(const app::RenderSettings& settings);
+
+// Renders on the CPU engine with kReplicates replicates.
+Estimate render(const scene::CompiledScene& scene, const app::RenderSettings& settings);
+Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
+
+// |mean - truth| <= 4 standard errors + 1e-5 |truth| in each channel: a false alarm in 16 000 (numerics: form Z).
+::testing::AssertionResult isMean(const Estimate& estimate, const glm::dvec3& truth);
+
+// Every way of sampling lights and pixels.
+std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
+
+// A scene with nothing but a camera in `from` that looks at `at` through a field of view of `fov` degrees.
+SceneDesc emptyScene(glm::dvec3 from, glm::dvec3 at, double fov);
+
+}  // namespace rt::test

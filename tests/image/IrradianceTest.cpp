@@ -1,0 +1,118 @@
+// A Lambert floor under one light, seen at a point: radiance = albedo / pi * irradiance, which is known in closed form.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "tests/image/Harness.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using glm::dvec3;
+
+constexpr double kAlbedo = 0.7;
+
+// The floor y = 0 around the origin, looked at from the side.
+SceneDesc floorScene() {
+    SceneDesc desc = emptyScene({0.3, 0.5, 4}, {0, 0, 0}, 1e-3);
+    MaterialDesc floor;
+    floor.albedo = dvec3(kAlbedo);
+    desc.materials["floor"] = floor;
+    MaterialDesc light;
+    light.kind = MaterialKind::Emitter;
+    light.emission = dvec3(3, 2, 1);
+    light.sides = Sides::Both;
+    desc.materials["light"] = light;
+    desc.objects.push_back({QuadDesc{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}, "floor"}});
+    return desc;
+}
+
+// Lambert's polygon formula for a receiver in the origin with normal +y; all vertices above the horizon.
+double polygonIrradiance(std::span<const dvec3> vertices) {
+    double sum = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const dvec3 a = glm::normalize(vertices[i]);
+        const dvec3 b = glm::normalize(vertices[(i + 1) % vertices.size()]);
+        const dvec3 n = glm::cross(a, b);
+        sum += std::atan2(glm::length(n), glm::dot(a, b)) * n.y / glm::length(n);
+    }
+    return std::abs(sum) / 2;
+}
+
+void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what) {
+    const auto scene = compileScene(desc);
+    const dvec3 truth = dvec3(3, 2, 1) * (formFactor * kAlbedo / std::numbers::pi);
+    for (app::RenderSettings settings : allEstimators(smallSettings(4, 2048))) {
+        settings.maxDepth = 2;
+        for (auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Area}) {
+            if (settings.lightSampling == app::LightSampling::Bsdf && shape != app::ShapeSampling::Auto) continue;
+            settings.sphereLight = settings.quadLight = settings.triangleLight = shape;
+            EXPECT_TRUE(isMean(render(*scene, settings), truth))
+                << what << ", " << describe(settings) << ", shape " << static_cast<int>(shape);
+        }
+    }
+}
+
+TEST(Irradiance, UnderASphere) {
+    for (dvec3 center : {dvec3(0, 2, 0), dvec3(1.5, 1.2, -0.5)}) {
+        SceneDesc desc = floorScene();
+        desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
+        const double d = glm::length(center);
+        expectIrradiance(desc, std::numbers::pi * (0.64 / (d * d)) * center.y / d, "sphere");
+    }
+}
+
+TEST(Irradiance, UnderAQuad) {
+    for (auto [corner, u, v] : {std::array<dvec3, 3>{dvec3(-0.5, 1, -0.7), dvec3(1.5, 0, 0), dvec3(0, 0, 1)},
+                                std::array<dvec3, 3>{dvec3(0.4, 0.1, -1), dvec3(0.3, 1, 0.2), dvec3(0, 0.5, 2)}}) {
+        SceneDesc desc = floorScene();
+        desc.objects.push_back({QuadDesc{corner, u, v, "light"}});
+        const std::array<dvec3, 4> outline{corner, corner + u, corner + u + v, corner + v};
+        expectIrradiance(desc, polygonIrradiance(outline), "quad");
+    }
+}
+
+TEST(Irradiance, UnderATriangle) {
+    const std::array<dvec3, 3> triangle{dvec3(-1, 0.8, 0.3), dvec3(1.2, 1.1, 0.1), dvec3(0.2, 0.9, -1.4)};
+    SceneDesc desc = floorScene();
+    MeshData mesh;
+    mesh.positions.assign(triangle.begin(), triangle.end());
+    mesh.triangles = {{0, 1, 2}};
+    desc.objects.push_back({MeshDesc{mesh, "light"}});
+    expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
+}
+
+// E = pi (A + 2/3 B n_y) under the sky A + B direction.y.
+TEST(Irradiance, UnderTheGradientSky) {
+    SceneDesc desc = floorScene();
+    desc.background = GradientBackground{dvec3(1), dvec3(0.5, 0.7, 1.0)};
+    const dvec3 middle = (dvec3(1) + dvec3(0.5, 0.7, 1.0)) / 2.0;
+    const dvec3 slope = (dvec3(0.5, 0.7, 1.0) - dvec3(1)) / 2.0;
+    EXPECT_TRUE(isMean(render(desc, smallSettings(4, 2048)), kAlbedo * (middle + slope * (2.0 / 3.0))));
+}
+
+TEST(Transmittance, OfAnAbsorbingSlab) {
+    for (double depth : {1e-4, 0.1, 1.0, 5.0}) {
+        SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 1e-3);
+        desc.background = ConstantBackground{dvec3(1)};
+        desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, -3, -1), dvec3(3, 3, 1)}, depth / 2, dvec3(0)}});
+        EXPECT_TRUE(isMean(render(desc, smallSettings(8, 16384)), dvec3(std::exp(-depth)))) << "optical depth " << depth;
+    }
+}
+
+// Light sampling looks through media: the shadow ray is multiplied by their transmittance.
+TEST(Transmittance, OfALayerBetweenLightAndFloor) {
+    SceneDesc desc = floorScene();
+    desc.objects.push_back({SphereDesc{dvec3(0, 4, 0), 0.01, {}, "light"}});
+    desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-9, 2, -9), dvec3(9, 3, 9)}, 0.8, dvec3(0)}});
+    const double e = std::numbers::pi * 1e-4 / 16 * std::exp(-0.8);
+    app::RenderSettings settings = smallSettings(4, 1024);
+    settings.maxDepth = 2;
+    // Over the light's cone the path through the layer varies by less than 1e-5.
+    EXPECT_TRUE(isMean(render(desc, settings), dvec3(3, 2, 1) * (e * kAlbedo / std::numbers::pi)));
+}
+
+}  // namespace
+}  // namespace rt::test
