@@ -142,7 +142,8 @@ RT_FN LightSample sampleSphereLight(uint features, RenderParams params, Light li
         s.distance = length(v);
         s.wi = v / s.distance;
         float cosine = -dot(s.normal, s.wi);
-        s.pdf = cosine > 0.0f || light.sides == kSidesBoth ? areaPdf(light.area, s.distance, cosine) : 0.0f;
+        // The far half is hidden by the near one, and a mixture's density counts the direction once.
+        s.pdf = cosine > 0.0f ? areaPdf(light.area, s.distance, cosine) : 0.0f;
     }
     return s;
 }

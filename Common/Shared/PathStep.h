@@ -347,13 +347,27 @@ RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint tex
     return evalTexture(features, scene, texture, position + loadGlobals(scene).origin, uv);
 }
 
+// The material of what has none.
+RT_FN Material blackMaterial() {
+    Material m;
+    m.kind = kMaterialEmitter;
+    m.albedo = vec3(0.0f, 0.0f, 0.0f);
+    m.texture = kNone;
+    m.fuzz = 0.0f;
+    m.ior = 1.0f;
+    m.emission = vec3(0.0f, 0.0f, 0.0f);
+    m.emissionTexture = kNone;
+    m.emissionSides = kSidesFront;
+    return m;
+}
+
 RT_FN Vertex mediumVertex(uint features, SceneRef scene, PathState s, float t, uint index) {
     Medium medium = loadMedium(scene, index);
     Vertex v;
     v.index = s.vertex - 1u;
     v.inMedium = 1u;
     v.front = 1u;
-    v.material = loadMaterial(scene, 0u);
+    v.material = blackMaterial();
     v.normal = vec3(0.0f, 0.0f, 0.0f);
     v.shading = vec3(0.0f, 0.0f, 0.0f);
     v.wo = -s.ray.direction;
