@@ -82,7 +82,7 @@ LightBoundsSoa makeLightBoundsSoa(const scene::CompiledScene& scene) {
 // A scene with everything that tracing it on the CPU needs.
 struct PreparedScene {
     std::shared_ptr<const scene::CompiledScene> compiled;
-    std::unique_ptr<accel::CpuAccel> accel;
+    std::unique_ptr<const accel::CpuAccel> accel;
     LightBoundsSoa lightBounds;
     std::array<float, 256> srgbToLinear = makeSrgbTable();
     CpuScene view;
@@ -130,11 +130,9 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         auto prepared = std::make_unique<PreparedScene>();
         const scene::CompiledScene& s = *compiled;
-        accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
-                                s.triangles, s.geometries,    s.instances};
-        accel::BuildSettings settings;
-        settings.threads = threads_;
-        prepared->accel = accel::CpuAccel::build(input, settings, cancel);
+        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
+                                      s.triangles, s.geometries,    s.instances};
+        prepared->accel = accel::CpuAccel::build(input, {}, cancel);
         if (!prepared->accel) return false;
         prepared->lightBounds = makeLightBoundsSoa(s);
         prepared->compiled = std::move(compiled);

@@ -43,11 +43,36 @@ RT_FN vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
                 scene.srgbToLinear[word >> 16u & 255u]);
 }
 
-RT_FN Hit traceRay(uint features, SceneRef scene, Ray ray) {
-    return accel::traceClosest(features, scene.accel, ray, kInfinity);
+// Traversal is compiled once for each of three sets of primitives, whatever the number of kernels: it is the largest part of
+// their code, and a call costs nothing beside it.
+const uint kTraceFeatures =
+    kFeatureSpheres | kFeatureMovingSpheres | kFeatureQuads | kFeatureTriangles | kFeatureInstances;
+const uint kTraceSimple = kFeatureSpheres | kFeatureQuads;
+const uint kTraceStill = kTraceSimple | kFeatureTriangles;
+
+template <uint kFeatures>
+RT_OUT_OF_LINE Hit traceAmong(SceneRef scene, const Ray& ray) {
+    return accel::traceClosest(kFeatures, scene.accel, ray, kInfinity);
 }
-RT_FN bool isOccluded(uint features, SceneRef scene, Ray ray, float tMax) {
-    return accel::occluded(features, scene.accel, ray, tMax);
+template <uint kFeatures>
+RT_OUT_OF_LINE bool isOccludedAmong(SceneRef scene, const Ray& ray, float tMax) {
+    return accel::occluded(kFeatures, scene.accel, ray, tMax);
+}
+
+RT_FN bool covers(uint set, uint features) {
+    return (features & kTraceFeatures & ~set) == 0u;
+}
+
+RT_FN Hit traceRay(uint features, SceneRef scene, const Ray& ray) {
+    if (covers(kTraceSimple, features)) return traceAmong<kTraceSimple>(scene, ray);
+    if (covers(kTraceStill, features)) return traceAmong<kTraceStill>(scene, ray);
+    return traceAmong<kTraceFeatures>(scene, ray);
+}
+
+RT_FN bool isOccluded(uint features, SceneRef scene, const Ray& ray, float tMax) {
+    if (covers(kTraceSimple, features)) return isOccludedAmong<kTraceSimple>(scene, ray, tMax);
+    if (covers(kTraceStill, features)) return isOccludedAmong<kTraceStill>(scene, ray, tMax);
+    return isOccludedAmong<kTraceFeatures>(scene, ray, tMax);
 }
 
 // In whole vectors of lights; the entries that pad the table have no intensity and so no weight.

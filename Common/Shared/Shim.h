@@ -3,6 +3,7 @@
 //
 //   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
 //                    linkage keeps the copies compiled for different instruction sets apart.
+//   RT_OUT_OF_LINE   in C++ alone: internal linkage, never inlined.
 //   RT_INOUT(T)      a parameter that is read and written.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
@@ -26,8 +27,10 @@
 
 #if defined(_MSC_VER) && !defined(__clang__)
 #define RT_FN static __forceinline
+#define RT_OUT_OF_LINE static __declspec(noinline)
 #else
 #define RT_FN [[maybe_unused, gnu::always_inline]] static inline
+#define RT_OUT_OF_LINE [[maybe_unused, gnu::noinline]] static
 #endif
 #define RT_INOUT(T) T&
 #define RT_SHARED_BEGIN namespace rt::shared {

@@ -18,7 +18,7 @@ namespace {
 using namespace std::chrono_literals;
 
 std::shared_ptr<const scene::CompiledScene> builtin(const char* id) {
-    return scene::compileScene(scene::makeBuiltinScene(id));
+    return scene::compileScene(scene::findBuiltinScene(id));
 }
 
 app::RenderSettings plainSettings(std::uint32_t side, std::uint32_t spp) {
@@ -88,7 +88,7 @@ TEST(CpuEngine, MoreFeaturesThanNeededChangeNothing) {
 
 // Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
-    const scene::SceneDesc desc = scene::makeBuiltinScene("cornell-box-lights");
+    const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");
     const auto settings = plainSettings(24, 16);
     const auto expected = renderBits(*scene::compileScene(desc), settings);
     for (int exponent : {-20, -13, 4, 13}) {
