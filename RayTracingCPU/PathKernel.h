@@ -79,8 +79,6 @@ constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian 
                                            kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
                                         kFeatureTriangleLights | kFeatureManyLights;
-constexpr std::uint32_t kSolidFeatures =
-    kFeatureAll & ~(kFeatureVolumes | kFeatureInstances | kFeatureSkyImage | kFeatureMovingSpheres | kFeatureMotion);
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {
@@ -88,8 +86,11 @@ constexpr Kernel makeKernel(const char* name) {
 }
 
 constexpr Kernel kKernels[kKernelCount] = {
-    makeKernel<kBoxFeatures>("box"),     makeKernel<kSpheresFeatures>("spheres"), makeKernel<kMeshFeatures>("mesh"),
-    makeKernel<kSolidFeatures>("solid"), makeKernel<kFeatureAll>("all"),
+    makeKernel<kBoxFeatures>("box"),
+    makeKernel<kBoxFeatures | kFeatureMixture>("box+mixture"),
+    makeKernel<kSpheresFeatures>("spheres"),
+    makeKernel<kMeshFeatures>("mesh"),
+    makeKernel<kFeatureAll>("all"),
 };
 
 }  // namespace

@@ -9,30 +9,30 @@ RT_SHARED_BEGIN
 
 using SceneRef = const cpu::CpuScene&;
 
-RT_FN SceneGlobals loadGlobals(SceneRef scene) { return scene.globals; }
-RT_FN Sphere loadSphere(SceneRef scene, uint i) { return scene.spheres[i]; }
+RT_FN const SceneGlobals& loadGlobals(SceneRef scene) { return scene.globals; }
+RT_FN const Sphere& loadSphere(SceneRef scene, uint i) { return scene.spheres[i]; }
 RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
     return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
 }
-RT_FN Quad loadQuad(SceneRef scene, uint i) { return scene.quads[i]; }
+RT_FN const Quad& loadQuad(SceneRef scene, uint i) { return scene.quads[i]; }
 RT_FN vec3 loadPosition(SceneRef scene, uint i) { return scene.positions[i]; }
 RT_FN vec3 loadNormal(SceneRef scene, uint i) { return scene.normals[i]; }
 RT_FN vec2 loadUv(SceneRef scene, uint i) { return scene.uvs[i]; }
 RT_FN uvec3 loadTriangle(SceneRef scene, uint i) { return scene.triangles[i]; }
-RT_FN Mesh loadMesh(SceneRef scene, uint i) { return scene.meshes[i]; }
+RT_FN const Mesh& loadMesh(SceneRef scene, uint i) { return scene.meshes[i]; }
 RT_FN uint loadTriangleMesh(SceneRef scene, uint i) { return scene.triangleMesh[i]; }
-RT_FN Instance loadInstance(SceneRef scene, uint i) { return scene.instances[i]; }
-RT_FN Material loadMaterial(SceneRef scene, uint i) { return scene.materials[i]; }
-RT_FN Texture loadTexture(SceneRef scene, uint i) { return scene.textures[i]; }
-RT_FN Image loadImage(SceneRef scene, uint i) { return scene.images[i]; }
+RT_FN const Instance& loadInstance(SceneRef scene, uint i) { return scene.instances[i]; }
+RT_FN const Material& loadMaterial(SceneRef scene, uint i) { return scene.materials[i]; }
+RT_FN const Texture& loadTexture(SceneRef scene, uint i) { return scene.textures[i]; }
+RT_FN const Image& loadImage(SceneRef scene, uint i) { return scene.images[i]; }
 RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) { return scene.perlinGradients[i]; }
 RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) { return scene.perlinPermutations[i]; }
-RT_FN Medium loadMedium(SceneRef scene, uint i) { return scene.media[i]; }
-RT_FN Light loadLight(SceneRef scene, uint i) { return scene.lights[i]; }
-RT_FN LightBound loadLightBound(SceneRef scene, uint i) { return scene.lightBounds[i]; }
+RT_FN const Medium& loadMedium(SceneRef scene, uint i) { return scene.media[i]; }
+RT_FN const Light& loadLight(SceneRef scene, uint i) { return scene.lights[i]; }
+RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) { return scene.lightBounds[i]; }
 RT_FN float loadSkyCdf(SceneRef scene, uint i) { return scene.skyCdf[i]; }
 
-RT_FN vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
+RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
     const uint texel = y * image.width + x;
     if (image.format == kTexelLinearF32) {
         const uint* words = scene.texels + image.firstTexel + 3u * texel;
@@ -51,11 +51,11 @@ const uint kTraceSimple = kFeatureSpheres | kFeatureQuads;
 const uint kTraceStill = kTraceSimple | kFeatureTriangles;
 
 template <uint kFeatures>
-RT_OUT_OF_LINE Hit traceAmong(SceneRef scene, const Ray& ray) {
+RT_CALL Hit traceAmong(SceneRef scene, const Ray& ray) {
     return accel::traceClosest(kFeatures, scene.accel, ray, kInfinity);
 }
 template <uint kFeatures>
-RT_OUT_OF_LINE bool isOccludedAmong(SceneRef scene, const Ray& ray, float tMax) {
+RT_CALL bool isOccludedAmong(SceneRef scene, const Ray& ray, float tMax) {
     return accel::occluded(kFeatures, scene.accel, ray, tMax);
 }
 

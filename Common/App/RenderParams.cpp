@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "Common/Shared/Features.h"
+
 namespace rt::app {
 namespace {
 
@@ -32,6 +34,10 @@ shared::RenderParams makeRenderParams(const RenderSettings& settings) {
     params.strataY = strata(settings).y;
     params.russianRoulette = settings.russianRoulette ? 1u : 0u;
     return params;
+}
+
+std::uint32_t settingsFeatures(const RenderSettings& settings) {
+    return settings.lightSampling == LightSampling::Mixture ? shared::kFeatureMixture : 0u;
 }
 
 }  // namespace rt::app

@@ -7,4 +7,7 @@ namespace rt::app {
 // The settings as kernels see them.
 shared::RenderParams makeRenderParams(const RenderSettings& settings);
 
+// Features that the settings need beyond those of the scene.
+std::uint32_t settingsFeatures(const RenderSettings& settings);
+
 }  // namespace rt::app

@@ -32,7 +32,8 @@ const uint kFeatureSmoothNormals = 1u << 21u;
 const uint kFeatureFuzz = 1u << 22u;       // metal with fuzz above kMirrorFuzz
 const uint kFeatureTargets = 1u << 23u;    // importance targets, used by `mixture` only
 const uint kFeatureMotion = 1u << 24u;     // the time of a ray matters
-const uint kFeatureBits = 25u;
+const uint kFeatureMixture = 1u << 25u;    // a setting: Shirley's mixture, which lean kernels leave out
+const uint kFeatureBits = 26u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 
 RT_FN bool has(uint features, uint bits) {

@@ -1,4 +1,5 @@
-// The density of a direction under the sampling of one light, whatever stands in between: what a mixture sums over lights.
+// The density of a direction under the sampling of one light, whatever stands in between: what a mixture sums over
+// lights.
 #ifndef RT_SHARED_LIGHT_DENSITY_H
 #define RT_SHARED_LIGHT_DENSITY_H
 #include "Features.h"
@@ -12,7 +13,7 @@ struct LightCrossing {
     vec3 normal;
 };
 
-RT_FN LightCrossing crossSphereLight(Light light, vec3 position, float time, vec3 wi) {
+RT_FN LightCrossing crossSphereLight(RT_IN(Light) light, vec3 position, float time, vec3 wi) {
     LightCrossing c;
     c.distance = 0.0f;
     c.normal = -wi;
@@ -22,7 +23,7 @@ RT_FN LightCrossing crossSphereLight(Light light, vec3 position, float time, vec
     float squared = light.radius * light.radius - dot(foot, foot);
     if (!(squared >= 0.0f)) return c;
     float halfChord = sqrt(squared);
-    float sign = along > halfChord ? -1.0f : 1.0f; // from inside, the far side
+    float sign = along > halfChord ? -1.0f : 1.0f;  // from inside, the far side
     float t = along + sign * halfChord;
     if (!(t > 0.0f)) return c;
     c.distance = t;
@@ -30,7 +31,7 @@ RT_FN LightCrossing crossSphereLight(Light light, vec3 position, float time, vec
     return c;
 }
 
-RT_FN LightCrossing crossFlatLight(Light light, vec3 position, vec3 wi) {
+RT_FN LightCrossing crossFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
     LightCrossing c;
     c.distance = 0.0f;
     c.normal = light.normal;
@@ -43,14 +44,14 @@ RT_FN LightCrossing crossFlatLight(Light light, vec3 position, vec3 wi) {
     float squared = dot(n, n);
     float a = dot(cross(p, light.edgeV), n) / squared;
     float b = dot(cross(light.edgeU, p), n) / squared;
-    bool inside = a >= 0.0f && b >= 0.0f &&
-                  (light.kind == kLightTriangle ? a + b <= 1.0f : a <= 1.0f && b <= 1.0f);
+    bool inside = a >= 0.0f && b >= 0.0f && (light.kind == kLightTriangle ? a + b <= 1.0f : a <= 1.0f && b <= 1.0f);
     if (inside) c.distance = t;
     return c;
 }
 
 // Density over solid angle of wi under sampleLight; 0 where wi misses the light.
-RT_FN float lightPdfAlong(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time, vec3 wi) {
+RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                          float time, vec3 wi) {
     LightCrossing c;
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         c = crossSphereLight(light, position, time, wi);

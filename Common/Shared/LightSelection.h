@@ -15,18 +15,18 @@ RT_SHARED_BEGIN
 struct LightContext {
     vec3 position;
     vec3 normal;
-    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy; // the selection in force: kSelect...
+    float total;  // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy;  // the selection in force: kSelect...
 };
 
 struct LightChoice {
-    uint light;        // kNone: nothing to choose
-    float probability; // > 0 otherwise
-    float u;           // the number that chose, stretched to [0,1) for further use
+    uint light;         // kNone: nothing to choose
+    float probability;  // > 0 otherwise
+    float u;            // the number that chose, stretched to [0,1) for further use
 };
 
 // `contribution` weighs every light of a short table; longer tables are chosen from by power.
-RT_FN uint selectionPolicy(RenderParams params, SceneGlobals globals) {
+RT_FN uint selectionPolicy(RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals) {
     bool tooMany = globals.lightCount > kContributionLights;
     return params.lightSelection == kSelectContribution && tooMany ? kSelectPower : params.lightSelection;
 }
@@ -65,29 +65,32 @@ RT_FN LightChoice chooseLight(SceneRef scene, uint count, float u, RT_INOUT(Ligh
         choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
         return choice;
     }
+    // Sums of the weights before each light; the choice is the last light whose sum is not above the target.
     LightWeights weights = loadContributions(scene, context.position, context.normal);
+    LightWeights before;
     float total = 0.0f;
-    for (uint i = 0u; i < count; i++) total += weights.weight[i];
+    for (uint i = 0u; i < count; i++) {
+        before.weight[i] = total;
+        total += weights.weight[i];
+    }
     context.total = total;
     if (!(total > 0.0f)) return choice;
     float target = u * total;
-    float below = 0.0f;
-    for (uint i = 0u; i < count; i++) {
-        float weight = weights.weight[i];
-        // The last light of positive weight catches what rounding leaves.
-        if (weight > 0.0f) {
-            choice.light = i;
-            choice.probability = weight / total;
-            choice.u = clamp((target - below) / weight, 0.0f, 0.999999940395355f);
-            if (target < below + weight) return choice;
-        }
-        below += weight;
-    }
+    uint chosen = 0u;
+    for (uint i = 1u; i < count; i++)
+        chosen += before.weight[i] <= target ? 1u : 0u;
+    // Lights of no weight share their sum with the light that follows; only those at the end can be met here, by
+    // rounding.
+    while (weights.weight[chosen] == 0.0f)
+        chosen--;
+    choice.light = chosen;
+    choice.probability = weights.weight[chosen] / total;
+    choice.u = clamp((target - before.weight[chosen]) / weights.weight[chosen], 0.0f, 0.999999940395355f);
     return choice;
 }
 
 // Probability with which chooseLight picks `light` in this context.
-RT_FN float lightProbability(SceneRef scene, uint count, uint light, LightContext context) {
+RT_FN float lightProbability(SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
     if (context.policy == kSelectPower) return loadLight(scene, light).selection;
     if (context.policy == kSelectUniform) return 1.0f / float(count);
     if (!(context.total > 0.0f)) return 0.0f;

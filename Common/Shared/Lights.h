@@ -1,6 +1,6 @@
-// Sampling of one light: a direction towards it, the density of that direction given this light, and an estimate of what
-// it contributes, by which lights are chosen. sampleLight and lightPdf take every decision from the same function of the
-// light and the shading point, never from the sample.
+// Sampling of one light: a direction towards it, the density of that direction given this light, and an estimate of
+// what it contributes, by which lights are chosen. sampleLight and lightPdf take every decision from the same function
+// of the light and the shading point, never from the sample.
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Features.h"
@@ -9,13 +9,13 @@
 RT_SHARED_BEGIN
 
 struct LightSample {
-    vec3 wi;        // unit, from the shading point to the light
-    float distance; // along wi
-    float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
-    vec3 radiance;  // emitted towards the shading point, without the emission's texture
-    vec3 point;     // on the light
-    vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a sphere
-    vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
+    vec3 wi;         // unit, from the shading point to the light
+    float distance;  // along wi
+    float pdf;       // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
+    vec3 radiance;   // emitted towards the shading point, without the emission's texture
+    vec3 point;      // on the light
+    vec3 normal;     // unit geometric normal at `point`, front side of a flat light, outward of a sphere
+    vec2 uv;         // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
 };
 
 RT_FN LightSample noLightSample() {
@@ -31,15 +31,15 @@ RT_FN LightSample noLightSample() {
 }
 
 // How a light's shape is sampled from a shading point.
-const uint kRegimeSolidAngle = 0u; // uniform in solid angle
-const uint kRegimeArea = 1u;       // uniform in area
-const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
-const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
+const uint kRegimeSolidAngle = 0u;  // uniform in solid angle
+const uint kRegimeArea = 1u;        // uniform in area
+const uint kRegimeColumns = 2u;     // a thin quad: by solid angle along the long edge, uniform across
+const uint kRegimeInside = 3u;      // the point is inside a sphere light, which fills all directions
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
 
-RT_FN vec3 sphereLightCenter(uint features, Light light, float time) {
+RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
     return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
 }
 
@@ -47,9 +47,10 @@ RT_FN bool isSurface(vec3 normal) {
     return dot(normal, normal) > 0.0f;
 }
 
-// ---- regimes ---------------------------------------------------------------------------------------------------------
+// ---- regimes
+// ---------------------------------------------------------------------------------------------------------
 
-RT_FN uint sphereLightRegime(RenderParams params, Light light, vec3 toCenter) {
+RT_FN uint sphereLightRegime(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter) {
     if (dot(toCenter, toCenter) <= light.radius * light.radius) return kRegimeInside;
     return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
 }
@@ -60,27 +61,28 @@ RT_FN bool isFar(vec3 toCenter, vec3 edgeU, vec3 edgeV) {
     return dot(edgeU, edgeU) + dot(edgeV, edgeV) < 0.01f * dot(toCenter, toCenter);
 }
 
-RT_FN uint triangleLightRegime(uint method, Light light, vec3 corner) {
+RT_FN uint triangleLightRegime(uint method, RT_IN(Light) light, vec3 corner) {
     bool area = method == kShapeArea;
-    if (method == kShapeAuto) area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
+    if (method == kShapeAuto)
+        area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
     return area ? kRegimeArea : kRegimeSolidAngle;
 }
 
-RT_FN bool isRectangle(Light light) {
+RT_FN bool isRectangle(RT_IN(Light) light) {
     float skew = dot(light.edgeU, light.edgeV);
     return skew * skew <= 1.0e-12f * (dot(light.edgeU, light.edgeU) * dot(light.edgeV, light.edgeV));
 }
 
 // A quad light from a point, with what its regime depends on.
 struct QuadView {
-    vec3 corner;     // relative to the point
+    vec3 corner;  // relative to the point
     uint regime;
-    bool swapped;    // edgeV is the long edge
-    Columns columns; // in that regime
+    bool swapped;     // edgeV is the long edge
+    Columns columns;  // in that regime
 };
 
 // Automatic: a rectangle at twice its short edge or farther is sampled by columns.
-RT_FN QuadView viewQuad(uint method, Light light, vec3 position) {
+RT_FN QuadView viewQuad(uint method, RT_IN(Light) light, vec3 position) {
     QuadView q;
     q.corner = light.position - position;
     q.regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
@@ -101,7 +103,8 @@ RT_FN QuadView viewQuad(uint method, Light light, vec3 position) {
     return q;
 }
 
-// ---- spheres ---------------------------------------------------------------------------------------------------------
+// ---- spheres
+// ---------------------------------------------------------------------------------------------------------
 
 // Uniform over all directions for a point in a medium, by the cosine for a point on a surface.
 RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
@@ -110,8 +113,8 @@ RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
     return vec4(toWorld(makeFrame(normal), local), local.z * kInvPi);
 }
 
-RT_FN LightSample sampleSphereLight(uint features, RenderParams params, Light light, vec3 position, vec3 normal,
-                                    float time, vec2 u) {
+RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                    vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
     vec3 center = sphereLightCenter(features, light, time);
     vec3 toCenter = center - position;
@@ -148,8 +151,8 @@ RT_FN LightSample sampleSphereLight(uint features, RenderParams params, Light li
     return s;
 }
 
-RT_FN float sphereLightPdf(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time,
-                           vec3 wi, float distance, vec3 lightNormal) {
+RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                           float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint regime = sphereLightRegime(params, light, toCenter);
     if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
@@ -157,10 +160,11 @@ RT_FN float sphereLightPdf(uint features, RenderParams params, Light light, vec3
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
 }
 
-// ---- flat lights -----------------------------------------------------------------------------------------------------
+// ---- flat lights
+// -----------------------------------------------------------------------------------------------------
 
 // Fills in what follows from s.uv.
-RT_FN void placeOnLight(RT_INOUT(LightSample) s, Light light, vec3 position) {
+RT_FN void placeOnLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 position) {
     s.point = light.position + light.edgeU * s.uv.x + light.edgeV * s.uv.y;
     vec3 v = s.point - position;
     s.distance = length(v);
@@ -169,37 +173,38 @@ RT_FN void placeOnLight(RT_INOUT(LightSample) s, Light light, vec3 position) {
 }
 
 // The halves (corner, corner + U, corner + U + V) and (corner, corner + U + V, corner + V) of a parallelogram.
-RT_FN SphericalTriangle quadHalf(Light light, vec3 corner, bool second) {
+RT_FN SphericalTriangle quadHalf(RT_IN(Light) light, vec3 corner, bool second) {
     vec3 opposite = corner + light.edgeU + light.edgeV;
     vec3 v1 = second ? opposite : corner + light.edgeU;
     vec3 v2 = second ? corner + light.edgeV : opposite;
     return makeSphericalTriangle(corner, v1, v2, light.normal * light.area);
 }
 
-RT_FN SphericalTriangle triangleShape(Light light, vec3 corner) {
-    return makeSphericalTriangle(corner, corner + light.edgeU, corner + light.edgeV, light.normal * (2.0f * light.area));
+RT_FN SphericalTriangle triangleShape(RT_IN(Light) light, vec3 corner) {
+    return makeSphericalTriangle(corner, corner + light.edgeU, corner + light.edgeV,
+                                 light.normal * (2.0f * light.area));
 }
 
 // Coordinates of p, relative to the corner and in the light's plane, in the basis of the edges.
-RT_FN vec2 edgeCoordinates(Light light, vec3 p) {
+RT_FN vec2 edgeCoordinates(RT_IN(Light) light, vec3 p) {
     vec3 n = cross(light.edgeU, light.edgeV);
     return vec2(dot(cross(p, light.edgeV), n), dot(cross(light.edgeU, p), n)) * (1.0f / dot(n, n));
 }
 
 // Fills in what follows from s.wi, a direction that meets the light's plane.
-RT_FN void projectToLight(RT_INOUT(LightSample) s, Light light, vec3 corner, vec3 position) {
+RT_FN void projectToLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 corner, vec3 position) {
     s.distance = dot(corner, light.normal) / dot(s.wi, light.normal);
     s.point = position + s.wi * s.distance;
     s.normal = light.normal;
     s.uv = edgeCoordinates(light, s.wi * s.distance - corner);
 }
 
-RT_FN SphericalRectangle rectangleShape(Light light, vec3 corner) {
+RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
     return makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
 }
 
 // Uniform in solid angle; pdf 0 if the light is too small for that.
-RT_FN LightSample sampleQuadSolidAngle(Light light, vec3 corner, vec3 position, vec2 u) {
+RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 corner, vec3 position, vec2 u) {
     LightSample s = noLightSample();
     if (isRectangle(light)) {
         SphericalRectangle r = rectangleShape(light, corner);
@@ -227,12 +232,12 @@ RT_FN LightSample sampleQuadSolidAngle(Light light, vec3 corner, vec3 position, 
     return s;
 }
 
-RT_FN float quadSolidAngle(Light light, vec3 corner) {
+RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 corner) {
     if (isRectangle(light)) return rectangleShape(light, corner).solidAngle;
     return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
 }
 
-RT_FN LightSample sampleQuadLight(RenderParams params, Light light, vec3 position, vec2 u) {
+RT_FN LightSample sampleQuadLight(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec2 u) {
     QuadView view = viewQuad(params.quadLight, light, position);
     LightSample s = noLightSample();
     if (view.regime == kRegimeSolidAngle) {
@@ -251,7 +256,7 @@ RT_FN LightSample sampleQuadLight(RenderParams params, Light light, vec3 positio
     return s;
 }
 
-RT_FN float quadLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
+RT_FN float quadLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 wi, float distance) {
     QuadView view = viewQuad(params.quadLight, light, position);
     if (view.regime == kRegimeSolidAngle) {
         float solidAngle = quadSolidAngle(light, view.corner);
@@ -265,7 +270,7 @@ RT_FN float quadLightPdf(RenderParams params, Light light, vec3 position, vec3 w
     return density * areaPdf(light.area, distance, dot(light.normal, wi));
 }
 
-RT_FN LightSample sampleTriangleLight(RenderParams params, Light light, vec3 position, vec2 u) {
+RT_FN LightSample sampleTriangleLight(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
     if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
@@ -283,7 +288,7 @@ RT_FN LightSample sampleTriangleLight(RenderParams params, Light light, vec3 pos
     return s;
 }
 
-RT_FN float triangleLightPdf(RenderParams params, Light light, vec3 position, vec3 wi, float distance) {
+RT_FN float triangleLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 wi, float distance) {
     vec3 corner = light.position - position;
     if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
         float solidAngle = triangleShape(light, corner).solidAngle;
@@ -292,17 +297,18 @@ RT_FN float triangleLightPdf(RenderParams params, Light light, vec3 position, ve
     return areaPdf(light.area, distance, dot(light.normal, wi));
 }
 
-// ---- any light -------------------------------------------------------------------------------------------------------
+// ---- any light
+// -------------------------------------------------------------------------------------------------------
 
 // Whether a point lies on the side that a flat light illuminates.
-RT_FN bool isLit(Light light, vec3 position) {
+RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
     return light.sides == kSidesBoth || dot(light.normal, position - light.position) > 0.0f;
 }
 
-// `normal` is the shading point's geometric normal on the side of wo, zero for a point in a medium. The sky is not sampled
-// here (Sky.h).
-RT_FN LightSample sampleLight(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time,
-                              vec2 u) {
+// `normal` is the shading point's geometric normal on the side of wo, zero for a point in a medium. The sky is not
+// sampled here (Sky.h).
+RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                              float time, vec2 u) {
     LightSample s = noLightSample();
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         s = sampleSphereLight(features, params, light, position, normal, time, u);
@@ -320,8 +326,8 @@ RT_FN LightSample sampleLight(uint features, RenderParams params, Light light, v
 
 // Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal
 // `lightNormal`.
-RT_FN float lightPdf(uint features, RenderParams params, Light light, vec3 position, vec3 normal, float time, vec3 wi,
-                     float distance, vec3 lightNormal) {
+RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                     float time, vec3 wi, float distance, vec3 lightNormal) {
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
     }
@@ -335,7 +341,7 @@ RT_FN float lightPdf(uint features, RenderParams params, Light light, vec3 posit
 }
 
 // Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray.
-RT_FN vec3 lightPointError(Light light) {
+RT_FN vec3 lightPointError(RT_IN(Light) light) {
     if (light.kind == kLightSphere) {
         float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
         return vec3(32.0f * kEpsilon * reach);
@@ -343,12 +349,14 @@ RT_FN vec3 lightPointError(Light light) {
     return 8.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
 }
 
-// ---- choosing among lights -------------------------------------------------------------------------------------------
+// ---- choosing among lights
+// -------------------------------------------------------------------------------------------
 
-// Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact for
-// small and distant lights, and 0 only where the light cannot contribute: wholly below the horizon of `normal`, or the
-// point is not in front of a one-sided flat light. `normal` as in sampleLight. Without a branch, for loops over lights.
-RT_FN float lightContribution(LightBound bound, vec3 position, vec3 normal) {
+// Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact
+// for small and distant lights, and 0 only where the light cannot contribute: wholly below the horizon of `normal`, or
+// the point is not in front of a one-sided flat light. `normal` as in sampleLight. Without a branch, for loops over
+// lights.
+RT_FN float lightContribution(RT_IN(LightBound) bound, vec3 position, vec3 normal) {
     vec3 v = bound.center - position;
     float d2 = dot(v, v);
     float r = bound.radius;

@@ -24,7 +24,7 @@ RT_SHARED_BEGIN
 
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
-const uint kRouletteStart = 2u; // vertices that scatter before the roulette begins
+const uint kRouletteStart = 2u;  // vertices that scatter before the roulette begins
 const float kRouletteMin = 0.05f;
 const float kRouletteMax = 0.95f;
 
@@ -32,28 +32,29 @@ struct PathState {
     Ray ray;
     vec3 throughput;
     vec3 radiance;
-    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;       // surfaces and collisions met so far
+    float pdf;    // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;  // surfaces and collisions met so far
     uint shadowRays;
-    LightContext last; // where ray starts, for the weights of multiple importance sampling
+    LightContext last;  // where ray starts, for the weights of multiple importance sampling
 };
 
 // A place where light scatters: a surface point or a collision in a medium.
 struct Vertex {
-    uint index;      // position along the path, 0 is what the camera sees
-    uint inMedium;   // 1: isotropic scattering, the fields up to albedo are unused
-    uint front;      // 1: wo is on the front side
+    uint index;     // position along the path, 0 is what the camera sees
+    uint inMedium;  // 1: isotropic scattering, the fields up to albedo are unused
+    uint front;     // 1: wo is on the front side
     Material material;
-    vec3 normal;     // geometric, facing wo; zero in a medium
-    vec3 shading;    // of the bsdf frame, facing wo; zero in a medium
+    vec3 normal;   // geometric, facing wo; zero in a medium
+    vec3 shading;  // of the bsdf frame, facing wo; zero in a medium
     vec3 wo;
     vec3 albedo;
     vec3 position;
-    vec3 error;      // of position, per axis
-    vec3 origin;     // where rays on wo's side start
+    vec3 error;   // of position, per axis
+    vec3 origin;  // where rays on wo's side start
 };
 
-RT_FN PathState startPath(uint features, RenderParams params, Camera camera, Sampler smp, uvec2 pixel) {
+RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, RT_IN(Sampler) smp,
+                          uvec2 pixel) {
     vec2 lens = vec2(0.5f, 0.5f);
     if (has(features, kFeatureThinLens)) lens = randomPair(smp, kPairLens);
     float time = 0.0f;
@@ -73,15 +74,16 @@ RT_FN PathState startPath(uint features, RenderParams params, Camera camera, Sam
     return s;
 }
 
-// ---- emission --------------------------------------------------------------------------------------------------------
+// ---- emission
+// --------------------------------------------------------------------------------------------------------
 
 // Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
-RT_FN float emissionWeight(RenderParams params, float pdf, float lightDensity) {
+RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
     if (params.lightSampling != kSampleMis || pdf == 0.0f) return 1.0f;
     return balanceHeuristic(pdf, lightDensity);
 }
 
-RT_FN void addSky(uint features, SceneRef scene, RenderParams params, RT_INOUT(PathState) s) {
+RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureSky)) return;
     float weight = 1.0f;
     if (has(features, kFeatureSkyImage)) {
@@ -95,14 +97,14 @@ RT_FN void addSky(uint features, SceneRef scene, RenderParams params, RT_INOUT(P
 }
 
 // Emitted radiance at a point of a surface with this material, both sides alike.
-RT_FN vec3 emittedRadiance(uint features, SceneRef scene, Material material, vec3 position, vec2 uv) {
+RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv) {
     if (material.emissionTexture == kNone) return material.emission;
     return material.emission *
            evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv);
 }
 
-RT_FN void addEmission(uint features, SceneRef scene, RenderParams params, Surface surface, Material material,
-                       float distance, RT_INOUT(PathState) s) {
+RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
+                       RT_IN(Material) material, float distance, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
     if (!front && material.emissionSides != kSidesBoth) return;
@@ -117,11 +119,12 @@ RT_FN void addEmission(uint features, SceneRef scene, RenderParams params, Surfa
     s.radiance += s.throughput * emitted * weight;
 }
 
-// ---- scattering at a vertex ------------------------------------------------------------------------------------------
+// ---- scattering at a vertex
+// ------------------------------------------------------------------------------------------
 
-// f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface are
-// black, whatever the interpolated normal says.
-RT_FN vec4 evalScattering(uint features, Vertex v, vec3 wi) {
+// f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
+// are black, whatever the interpolated normal says.
+RT_FN vec4 evalScattering(uint features, RT_IN(Vertex) v, vec3 wi) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) {
         return vec4(v.albedo * kPhasePdf, kPhasePdf);
     }
@@ -129,18 +132,18 @@ RT_FN vec4 evalScattering(uint features, Vertex v, vec3 wi) {
     return evalBsdf(features, v.material, v.albedo, v.shading, v.wo, wi);
 }
 
-RT_FN bool isDeltaVertex(uint features, Vertex v) {
+RT_FN bool isDeltaVertex(uint features, RT_IN(Vertex) v) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) return false;
     return isDelta(features, v.material);
 }
 
-RT_FN BsdfSample sampleScattering(uint features, Vertex v, vec2 u) {
+RT_FN BsdfSample sampleScattering(uint features, RT_IN(Vertex) v, vec2 u) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) return samplePhase(v.albedo, u);
     return sampleBsdf(features, v.material, v.albedo, v.shading, v.front, v.wo, u, u.x);
 }
 
 // Fraction of light that media let through along the ray up to tMax.
-RT_FN float rayTransmittance(uint features, SceneRef scene, Ray ray, float tMax) {
+RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, float tMax) {
     if (!has(features, kFeatureVolumes)) return 1.0f;
     float depth = 0.0f;
     uint count = loadGlobals(scene).mediumCount;
@@ -151,9 +154,10 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, Ray ray, float tMax)
     return transmittance(depth);
 }
 
-// Fraction of the light of `sampled` that arrives at v.origin. The segment ends at the light's own offset point, so that the
-// emitter does not shadow itself and no primitive has to be excluded.
-RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, Light light, LightSample sampled) {
+// Fraction of the light of `sampled` that arrives at v.origin. The segment ends at the light's own offset point, so
+// that the emitter does not shadow itself and no primitive has to be excluded.
+RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, RT_IN(Light) light,
+                       RT_IN(LightSample) sampled) {
     Ray shadow;
     shadow.origin = origin;
     shadow.direction = sampled.wi;
@@ -171,7 +175,7 @@ RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, L
     return rayTransmittance(features, scene, shadow, tMax);
 }
 
-RT_FN LightContext lightContext(SceneRef scene, RenderParams params, Vertex v) {
+RT_FN LightContext lightContext(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     LightContext context;
     context.position = v.origin;
     context.normal = v.shading;
@@ -180,27 +184,28 @@ RT_FN LightContext lightContext(SceneRef scene, RenderParams params, Vertex v) {
     return context;
 }
 
-// The number that chooses the light: the first of the pair that also places the point, unless there are so many lights that
-// the choice would use up its bits.
-RT_FN float selectionNumber(SceneGlobals globals, Sampler smp, uint vertex, vec2 pair) {
+// The number that chooses the light: the first of the pair that also places the point, unless there are so many lights
+// that the choice would use up its bits.
+RT_FN float selectionNumber(RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, uint vertex, vec2 pair) {
     if (globals.lightCount <= kContributionLights) return pair.x;
     return randomPair(smp, vertexPair(vertex, kPairSelect)).x;
 }
 
-RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RenderParams params, Light light, Vertex v, float time,
-                                    vec2 u) {
+RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
+                                    RT_IN(Vertex) v, float time, vec2 u) {
     if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
     LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
     if (has(features, kTexturedFeatures) && light.material != kNone) {
         if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
-        sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
+        sampled.radiance =
+            emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
     }
     return sampled;
 }
 
 // Next-event estimation: one light, one shadow ray, weighed by the balance heuristic against the bsdf's density.
-RT_FN void addDirectLight(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v,
-                          RT_INOUT(PathState) s) {
+RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                          RT_IN(Vertex) v, RT_INOUT(PathState) s) {
     SceneGlobals globals = loadGlobals(scene);
     vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
     LightChoice choice = chooseLight(scene, globals.lightCount, selectionNumber(globals, smp, v.index, u), s.last);
@@ -217,18 +222,19 @@ RT_FN void addDirectLight(uint features, SceneRef scene, RenderParams params, Sa
     s.radiance += contribution * (visible / (choice.probability * sampled.pdf + f.w));
 }
 
-// ---- Shirley's mixture -----------------------------------------------------------------------------------------------
+// ---- Shirley's mixture
+// -----------------------------------------------------------------------------------------------
 
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
-RT_FN float mixtureProbability(SceneRef scene, SceneGlobals globals, uint i, LightContext context) {
+RT_FN float mixtureProbability(SceneRef scene, RT_IN(SceneGlobals) globals, uint i, RT_IN(LightContext) context) {
     float all = float(globals.lightCount + globals.targetCount);
     if (i >= globals.lightCount) return 1.0f / all;
     return float(globals.lightCount) / all * lightProbability(scene, globals.lightCount, i, context);
 }
 
 // Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
-RT_FN float mixtureLightPdf(uint features, SceneRef scene, RenderParams params, SceneGlobals globals, float time, vec3 wi,
-                            LightContext context) {
+RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+                            float time, vec3 wi, RT_IN(LightContext) context) {
     float sum = 0.0f;
     uint count = globals.lightCount + globals.targetCount;
     for (uint i = 0u; i < count; i++) {
@@ -245,8 +251,9 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RenderParams params, 
 }
 
 // Chooses a light or a target and a direction to it; a pdf of 0 where there is none.
-RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RenderParams params, SceneGlobals globals, Sampler smp,
-                                     Vertex v, float time, RT_INOUT(LightContext) context) {
+RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+                                     RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v, float time,
+                                     RT_INOUT(LightContext) context) {
     vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
     float pick = selectionNumber(globals, smp, v.index, u);
     float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
@@ -264,8 +271,8 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RenderParams
 }
 
 // Replaces the bsdf's direction by that of the one-sample mixture: half from the lights, half from the bsdf.
-RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v, BsdfSample b,
-                               float time, LightContext context) {
+RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                               RT_IN(Vertex) v, RT_IN(BsdfSample) b, float time, RT_INOUT(LightContext) context) {
     SceneGlobals globals = loadGlobals(scene);
     if (globals.lightCount + globals.targetCount == 0u) return b;
     LightSample sampled = sampleMixtureLight(features, scene, params, globals, smp, v, time, context);
@@ -279,24 +286,25 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RenderParams param
         mixed.wi = sampled.wi;
     }
     vec4 f = evalScattering(features, v, mixed.wi);
-    float pdf = 0.5f * f.w +
-                0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
+    float pdf = 0.5f * f.w + 0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
     mixed.pdf = pdf;
     if (pdf > 0.0f) mixed.weight = vec3(f) / pdf;
     return mixed;
 }
 
-// ---- a step ----------------------------------------------------------------------------------------------------------
+// ---- a step
+// ----------------------------------------------------------------------------------------------------------
 
 // Continues the path from v. False: it ends here.
-RT_FN bool scatter(uint features, SceneRef scene, RenderParams params, Sampler smp, Vertex v, RT_INOUT(PathState) s) {
+RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
+                   RT_INOUT(PathState) s) {
     bool delta = isDeltaVertex(features, v);
     s.last = lightContext(scene, params, v);
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
     if (lights && params.lightSampling == kSampleMis) addDirectLight(features, scene, params, smp, v, s);
 
     BsdfSample b = sampleScattering(features, v, randomPair(smp, vertexPair(v.index, kPairBsdf)));
-    if (lights && params.lightSampling == kSampleMixture) {
+    if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
         b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
     }
     s.throughput *= b.weight;
@@ -321,8 +329,10 @@ RT_FN bool scatter(uint features, SceneRef scene, RenderParams params, Sampler s
 }
 
 // Nearest collision in any medium before tMax: each medium's free flight is exponential, and the least of independent
-// exponentials is a flight through their summed extinction that ends in each with its share. medium is kNone if there is none.
-RT_FN float sampleCollision(SceneRef scene, Ray ray, float tMax, Sampler smp, uint vertex, RT_INOUT(uint) medium) {
+// exponentials is a flight through their summed extinction that ends in each with its share. medium is kNone if there
+// is none.
+RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sampler) smp, uint vertex,
+                            RT_INOUT(uint) medium) {
     float nearest = tMax;
     medium = kNone;
     uint count = loadGlobals(scene).mediumCount;
@@ -361,7 +371,7 @@ RT_FN Material blackMaterial() {
     return m;
 }
 
-RT_FN Vertex mediumVertex(uint features, SceneRef scene, PathState s, float t, uint index) {
+RT_FN Vertex mediumVertex(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index) {
     Medium medium = loadMedium(scene, index);
     Vertex v;
     v.index = s.vertex - 1u;
@@ -378,7 +388,8 @@ RT_FN Vertex mediumVertex(uint features, SceneRef scene, PathState s, float t, u
     return v;
 }
 
-RT_FN Vertex surfaceVertex(uint features, SceneRef scene, PathState s, Surface surface, Material material) {
+RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
+                           RT_IN(Material) material) {
     Vertex v;
     v.index = s.vertex - 1u;
     v.inMedium = 0u;
@@ -396,7 +407,8 @@ RT_FN Vertex surfaceVertex(uint features, SceneRef scene, PathState s, Surface s
 }
 
 // Advances the path by one vertex. False: the path has ended and s.radiance is its estimate.
-RT_FN bool pathStep(uint features, SceneRef scene, RenderParams params, Sampler smp, RT_INOUT(PathState) s) {
+RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                    RT_INOUT(PathState) s) {
     Hit hit = traceRay(features, scene, s.ray);
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;

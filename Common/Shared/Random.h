@@ -1,30 +1,32 @@
 // Counter-based random numbers: (pixel, sample, dimension, seed) -> number, the same on both engines and for any
-// scheduling. A path's decisions have fixed dimensions; features decide which are evaluated, never which number a decision
-// gets. All uniforms lie on the grid k 2^-24 in [0, 1 - 2^-24] unless a function says otherwise.
+// scheduling. A path's decisions have fixed dimensions; features decide which are evaluated, never which number a
+// decision gets. All uniforms lie on the grid k 2^-24 in [0, 1 - 2^-24] unless a function says otherwise.
 #ifndef RT_SHARED_RANDOM_H
 #define RT_SHARED_RANDOM_H
 #include "Types.h"
 
 RT_SHARED_BEGIN
 
-// ---- dimensions ------------------------------------------------------------------------------------------------------
-// A dimension names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
-const uint kPairPixel = 0u;      // position in the pixel
-const uint kPairLens = 1u;       // position on the lens
-const uint kPairTime = 2u;       // x: time in the shutter interval
+// ---- dimensions
+// ------------------------------------------------------------------------------------------------------ A dimension
+// names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
+const uint kPairPixel = 0u;  // position in the pixel
+const uint kPairLens = 1u;   // position on the lens
+const uint kPairTime = 2u;   // x: time in the shutter interval
 const uint kPairsCamera = 4u;
-const uint kPairLight = 0u;      // choice of the light, stretched, and position on it
-const uint kPairBsdf = 1u;       // lobe or direction of the scattered ray
-const uint kPairChoice = 2u;     // x: survival of the roulette, y: technique of the mixture
-const uint kPairSelect = 3u;     // x: choice of the light where there are too many to stretch kPairLight
-const uint kPairMedium = 4u;     // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
+const uint kPairLight = 0u;   // choice of the light, stretched, and position on it
+const uint kPairBsdf = 1u;    // lobe or direction of the scattered ray
+const uint kPairChoice = 2u;  // x: survival of the roulette, y: technique of the mixture
+const uint kPairSelect = 3u;  // x: choice of the light where there are too many to stretch kPairLight
+const uint kPairMedium = 4u;  // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
 const uint kPairsPerVertex = 8u;
 
 RT_FN uint vertexPair(uint vertex, uint pair) {
     return kPairsCamera + vertex * kPairsPerVertex + pair;
 }
 
-// ---- hashing ---------------------------------------------------------------------------------------------------------
+// ---- hashing
+// ---------------------------------------------------------------------------------------------------------
 
 // Three words to three words. Jarzynski & Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 RT_FN uvec3 hash3(uvec3 v) {
@@ -59,7 +61,8 @@ RT_FN float toFineUniform(uint high, uint low) {
                0.999999940395355f);
 }
 
-// ---- Owen-scrambled Sobol --------------------------------------------------------------------------------------------
+// ---- Owen-scrambled Sobol
+// --------------------------------------------------------------------------------------------
 
 // Nested uniform scrambling of a word whose most significant digit is bit 0. Laine & Karras, "Stratified Sampling for
 // Stochastic Transparency", 2011, with the constants that Vegdahl found to scramble well for all seeds.
@@ -95,10 +98,11 @@ RT_FN uvec2 sobolPair(uint index, uvec3 key) {
                  bitfieldReverse(laineKarras(sobolSecondReversed(shuffled), key.y)));
 }
 
-// ---- jittered strata -------------------------------------------------------------------------------------------------
+// ---- jittered strata
+// -------------------------------------------------------------------------------------------------
 
-// Element i of a pseudo-random permutation of [0, n), n >= 1. Kensler, "Correlated Multi-Jittered Sampling", Pixar 2013,
-// with cycle walking over a hash that is a bijection of the words below the next power of two.
+// Element i of a pseudo-random permutation of [0, n), n >= 1. Kensler, "Correlated Multi-Jittered Sampling", Pixar
+// 2013, with cycle walking over a hash that is a bijection of the words below the next power of two.
 RT_FN uint permute(uint i, uint n, uint key) {
     uint w = n - 1u;
     w |= w >> 1u;
@@ -129,17 +133,18 @@ RT_FN uint permute(uint i, uint n, uint key) {
     return (i + key) % n;
 }
 
-// ---- the sampler -----------------------------------------------------------------------------------------------------
+// ---- the sampler
+// -----------------------------------------------------------------------------------------------------
 
 struct Sampler {
-    uint kind;  // kSamplerIndependent, kSamplerStratified, kSamplerSobol
-    uint key;   // of the pixel, the seed and the replicate
-    uint index; // of the sample in the pixel
+    uint kind;   // kSamplerIndependent, kSamplerStratified, kSamplerSobol
+    uint key;    // of the pixel, the seed and the replicate
+    uint index;  // of the sample in the pixel
     uint strataX;
     uint strataY;
 };
 
-RT_FN Sampler makeSampler(RenderParams params, uint pixel, uint replicate, uint index) {
+RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate, uint index) {
     Sampler s;
     s.kind = params.samplerKind;
     s.key = hash3(uvec3(pixel, params.seed, replicate)).x;
@@ -149,9 +154,9 @@ RT_FN Sampler makeSampler(RenderParams params, uint pixel, uint replicate, uint 
     return s;
 }
 
-// The two words of dimension pair `pair`; each is uniform over all words, and the pair is stratified over the samples of
-// the pixel as the kind of sampler says.
-RT_FN uvec2 randomWords(Sampler s, uint pair) {
+// The two words of dimension pair `pair`; each is uniform over all words, and the pair is stratified over the samples
+// of the pixel as the kind of sampler says.
+RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
     if (s.kind == kSamplerIndependent) {
         uvec3 h = hash3(uvec3(s.key, s.index, pair));
         return uvec2(h.x, h.y);
@@ -168,13 +173,13 @@ RT_FN uvec2 randomWords(Sampler s, uint pair) {
                  uint(min(y, 0.999999940395355f) * 16777216.0f) << 8u | h.y >> 24u);
 }
 
-RT_FN vec2 randomPair(Sampler s, uint pair) {
+RT_FN vec2 randomPair(RT_IN(Sampler) s, uint pair) {
     uvec2 words = randomWords(s, pair);
     return vec2(toUniform(words.x), toUniform(words.y));
 }
 
 // First number of the pair, in [0,1), fine near 0.
-RT_FN float randomFine(Sampler s, uint pair) {
+RT_FN float randomFine(RT_IN(Sampler) s, uint pair) {
     uint high = randomWords(s, pair).x;
     return toFineUniform(high, hash3(uvec3(s.key ^ 0x9e3779b9u, s.index, pair)).x);
 }

@@ -3,7 +3,8 @@
 //
 //   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
 //                    linkage keeps the copies compiled for different instruction sets apart.
-//   RT_OUT_OF_LINE   in C++ alone: internal linkage, never inlined.
+//   RT_CALL          the same for a function that is worth a call: never inlined in C++.
+//   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
@@ -27,11 +28,12 @@
 
 #if defined(_MSC_VER) && !defined(__clang__)
 #define RT_FN static __forceinline
-#define RT_OUT_OF_LINE static __declspec(noinline)
+#define RT_CALL static __declspec(noinline)
 #else
 #define RT_FN [[maybe_unused, gnu::always_inline]] static inline
-#define RT_OUT_OF_LINE [[maybe_unused, gnu::noinline]] static
+#define RT_CALL [[maybe_unused, gnu::noinline]] static
 #endif
+#define RT_IN(T) const T&
 #define RT_INOUT(T) T&
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
@@ -90,6 +92,8 @@ RT_SHARED_END
 #else
 
 #define RT_FN
+#define RT_CALL
+#define RT_IN(T) T
 #define RT_INOUT(T) inout T
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END

@@ -1,6 +1,6 @@
 // What a ray that leaves the scene meets, and its importance sampling when it is an image.
-// The includer provides SceneRef, loadGlobals, loadImage, loadTexel and loadSkyCdf(scene, i): the distribution function of
-// rows (height + 1 values) followed by that of the columns of each row (width + 1 values each).
+// The includer provides SceneRef, loadGlobals, loadImage, loadTexel and loadSkyCdf(scene, i): the distribution function
+// of rows (height + 1 values) followed by that of the columns of each row (width + 1 values each).
 #ifndef RT_SHARED_SKY_H
 #define RT_SHARED_SKY_H
 #include "Features.h"
@@ -16,7 +16,7 @@ RT_FN vec2 skyUv(vec3 direction) {
 }
 
 // The texel that holds uv: sky images are piecewise constant, so that their distribution function is exact.
-RT_FN uvec2 skyTexel(Image image, vec2 uv) {
+RT_FN uvec2 skyTexel(RT_IN(Image) image, vec2 uv) {
     return uvec2(min(uint(uv.x * float(image.width)), image.width - 1u),
                  min(uint(uv.y * float(image.height)), image.height - 1u));
 }
@@ -49,7 +49,7 @@ RT_FN uint skyCell(SceneRef scene, uint first, uint n, float u) {
 }
 
 // Density over solid angle of sampleSky inside a texel, which covers 2 pi / width * (difference of cosines).
-RT_FN float skyTexelPdf(SceneRef scene, Image image, uvec2 texel) {
+RT_FN float skyTexelPdf(SceneRef scene, RT_IN(Image) image, uvec2 texel) {
     uint columns = image.height + 1u + texel.y * (image.width + 1u) + texel.x;
     float mass = (loadSkyCdf(scene, texel.y + 1u) - loadSkyCdf(scene, texel.y)) *
                  (loadSkyCdf(scene, columns + 1u) - loadSkyCdf(scene, columns));

@@ -18,7 +18,7 @@ struct Surface {
     vec3 shading;  // unit, on the front side; differs from normal only on smooth meshes
     vec2 uv;
     uint material;
-    uint light;    // kNone: not in the light table
+    uint light;  // kNone: not in the light table
 };
 
 // gamma_n of Higham, "Accuracy and Stability of Numerical Algorithms", ch. 3, for float.
@@ -31,16 +31,16 @@ RT_FN vec3 transformNormal(vec4 row0, vec4 row1, vec4 row2, vec3 n) {
     return normalize(vec3(row0) * n.x + vec3(row1) * n.y + vec3(row2) * n.z);
 }
 
-RT_FN vec3 sphereCenter(uint features, SceneRef scene, Sphere sphere, uint index, float time) {
+RT_FN vec3 sphereCenter(uint features, SceneRef scene, RT_IN(Sphere) sphere, uint index, float time) {
     if (!has(features, kFeatureMovingSpheres)) return sphere.center;
     return sphere.center + loadSphereMotion(scene, index) * time;
 }
 
-RT_FN Surface sphereSurface(uint features, SceneRef scene, Ray ray, Hit hit) {
+RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     Sphere sphere = loadSphere(scene, hit.primitive);
     vec3 center = sphereCenter(features, scene, sphere, hit.primitive, ray.time);
-    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et al.,
-    // Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
+    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et
+    // al., Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
     float b = -dot(f, ray.direction) / a;
@@ -58,7 +58,7 @@ RT_FN Surface sphereSurface(uint features, SceneRef scene, Ray ray, Hit hit) {
     return s;
 }
 
-RT_FN Surface quadSurface(SceneRef scene, Hit hit) {
+RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
     Quad quad = loadQuad(scene, hit.primitive);
     Surface s;
     vec3 alongU = quad.edgeU * hit.u;
@@ -73,7 +73,7 @@ RT_FN Surface quadSurface(SceneRef scene, Hit hit) {
     return s;
 }
 
-RT_FN Surface triangleSurface(uint features, SceneRef scene, Hit hit) {
+RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     uvec3 index = loadTriangle(scene, hit.primitive);
     Mesh mesh = loadMesh(scene, loadTriangleMesh(scene, hit.primitive));
     vec3 p0 = loadPosition(scene, index.x);
@@ -106,13 +106,13 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, Hit hit) {
     return s;
 }
 
-RT_FN Surface primitiveSurface(uint features, SceneRef scene, Ray ray, Hit hit) {
+RT_FN Surface primitiveSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (has(features, kFeatureTriangles) && hit.kind == kTriangle) return triangleSurface(features, scene, hit);
     if (has(features, kFeatureQuads) && hit.kind == kQuad) return quadSurface(scene, hit);
     return sphereSurface(features, scene, ray, hit);
 }
 
-RT_FN Surface makeSurface(uint features, SceneRef scene, Ray ray, Hit hit) {
+RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (!has(features, kFeatureInstances) || hit.instance == kNone) return primitiveSurface(features, scene, ray, hit);
     Instance instance = loadInstance(scene, hit.instance);
     Ray local = ray;
