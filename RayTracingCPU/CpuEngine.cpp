@@ -144,9 +144,7 @@ class CpuEngine final : public app::Engine {
 
     void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override {
         const scene::CompiledScene& s = *scene_->compiled;
-        features_ = (s.features & ~shared::kFeatureThinLens) | app::settingsFeatures(settings);
-        if (camera.defocusAngle > 0) features_ |= shared::kFeatureThinLens;
-        if (settings.features) features_ |= *settings.features;
+        features_ = app::renderFeatures(s, camera, settings);
         kernel_ = &chooseKernel(kernels_, features_);
         settings_ = settings;
         context_ = {&scene_->view, app::makeRenderParams(settings),

@@ -105,9 +105,7 @@ class GpuEngine final : public app::Engine {
 // ---- set-up ----------------------------------------------------------------------------------------------------------
 
 void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
-    features_ = scene_->compiled().features & ~shared::kFeatureThinLens;
-    if (camera.defocusAngle > 0) features_ |= shared::kFeatureThinLens;
-    if (settings.features) features_ |= *settings.features;
+    features_ = app::renderFeatures(scene_->compiled(), camera, settings);
     if (shared::has(features_, shared::kFeatureMovingSpheres)) scene_->provideMotion(context_);
     settings_ = settings;
     params_ = app::makeRenderParams(settings);

@@ -36,6 +36,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"quad-lights", kFeatureQuadLights},
     {"triangle-lights", kFeatureTriangleLights},
     {"targets", kFeatureTargets},
+    {"mixture", kFeatureMixture},
 };
 
 constexpr std::uint32_t namedBits() {

@@ -36,8 +36,13 @@ shared::RenderParams makeRenderParams(const RenderSettings& settings) {
     return params;
 }
 
-std::uint32_t settingsFeatures(const RenderSettings& settings) {
-    return settings.lightSampling == LightSampling::Mixture ? shared::kFeatureMixture : 0u;
+std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                             const RenderSettings& settings) {
+    // The camera may have been given another lens than the scene's.
+    std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
+    if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
+    if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
+    return features | settings.features.value_or(0u);
 }
 
 }  // namespace rt::app

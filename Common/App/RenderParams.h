@@ -1,5 +1,8 @@
 #pragma once
+#include <cstdint>
+
 #include "Common/App/Settings.h"
+#include "Common/Scene/CompiledScene.h"
 #include "Common/Shared/Types.h"
 
 namespace rt::app {
@@ -7,7 +10,8 @@ namespace rt::app {
 // The settings as kernels see them.
 shared::RenderParams makeRenderParams(const RenderSettings& settings);
 
-// Features that the settings need beyond those of the scene.
-std::uint32_t settingsFeatures(const RenderSettings& settings);
+// What a kernel needs for this scene, camera and settings, and whatever else the settings force on it.
+std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                             const RenderSettings& settings);
 
 }  // namespace rt::app
