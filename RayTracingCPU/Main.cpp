@@ -1,0 +1,46 @@
+// ray-tracing-cpu: flags to options, options to a session, and the engine it drives.
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "Common/App/Options.h"
+#include "Common/App/Session.h"
+#include "Common/Core/Log.h"
+#include "Common/Core/RunMain.h"
+#include "RayTracingCPU/CpuEngine.h"
+
+namespace {
+
+constexpr const char* kProgram = "ray-tracing-cpu";
+
+rt::cpu::Policy enginePolicy(rt::app::Policy policy) {
+    switch (policy) {
+        case rt::app::Policy::Seq:
+            return rt::cpu::Policy::Seq;
+        case rt::app::Policy::ParUnseq:
+            return rt::cpu::Policy::ParUnseq;
+        case rt::app::Policy::Par:
+            break;
+    }
+    return rt::cpu::Policy::Par;
+}
+
+int run(const std::vector<std::string>& arguments) {
+    const auto options = rt::app::parseOptions(kProgram, arguments, std::cout);
+    if (!options) return 0;  // --help, --version
+    rt::setUpLog({kProgram, options->quiet, options->verbose, options->logFile});
+    const auto makeEngine = [&options] {
+        rt::cpu::CpuEngineOptions engine;
+        engine.policy = enginePolicy(options->policy);
+        engine.threads = options->threads;
+        return rt::cpu::makeCpuEngine(engine);
+    };
+    return static_cast<int>(rt::app::runSession(*options, makeEngine));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    return rt::runMain(kProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });
+}
