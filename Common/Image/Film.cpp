@@ -66,8 +66,8 @@ Film::Film(const FilmDesc& desc) : desc_(desc) {
     checkSide("width", desc.width);
     checkSide("height", desc.height);
     if (desc.replicates < 1) throw UsageError("replicates 0 is less than 1");
+    allocate(sums_, slotCount() * kTileValues, desc); // the largest first: what cannot be had is refused untouched
     allocate(samples_, slotCount(), desc);
-    allocate(sums_, slotCount() * kTileValues, desc);
     if (desc.secondMoments) allocate(squares_, slotCount() * kTileValues, desc);
 }
 
