@@ -3,14 +3,15 @@
 find_package(PkgConfig QUIET)
 find_package(Threads REQUIRED)
 
-# rt_dependency(<name> PACKAGE <config> TARGETS <target>... [PKGCONFIG <module>] [HEADER <header> [LIBRARY <library>]])
+# rt_dependency(<name> PACKAGE <config> [VERSION <version>] TARGETS <target>... [PKGCONFIG <module>]
+#               [HEADER <header> [LIBRARY <library>]])
 # Creates rt::<name> from the first of TARGETS that the config package defines, or from the pkg-config module, or from the
 # header's folder and the library if there is one. Without any of them rt::<name> does not exist.
 function(rt_dependency name)
-    cmake_parse_arguments(arg "" "PACKAGE;PKGCONFIG;HEADER;LIBRARY" "TARGETS" ${ARGN})
+    cmake_parse_arguments(arg "" "PACKAGE;VERSION;PKGCONFIG;HEADER;LIBRARY" "TARGETS" ${ARGN})
     add_library(rt-dependency-${name} INTERFACE)
     if(arg_PACKAGE)
-        find_package(${arg_PACKAGE} CONFIG QUIET GLOBAL)
+        find_package(${arg_PACKAGE} ${arg_VERSION} CONFIG QUIET GLOBAL)
         foreach(target IN LISTS arg_TARGETS)
             if(TARGET ${target})
                 target_link_libraries(rt-dependency-${name} INTERFACE ${target})
@@ -80,7 +81,8 @@ endif()
 if(RT_BUILD_BENCH)
     rt_require(benchmark libbenchmark-dev benchmark PACKAGE benchmark TARGETS benchmark::benchmark PKGCONFIG benchmark)
 endif()
-# Embree is an oracle of tests and a yardstick of benchmarks; what compares with it is built only where it is installed.
+# Embree 3 is an oracle of tests and a yardstick of benchmarks; what compares with it is built only where it is installed
+# (Debian 13 has Embree 4).
 if(RT_BUILD_TESTS OR RT_BUILD_BENCH)
-    rt_dependency(embree PACKAGE embree TARGETS embree)
+    rt_dependency(embree PACKAGE embree VERSION 3 TARGETS embree)
 endif()

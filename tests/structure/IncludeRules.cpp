@@ -63,7 +63,8 @@ std::vector<Include> quotedIncludes(const fs::path& file) {
 // Path relative to the root of what `target` names in `file`; empty when there is no such file of ours.
 fs::path resolve(const fs::path& file, const std::string& target) {
     for (const fs::path& base : {kRoot, file.parent_path()}) {
-        if (fs::exists(base / target)) return fs::weakly_canonical(base / target).lexically_relative(fs::canonical(kRoot));
+        if (fs::exists(base / target))
+            return fs::weakly_canonical(base / target).lexically_relative(fs::canonical(kRoot));
     }
     return {};
 }
@@ -88,8 +89,9 @@ TEST(IncludeRules, EveryQuotedIncludeFollowsAnArrow) {
         for (const fs::path& file : sourcesOf(folder)) {
             for (const Include& include : quotedIncludes(file)) {
                 const fs::path target = resolve(file, include.target);
-                EXPECT_FALSE(target.empty()) << file.string() << ":" << include.line << ": no file of this project is named \""
-                                             << include.target << "\"; others are included with <>";
+                EXPECT_FALSE(target.empty())
+                    << file.string() << ":" << include.line << ": no file of this project is named \"" << include.target
+                    << "\"; others are included with <>";
                 EXPECT_TRUE(target.empty() || reachable.count(folderOf(target)))
                     << file.string() << ":" << include.line << ": " << folder << " may not include " << include.target;
                 ++checked;
