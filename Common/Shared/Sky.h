@@ -5,6 +5,7 @@
 #define RT_SHARED_SKY_H
 #include "Features.h"
 #include "Lights.h"
+#include "Random.h"
 #include "Textures.h"
 
 RT_SHARED_BEGIN
