@@ -3,12 +3,11 @@
 find_package(PkgConfig QUIET)
 find_package(Threads REQUIRED)
 
-# rt_dependency(<name> PACKAGE <config> [VERSION <version>] TARGETS <target>... [PKGCONFIG <module>]
-#               [HEADER <header> [LIBRARY <library>]])
+# rt_dependency(<name> [PACKAGE <config> [VERSION <version>] TARGETS <target>...] [PKGCONFIG <module>] [HEADER <header>])
 # Creates rt::<name> from the first of TARGETS that the config package defines, or from the pkg-config module, or from the
-# header's folder and the library if there is one. Without any of them rt::<name> does not exist.
+# folder of the header. Without any of them rt::<name> does not exist.
 function(rt_dependency name)
-    cmake_parse_arguments(arg "" "PACKAGE;VERSION;PKGCONFIG;HEADER;LIBRARY" "TARGETS" ${ARGN})
+    cmake_parse_arguments(arg "" "PACKAGE;VERSION;PKGCONFIG;HEADER" "TARGETS" ${ARGN})
     add_library(rt-dependency-${name} INTERFACE)
     if(arg_PACKAGE)
         find_package(${arg_PACKAGE} ${arg_VERSION} CONFIG QUIET GLOBAL)
@@ -33,13 +32,6 @@ function(rt_dependency name)
         mark_as_advanced(RT_${name}_INCLUDE_DIR)
         if(RT_${name}_INCLUDE_DIR)
             target_include_directories(rt-dependency-${name} SYSTEM INTERFACE ${RT_${name}_INCLUDE_DIR})
-            if(arg_LIBRARY)
-                find_library(RT_${name}_LIBRARY ${arg_LIBRARY})
-                mark_as_advanced(RT_${name}_LIBRARY)
-                if(RT_${name}_LIBRARY)
-                    target_link_libraries(rt-dependency-${name} INTERFACE ${RT_${name}_LIBRARY})
-                endif()
-            endif()
             add_library(rt::${name} ALIAS rt-dependency-${name})
         endif()
     endif()
