@@ -4,15 +4,15 @@ namespace {
 
 using std::uint32_t; // the generated headers say uint32_t
 
-#include "Aov.rgen.h"
-#include "FilmReduce.comp.h"
-#include "RayTracing.Procedural.rchit.h"
-#include "RayTracing.Procedural.rint.h"
-#include "RayTracing.Quad.rchit.h"
-#include "RayTracing.rchit.h"
-#include "RayTracing.rgen.h"
-#include "RayTracing.rmiss.h"
-#include "Shadow.rmiss.h"
+#include <Aov.rgen.h>
+#include <FilmReduce.comp.h>
+#include <RayTracing.Procedural.rchit.h>
+#include <RayTracing.Procedural.rint.h>
+#include <RayTracing.Quad.rchit.h>
+#include <RayTracing.rchit.h>
+#include <RayTracing.rgen.h>
+#include <RayTracing.rmiss.h>
+#include <Shadow.rmiss.h>
 
 }  // namespace
 

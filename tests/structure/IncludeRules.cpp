@@ -26,7 +26,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Vulkan", {"Common/Core"}},
     {"Common/Gui", {"Common/App", "Common/Vulkan"}},
     {"RayTracingCPU", {"Common/App", "Common/Accel"}},
-    {"RayTracingGPU", {"Common/App", "Common/Accel", "Common/Vulkan"}},
+    {"RayTracingGPU", {"Common/App", "Common/Accel", "Common/Vulkan", "Shaders"}},
     {"Shaders", {"Common/Shared"}},
 };
 
