@@ -28,7 +28,7 @@ rt::cpu::Policy enginePolicy(rt::app::Policy policy) {
 
 int run(const std::vector<std::string>& arguments) {
     const auto options = rt::app::parseOptions(kProgram, arguments, std::cout);
-    if (!options) return 0;  // --help, --version
+    if (!options) return 0; // --help, --version
     rt::setUpLog({kProgram, options->quiet, options->verbose, options->logFile});
     const auto makeEngine = [&options] {
         rt::cpu::CpuEngineOptions engine;
@@ -39,7 +39,7 @@ int run(const std::vector<std::string>& arguments) {
     return static_cast<int>(rt::app::runSession(*options, makeEngine));
 }
 
-}  // namespace
+} // namespace
 
 int main(int argc, char** argv) {
     return rt::runMain(kProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });

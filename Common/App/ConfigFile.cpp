@@ -24,8 +24,7 @@ std::vector<CLI::ConfigItem> itemsOf(const std::string& text) {
         CLI::ConfigItem item;
         item.name = name;
         if (value.is_array()) {
-            for (const auto& element : value)
-                item.inputs.push_back(textOf(element, name));
+            for (const auto& element : value) item.inputs.push_back(textOf(element, name));
         } else {
             item.inputs.push_back(textOf(value, name));
         }
@@ -34,11 +33,11 @@ std::vector<CLI::ConfigItem> itemsOf(const std::string& text) {
     return items;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
     if (app_.get_option("--no-config")->count() > 0) {
-        const bool named = app_.get_option("--config")->count() > 0;  // the user's own file is counted only after this
+        const bool named = app_.get_option("--config")->count() > 0; // the user's own file is counted only after this
         if (named) throw UsageError("--no-config: contradicts --config");
         return {};
     }
@@ -56,7 +55,7 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
     std::erase_if(items, [&](const CLI::ConfigItem& item) { return leftOut_.count("--" + item.name) > 0; });
     for (CLI::ConfigItem& item : items) {
         const CLI::Option* option = app_.get_option_no_throw("--" + item.name);
-        if (option == nullptr) continue;  // CLI11 will complain
+        if (option == nullptr) continue; // CLI11 will complain
         if (option->count() == 0) supplied_.insert(option->get_name());
         const bool oneValue = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast;
         if (oneValue && item.inputs.size() > 1) item.inputs = {CLI::detail::join(item.inputs, ",")};
@@ -74,4 +73,4 @@ std::string userConfigFile() {
     return {};
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -21,10 +21,10 @@ class ConfigFile : public CLI::ConfigBase {
   private:
     const CLI::App& app_;
     std::set<std::string> leftOut_;
-    mutable std::set<std::string> supplied_;  // mutable: the base class reads through a const member
+    mutable std::set<std::string> supplied_; // mutable: the base class reads through a const member
 };
 
 // The user's own file, $XDG_CONFIG_HOME/ray-tracing/config.toml or config.json; empty when there is none.
 std::string userConfigFile();
 
-}  // namespace rt::app
+} // namespace rt::app

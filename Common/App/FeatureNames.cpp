@@ -41,8 +41,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
 
 constexpr std::uint32_t namedBits() {
     std::uint32_t bits = 0;
-    for (const auto& row : kFeatures)
-        bits |= row.value;
+    for (const auto& row : kFeatures) bits |= row.value;
     return bits;
 }
 static_assert(namedBits() == kFeatureAll, "every feature bit has a name");
@@ -54,7 +53,7 @@ std::vector<std::string> namesWhere(std::uint32_t features, bool present) {
     return names;
 }
 
-}  // namespace
+} // namespace
 
 std::uint32_t parseFeatures(const std::string& text) {
     if (text == "all") return kFeatureAll;
@@ -72,4 +71,4 @@ std::vector<std::string> absentFeatureNames(std::uint32_t features) {
     return namesWhere(features, false);
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -13,4 +13,4 @@ std::uint32_t parseFeatures(const std::string& text);
 std::vector<std::string> featureNames(std::uint32_t features);
 std::vector<std::string> absentFeatureNames(std::uint32_t features);
 
-}  // namespace rt::app
+} // namespace rt::app

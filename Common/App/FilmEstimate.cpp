@@ -11,7 +11,7 @@ bool hasVariance(const image::Film& film) {
     return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
 }
 
-}  // namespace
+} // namespace
 
 FilmEstimate estimate(const image::Film& film) {
     FilmEstimate result;
@@ -24,4 +24,4 @@ FilmEstimate estimate(const image::Film& film) {
     return result;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

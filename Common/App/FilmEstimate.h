@@ -10,9 +10,9 @@ namespace rt::app {
 // Without second moments or replicates, and with no more than one block of samples, nothing is known of the error.
 struct FilmEstimate {
     std::array<double, 3> meanRadiance{};
-    std::optional<std::array<double, 3>> standardError;  // of meanRadiance
-    std::optional<double> relmse;                        // estimatedRelMse() of Metrics.h
+    std::optional<std::array<double, 3>> standardError; // of meanRadiance
+    std::optional<double> relmse;                       // estimatedRelMse() of Metrics.h
 };
 FilmEstimate estimate(const image::Film& film);
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -22,7 +22,7 @@ std::string oneLine(std::string text) {
     return text;
 }
 
-}  // namespace
+} // namespace
 
 FlagSet::FlagSet(const std::string& program, const std::string& description)
     : app_(description, program), config_(std::make_shared<ConfigFile>(app_)) {
@@ -79,7 +79,7 @@ CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string
 CLI::Option* FlagSet::addSeconds(const std::string& flags, std::optional<double>& target, const std::string& help) {
     return add(flags, "S", help, [&target](const std::string& flag, const std::string& text) {
         constexpr double kLeast = std::numeric_limits<double>::min();
-        constexpr double kMost = 1e9;  // 30 years
+        constexpr double kMost = 1e9; // 30 years
         target = parseReal(flag, text, kLeast, kMost, "a number of seconds above 0, at most 1e9");
     });
 }
@@ -110,7 +110,7 @@ std::string FlagSet::configPath() const {
 }
 
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
-    std::reverse(arguments.begin(), arguments.end());  // the order in which CLI11 takes them
+    std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
         app_.parse(std::move(arguments));
     } catch (const CLI::CallForHelp&) {
@@ -134,4 +134,4 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     return true;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

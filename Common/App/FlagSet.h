@@ -27,7 +27,7 @@ class FlagSet {
 
     void group(const std::string& title) {
         app_.option_defaults()->group(title);
-    }  // of the flags that follow, in --help
+    } // of the flags that follow, in --help
 
     CLI::Option* add(const std::string& flags, const std::string& type, const std::string& help, Reader read);
     CLI::Option* addSwitch(const std::string& flags, bool& target, const std::string& help);
@@ -47,8 +47,7 @@ class FlagSet {
     template <class E, std::size_t N>
     CLI::Option* addChoice(const std::string& flags, const Named<E> (&table)[N], E& target, const std::string& help) {
         std::string type;
-        for (const auto& row : table)
-            type += (type.empty() ? "" : "|") + std::string(row.name);
+        for (const auto& row : table) type += (type.empty() ? "" : "|") + std::string(row.name);
         return add(flags, type, help, [&target, &table](const std::string& flag, const std::string& text) {
             target = parseChoice(flag, text, table);
         });
@@ -73,8 +72,8 @@ class FlagSet {
     CLI::App app_;
     std::shared_ptr<ConfigFile> config_;
     std::vector<Variable> variables_;
-    std::vector<std::pair<std::string, Reader>> readers_;  // by first spelling
+    std::vector<std::pair<std::string, Reader>> readers_; // by first spelling
     bool noConfig_ = false;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

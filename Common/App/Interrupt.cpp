@@ -15,10 +15,10 @@ static_assert(std::atomic<bool>::is_always_lock_free, "or a handler must not tou
 
 void handle(int signal) {
     if (!deferring || stopRequested.exchange(true)) std::_Exit(static_cast<int>(ExitCode::Interrupted));
-    std::signal(signal, handle);  // some systems reset it
+    std::signal(signal, handle); // some systems reset it
 }
 
-}  // namespace
+} // namespace
 
 Interrupt::Interrupt() {
     deferring = false;
@@ -40,4 +40,4 @@ const std::atomic<bool>& Interrupt::requested() const {
     return stopRequested;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

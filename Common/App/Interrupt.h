@@ -22,4 +22,4 @@ class Interrupt {
     Handler previousTerm_;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

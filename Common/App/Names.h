@@ -12,7 +12,7 @@ namespace rt::app {
 enum class Policy { Par, Seq, ParUnseq };
 // How radiance is brought into [0,1] for display.
 enum class Tonemap : std::uint32_t {
-    None = shared::kTonemapNone,  // clamped
+    None = shared::kTonemapNone, // clamped
     Reinhard = shared::kTonemapReinhard,
     Aces = shared::kTonemapAces
 };
@@ -58,4 +58,4 @@ std::string nameOf(const Named<E> (&table)[N], E value) {
     return {};
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -49,4 +49,4 @@ std::vector<std::string> parseList(const std::string& flag, const std::string& t
     return parts;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

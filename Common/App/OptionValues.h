@@ -32,4 +32,4 @@ E parseChoice(const std::string& flag, const std::string& text, const Named<E> (
     refuseValue(flag, text, alternatives(names));
 }
 
-}  // namespace rt::app
+} // namespace rt::app

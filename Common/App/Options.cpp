@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kMaxSpp = 0x7fffffff;
 constexpr std::uint32_t kMaxDepth = 4096;
 constexpr std::uint32_t kMaxReplicates = 1024;
-constexpr std::uint32_t kErrorReplicates = 4;  // what --target-error implies
+constexpr std::uint32_t kErrorReplicates = 4; // what --target-error implies
 constexpr std::uint32_t kMaxThreads = 4096;
 constexpr std::uint32_t kDefaultWidth = 600;
 constexpr double kMaxAspect = image::kMaxImageSide;
@@ -145,11 +145,11 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
     flags.addSwitch("--validation", parsed.options.validation, "check every Vulkan call; a message makes exit code 1");
     flags.add("--engine", "auto|pipeline", "pipeline: Vulkan's ray tracing pipeline",
               [](const std::string& flag, const std::string& text) {
-                  if (text == "compute") throw UsageError(flag + " compute: not available yet; must be auto or pipeline");
+                  if (text == "compute")
+                      throw UsageError(flag + " compute: not available yet; must be auto or pipeline");
                   if (text != "auto" && text != "pipeline") refuseValue(flag, text, "auto or pipeline");
               });
-    for (const char* flag : {"--threads", "--policy"})
-        flags.refuse(flag, "a flag of ray-tracing-cpu");
+    for (const char* flag : {"--threads", "--policy"}) flags.refuse(flag, "a flag of ray-tracing-cpu");
 }
 
 void addProgram(FlagSet& flags, Parsed& parsed) {
@@ -193,7 +193,7 @@ void settleErrorEstimate(Options& options) {
         throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
                          std::to_string(settings.spp));
     const bool read = !options.stats.empty() || options.wants(Aov::Variance);
-    settings.secondMoments = read && settings.replicates < 2;  // otherwise the replicates tell
+    settings.secondMoments = read && settings.replicates < 2; // otherwise the replicates tell
     settings.sppIsKnown = !options.timeLimit && !options.targetError;
 }
 
@@ -223,7 +223,7 @@ std::uint32_t rounded(double pixels, const std::string& what) {
     return std::max(1u, static_cast<std::uint32_t>(std::lround(pixels)));
 }
 
-}  // namespace
+} // namespace
 
 std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out) {
     Parsed parsed;
@@ -271,4 +271,4 @@ void settleImageSize(Options& options, double sceneAspect) {
     }
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -16,38 +16,38 @@ enum class Command { Render, ListScenes, ExportScene, ListDevices };
 
 // At most two say all; settleImageSize() checks a third.
 struct SizeRequest {
-    std::optional<std::uint32_t> width, height;  // pixels
-    std::optional<double> aspect;                // width / height
+    std::optional<std::uint32_t> width, height; // pixels
+    std::optional<double> aspect;               // width / height
 };
 
 struct Options {
-    std::string program;  // "ray-tracing-cpu" or "ray-tracing-gpu"
+    std::string program; // "ray-tracing-cpu" or "ray-tracing-gpu"
     Command command = Command::Render;
-    bool json = false;       // of --list-scenes
-    std::string exportFile;  // of Command::ExportScene
+    bool json = false;      // of --list-scenes
+    std::string exportFile; // of Command::ExportScene
 
-    std::string scene = "cornell-box-lights";  // id or file
+    std::string scene = "cornell-box-lights"; // id or file
     bool oneSidedLights = true;
     SizeRequest size;
-    RenderSettings settings;  // complete but for width and height, which may depend on the scene
+    RenderSettings settings; // complete but for width and height, which may depend on the scene
 
     std::vector<std::string> outputs;
-    float exposure = 0;  // stops
+    float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::vector<Aov> aovs;
     std::string reference;
-    std::string stats;  // "-": standard output
+    std::string stats; // "-": standard output
 
-    std::optional<double> timeLimit;    // seconds
-    std::optional<double> targetError;  // relMSE
-    std::optional<double> saveEvery;    // seconds
-    std::string checkpoint;             // empty: none is written
-    std::string resume;                 // empty: start anew
+    std::optional<double> timeLimit;   // seconds
+    std::optional<double> targetError; // relMSE
+    std::optional<double> saveEvery;   // seconds
+    std::string checkpoint;            // empty: none is written
+    std::string resume;                // empty: start anew
 
-    std::uint32_t threads = 0;  // 0: all
+    std::uint32_t threads = 0; // 0: all
     Policy policy = Policy::Par;
-    std::string device;       // of ray-tracing-gpu: index or part of a name; empty: the best
-    bool validation = false;  // of ray-tracing-gpu: check every Vulkan call
+    std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
+    bool validation = false; // of ray-tracing-gpu: check every Vulkan call
 
     bool quiet = false;
     bool verbose = false;
@@ -56,7 +56,7 @@ struct Options {
     bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
 };
 
-inline constexpr const char* kGpuProgram = "ray-tracing-gpu";  // its flags differ where machines do
+inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
 
 // Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is
 // returned after --help and --version, which are answered on `out`. Throws UsageError.
@@ -69,4 +69,4 @@ void settleImageSize(Options& options, double sceneAspect);
 // The checkpoint of an output that has no other name: image.png.rtc for image.png.
 std::string checkpointBeside(const std::string& output);
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -13,7 +13,7 @@
 namespace rt::app {
 namespace {
 
-constexpr std::uint32_t kAovSamples = 16;  // of each pixel, or fewer when the render has fewer
+constexpr std::uint32_t kAovSamples = 16; // of each pixel, or fewer when the render has fewer
 
 using image::Image;
 
@@ -57,10 +57,10 @@ std::map<Aov, Image> makeAovs(const Options& options, const image::Film& film, E
 
 void probe(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path)) throw RenderError(path.string() + ": is a directory");
-    AtomicFile file(path);  // never committed: only its temporary file comes and goes
+    AtomicFile file(path); // never committed: only its temporary file comes and goes
 }
 
-}  // namespace
+} // namespace
 
 bool isLinearFormat(const std::filesystem::path& path) {
     return hasExtension(path, ".exr") || hasExtension(path, ".hdr") || hasExtension(path, ".pfm");
@@ -75,8 +75,7 @@ void checkOutputs(const Options& options) {
     for (const std::string& output : options.outputs) {
         image::checkWritable(output);
         probe(output);
-        for (const Aov aov : options.aovs)
-            probe(aovPath(output, aov));
+        for (const Aov aov : options.aovs) probe(aovPath(output, aov));
     }
     if (!options.checkpoint.empty()) probe(options.checkpoint);
     if (!options.stats.empty() && options.stats != "-") probe(options.stats);
@@ -99,9 +98,8 @@ OutputResult writeOutputs(const Options& options, const image::Film& film, Engin
         write(output, hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance);
     const std::map<Aov, Image> aovs = makeAovs(options, film, engine);
     for (const std::filesystem::path output : options.outputs)
-        for (const Aov aov : options.aovs)
-            write(aovPath(output, aov), fitted(aovs.at(aov), aov, output));
+        for (const Aov aov : options.aovs) write(aovPath(output, aov), fitted(aovs.at(aov), aov, output));
     return result;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

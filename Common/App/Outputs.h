@@ -10,7 +10,7 @@
 
 namespace rt::app {
 
-bool isLinearFormat(const std::filesystem::path& path);  // by its extension: .exr, .hdr, .pfm
+bool isLinearFormat(const std::filesystem::path& path); // by its extension: .exr, .hdr, .pfm
 
 // "dir/a.normal.png" for "dir/a.png" and Aov::Normal.
 std::filesystem::path aovPath(const std::filesystem::path& output, Aov aov);
@@ -22,10 +22,10 @@ void checkOutputs(const Options& options);
 
 struct OutputResult {
     std::vector<std::string> written;
-    std::vector<std::string> failures;  // one line each
+    std::vector<std::string> failures; // one line each
 };
 // Writes all that can be written. PNG gets exposure and tone curve; what lies beside a PNG is brought into its range:
 // normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum.
 OutputResult writeOutputs(const Options& options, const image::Film& film, Engine& engine);
 
-}  // namespace rt::app
+} // namespace rt::app

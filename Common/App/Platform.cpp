@@ -34,7 +34,7 @@ std::uint64_t peakResidentBytes() {
 #ifdef __APPLE__
     return static_cast<std::uint64_t>(usage.ru_maxrss);
 #else
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // kibibytes
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; // kibibytes
 #endif
 }
 
@@ -59,4 +59,4 @@ std::filesystem::path userConfigDirectory() {
 #endif
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -5,9 +5,9 @@
 
 namespace rt::app {
 
-std::uint64_t peakResidentBytes();  // of this process; 0 where unknown
+std::uint64_t peakResidentBytes(); // of this process; 0 where unknown
 bool standardErrorIsTerminal();
 // $XDG_CONFIG_HOME/ray-tracing or the platform's place for it; empty when the environment names none.
 std::filesystem::path userConfigDirectory();
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -36,7 +36,7 @@ double samplesPerSecond(const ProgressState& state) {
     return state.seconds > 0 ? static_cast<double>(state.samplesDone - state.samplesRestored) / state.seconds : 0;
 }
 
-}  // namespace
+} // namespace
 
 std::string describeProgress(const ProgressState& state) {
     const double share = state.samplesTotal > 0 ? static_cast<double>(state.samplesDone) / state.samplesTotal : 1;
@@ -80,4 +80,4 @@ void Progress::write(const std::string& text, bool last) {
     }
 }
 
-}  // namespace rt::app
+} // namespace rt::app

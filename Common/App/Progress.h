@@ -8,12 +8,12 @@
 namespace rt::app {
 
 struct ProgressState {
-    std::uint64_t samplesDone = 0;  // over all pixels, restored ones included
+    std::uint64_t samplesDone = 0; // over all pixels, restored ones included
     std::uint64_t samplesTotal = 0;
-    std::uint64_t samplesRestored = 0;  // from a checkpoint: they took no time
+    std::uint64_t samplesRestored = 0; // from a checkpoint: they took no time
     std::uint64_t pixels = 1;
-    double seconds = 0;               // since sampling began
-    std::optional<double> timeLimit;  // seconds
+    double seconds = 0;              // since sampling began
+    std::optional<double> timeLimit; // seconds
 };
 
 // "37/100 spp  37%  4.21 M samples/s  1:05 left"
@@ -39,4 +39,4 @@ class Progress {
     std::size_t lastLength_ = 0;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -8,8 +8,8 @@
 namespace rt::app {
 namespace {
 
-constexpr double kSliceSeconds = 0.2;  // of one call of the engine
-constexpr double kCheckGrowth = 1.1;   // samples between two looks at the error
+constexpr double kSliceSeconds = 0.2; // of one call of the engine
+constexpr double kCheckGrowth = 1.1;  // samples between two looks at the error
 
 // Whether the estimated error has fallen below the target. Looks only when there are 10 % more samples than the last
 // time, so that looking costs little and chance gets few opportunities.
@@ -29,7 +29,7 @@ class ErrorTarget {
     double next_ = 1;
 };
 
-}  // namespace
+} // namespace
 
 RenderResult renderUntilStopped(Engine& engine, const Options& options, std::uint64_t samplesRestored,
                                 const std::atomic<bool>& stop, Progress& progress, const std::function<void()>& save) {
@@ -69,4 +69,4 @@ RenderResult renderUntilStopped(Engine& engine, const Options& options, std::uin
     }
 }
 
-}  // namespace rt::app
+} // namespace rt::app

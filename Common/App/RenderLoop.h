@@ -20,7 +20,7 @@ inline constexpr Named<StopReason> kStopReasons[] = {{"spp", StopReason::Spp},
 
 struct RenderResult {
     StopReason stoppedBy = StopReason::Spp;
-    double seconds = 0;  // of sampling alone: neither checkpoints nor error estimates
+    double seconds = 0; // of sampling alone: neither checkpoints nor error estimates
     ProgressState progress;
 };
 
@@ -29,4 +29,4 @@ struct RenderResult {
 RenderResult renderUntilStopped(Engine& engine, const Options& options, std::uint64_t samplesRestored,
                                 const std::atomic<bool>& stop, Progress& progress, const std::function<void()>& save);
 
-}  // namespace rt::app
+} // namespace rt::app

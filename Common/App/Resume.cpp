@@ -16,8 +16,7 @@ using Json = nlohmann::ordered_json;
 
 std::string hex(std::uint64_t value) {
     std::string text(16, '0');
-    for (std::size_t i = text.size(); i-- > 0; value >>= 4)
-        text[i] = "0123456789abcdef"[value & 15];
+    for (std::size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
     return text;
 }
 
@@ -33,7 +32,7 @@ Json toJson(const scene::CameraDesc& camera) {
 
 // Everything that the samples of a pixel depend on, in the order in which a difference is best explained.
 Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report) {
-    return {{"engine", report.threads > 0 ? "cpu" : report.engine},  // threads and policies make no difference
+    return {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
             {"width", settings.width},
             {"height", settings.height},
             {"seed", settings.seed},
@@ -59,8 +58,7 @@ void checkIdentity(const std::string& file, const nlohmann::json& stored, const 
 
 std::uint64_t mostSamples(const image::Film& film) {
     std::uint64_t most = 0;
-    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile)
-        most = std::max(most, film.samples(tile));
+    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
     return most;
 }
 
@@ -75,7 +73,7 @@ void checkSpp(const std::string& file, std::uint32_t stored, const RenderSetting
         throw InputError(file + ": spp is at " + std::to_string(most) + " in the checkpoint already but " + now);
 }
 
-}  // namespace
+} // namespace
 
 void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
                     const EngineReport& report, const image::Film& film) {
@@ -102,4 +100,4 @@ image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, co
     throw InputError(file + ": not a checkpoint of this program: " + error.what());
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -19,4 +19,4 @@ void saveCheckpoint(const std::string& file, const RenderSettings& settings, con
 image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, const scene::CompiledScene& scene,
                            const EngineReport& report);
 
-}  // namespace rt::app
+} // namespace rt::app

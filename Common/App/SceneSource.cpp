@@ -34,7 +34,7 @@ scene::TexelData readTexels(const std::filesystem::path& path) {
     return data;
 }
 
-}  // namespace
+} // namespace
 
 scene::SceneDesc loadScene(const std::string& source) {
     return scene::findBuiltinScene(source);
@@ -56,8 +56,7 @@ std::string listScenes(bool json) {
         return list.dump(2) + "\n";
     }
     std::size_t longest = 0;
-    for (const scene::BuiltinScene& scene : scenes)
-        longest = std::max(longest, scene.id.size());
+    for (const scene::BuiltinScene& scene : scenes) longest = std::max(longest, scene.id.size());
     std::string text;
     for (const scene::BuiltinScene& scene : scenes)
         text +=
@@ -65,4 +64,4 @@ std::string listScenes(bool json) {
     return text;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -17,4 +17,4 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 // Ids and titles, one a line or as JSON: [{"id": …, "title": …, "description": …}].
 std::string listScenes(bool json);
 
-}  // namespace rt::app
+} // namespace rt::app

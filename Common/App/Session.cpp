@@ -24,7 +24,7 @@ namespace {
 
 void writeText(const std::string& file, const std::string& text) {
     if (file == "-") {
-        std::cout << text;  // whether that worked is asked at the end of main
+        std::cout << text; // whether that worked is asked at the end of main
         return;
     }
     AtomicFile target(file);
@@ -36,8 +36,7 @@ void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& s
     const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
     if (missing == 0) return;
     std::string names;
-    for (const std::string& name : featureNames(missing))
-        names += (names.empty() ? "" : ",") + name;
+    for (const std::string& name : featureNames(missing)) names += (names.empty() ? "" : ",") + name;
     throw UsageError("--features: the scene also needs " + names);
 }
 
@@ -72,10 +71,10 @@ class HeadlessRender {
     explicit HeadlessRender(Options options) : options_(std::move(options)) {}
 
     ExitCode run(const EngineFactory& makeEngine) {
-        checkOutputs(options_);  // before hours are spent
+        checkOutputs(options_); // before hours are spent
         load();
         engine_ = makeEngine();
-        interrupt_.defer();  // from here on there may be something to save
+        interrupt_.defer(); // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
         startFilm();
         try {
@@ -110,8 +109,7 @@ class HeadlessRender {
 void HeadlessRender::load() {
     const Stopwatch watch;
     scene_ = compile(loadScene(options_.scene), options_.oneSidedLights);
-    for (const std::string& notice : scene_->notices)
-        logWarning(scene_->id + ": " + notice);
+    for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
     settleImageSize(options_, scene_->defaults.aspect);
     checkFeatures(options_.settings, *scene_);
     if (!options_.reference.empty()) reference_ = readReference(options_.reference, options_.settings);
@@ -137,7 +135,7 @@ void HeadlessRender::sample() {
         try {
             save(options_.checkpoint);
         } catch (const Error& error) {
-            logWarning(error.what());  // the render itself is well
+            logWarning(error.what()); // the render itself is well
         }
     };
     const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
@@ -170,8 +168,7 @@ void HeadlessRender::write() {
     if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
         logWarning(std::to_string(bad) + " samples were not finite and count as black");
     if (outputs.failures.empty()) return;
-    for (std::size_t i = 1; i < outputs.failures.size(); ++i)
-        logWarning(outputs.failures[i]);
+    for (std::size_t i = 1; i < outputs.failures.size(); ++i) logWarning(outputs.failures[i]);
     throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
 }
 
@@ -195,7 +192,7 @@ std::string HeadlessRender::rescue() const {
     return {};
 }
 
-}  // namespace
+} // namespace
 
 ExitCode runSession(Options options, const EngineFactory& makeEngine) {
     switch (options.command) {
@@ -213,4 +210,4 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine) {
     return HeadlessRender(std::move(options)).run(makeEngine);
 }
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -15,4 +15,4 @@ using EngineFactory = std::function<std::unique_ptr<Engine>()>;
 // of which RunMain.h makes the line and the exit code.
 ExitCode runSession(Options options, const EngineFactory& makeEngine);
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -56,7 +56,7 @@ Json errorJson(const image::ErrorFigures& error) {
         {"mse", error.mse}, {"rmse", error.rmse}, {"relmse", error.relmse}, {"mae", error.mae}, {"psnr", error.psnr}};
 }
 
-}  // namespace
+} // namespace
 
 std::string Statistics::toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
                                const image::Film& film) const {
@@ -96,4 +96,4 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace rt::app
+} // namespace rt::app

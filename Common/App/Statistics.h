@@ -15,21 +15,21 @@
 namespace rt::app {
 
 struct Seconds {
-    double load = 0;    // scene, assets, compilation
-    double render = 0;  // wall time of sampling alone
-    double write = 0;   // images
+    double load = 0;   // scene, assets, compilation
+    double render = 0; // wall time of sampling alone
+    double write = 0;  // images
 };
 
 struct Statistics {
     StopReason stoppedBy = StopReason::Spp;
     Seconds seconds;
-    std::uint64_t samplesRestored = 0;         // over all pixels, from a checkpoint
-    std::optional<image::ErrorFigures> error;  // against the reference
-    std::vector<std::string> outputs;          // files written
+    std::uint64_t samplesRestored = 0;        // over all pixels, from a checkpoint
+    std::optional<image::ErrorFigures> error; // against the reference
+    std::vector<std::string> outputs;         // files written
 
     // One JSON object, version 1. What cannot be told, as an error estimate without second moments, is null.
     std::string toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
                        const image::Film& film) const;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -13,4 +13,4 @@ class Stopwatch {
     Clock::time_point start_ = Clock::now();
 };
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -32,7 +32,7 @@ Level standardErrorLevel(const LogSettings& settings) {
     return settings.verbose ? Level::debug : settings.quiet ? Level::err : Level::warn;
 }
 
-}  // namespace
+} // namespace
 
 void setUpLog(const LogSettings& settings) try {
     const bool colour = std::getenv("NO_COLOR") == nullptr;
@@ -48,7 +48,7 @@ void setUpLog(const LogSettings& settings) try {
         file->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l: %v");
         least = std::min(least, file->level());
         logger->sinks().push_back(file);
-        logger->flush_on(Level::trace);  // a crash must not take the last lines with it
+        logger->flush_on(Level::trace); // a crash must not take the last lines with it
     }
     logger->set_level(least);
     spdlog::set_default_logger(logger);
@@ -68,4 +68,4 @@ void logWarning(const std::string& message) {
     spdlog::default_logger_raw()->warn(message);
 }
 
-}  // namespace rt
+} // namespace rt

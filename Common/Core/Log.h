@@ -5,10 +5,10 @@
 namespace rt {
 
 struct LogSettings {
-    std::string program;   // begins every line on standard error
-    bool quiet = false;    // errors only
-    bool verbose = false;  // debug messages too
-    std::string file;      // empty: none; it gets what standard error gets, and informative messages always
+    std::string program;  // begins every line on standard error
+    bool quiet = false;   // errors only
+    bool verbose = false; // debug messages too
+    std::string file;     // empty: none; it gets what standard error gets, and informative messages always
 };
 
 // The level named by RT_LOG (trace, debug, info, warn, error, off) wins over `quiet` and `verbose`. Colours are used on
@@ -19,4 +19,4 @@ void logDebug(const std::string& message);
 void logInfo(const std::string& message);
 void logWarning(const std::string& message);
 
-}  // namespace rt
+} // namespace rt

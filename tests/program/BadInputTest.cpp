@@ -48,8 +48,7 @@ TEST_F(BadInput, References) {
     image::writeImage(path("display.png"), image::Image(32, 32));
     EXPECT_TRUE(failsWith(against("display.png"), 3, "linear"));
     std::string nan = "PF\n32 32\n-1.0\n";
-    for (int i = 0; i < 32 * 32 * 3; ++i)
-        nan += std::string("\x00\x00\xc0\x7f", 4);
+    for (int i = 0; i < 32 * 32 * 3; ++i) nan += std::string("\x00\x00\xc0\x7f", 4);
     writeFile("nan.pfm", nan);
     EXPECT_TRUE(failsWith(against("nan.pfm"), 3, "not finite"));
 }
@@ -58,7 +57,8 @@ TEST_F(BadInput, Checkpoints) {
     EXPECT_TRUE(failsWith(render({"--resume", "missing.rtc"}), 3, "missing.rtc"));
     ASSERT_EQ(render({"--checkpoint", "c.rtc"}).exitCode, 0);
     const std::string whole = bytesOf("c.rtc");
-    for (const std::size_t size : {std::size_t{0}, std::size_t{9}, std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{9}, std::size_t{40}, whole.size() / 2, whole.size() - 1}) {
         writeFile("cut.rtc", whole.substr(0, size));
         EXPECT_TRUE(failsWith(render({"--resume", "cut.rtc"}), 3, "cut.rtc")) << size;
     }
@@ -109,8 +109,9 @@ TEST_F(BadInput, MoreThanTheMemory) {
 #ifdef RT_ADDRESS_SANITIZER
     GTEST_SKIP() << "the sanitizer ends the program instead";
 #endif
-    EXPECT_TRUE(failsWith(render({"--width", "16384", "--height", "16384", "--spp", "1024", "--replicates", "1024"}), 1, "memory"));
+    EXPECT_TRUE(failsWith(render({"--width", "16384", "--height", "16384", "--spp", "1024", "--replicates", "1024"}), 1,
+                          "memory"));
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -178,5 +178,5 @@ TEST_F(CommandLine, LogFile) {
     EXPECT_TRUE(failsWith(render({"--log-file", "."}), 1, "log")); // a folder
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -38,8 +38,7 @@ int exitCodeOf(int status) {
 
 std::string quoted(const std::string& text) {
     std::string result = "'";
-    for (const char c : text)
-        result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return result + "'";
 }
 std::string assignment(const std::string& name, const std::string& value) {
@@ -52,7 +51,7 @@ int exitCodeOf(int status) {
 
 #endif
 
-}  // namespace
+} // namespace
 
 std::string programPath(const std::string& program) {
     fs::path path = fs::path(RT_PROGRAM_DIR) / program;
@@ -85,13 +84,11 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     // Beside the folder, so that tests see only what the program writes there.
     const std::string out = folder_.string() + ".out";
     const std::string err = folder_.string() + ".err";
-    std::string command = kEnterFolder + quoted(folder_.string()) + " && " +
-                          assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
-    for (const auto& [name, value] : environment)
-        command += assignment(name, value);
+    std::string command =
+        kEnterFolder + quoted(folder_.string()) + " && " + assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
+    for (const auto& [name, value] : environment) command += assignment(name, value);
     command += quoted(programPath(program));
-    for (const std::string& argument : arguments)
-        command += " " + quoted(argument);
+    for (const std::string& argument : arguments) command += " " + quoted(argument);
     command += " > " + quoted(out) + " 2> " + quoted(err);
     Outcome outcome;
     outcome.exitCode = exitCodeOf(std::system(command.c_str()));
@@ -129,4 +126,4 @@ testing::AssertionResult failsWith(const Outcome& outcome, int exitCode, const s
                                        << outcome.err << outcome.out;
 }
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -31,10 +31,13 @@ TEST_F(Render, EachFormatHoldsTheSamePicture) {
 }
 
 TEST_F(Render, ImagesBesideThePicture) {
-    ASSERT_EQ(render({"-o", "a.exr", "-o", "b.png", "--aov", "albedo,normal,depth,variance,samples", "--spp", "40"}).exitCode, 0);
+    ASSERT_EQ(
+        render({"-o", "a.exr", "-o", "b.png", "--aov", "albedo,normal,depth,variance,samples", "--spp", "40"}).exitCode,
+        0);
     for (const char* aov : {"albedo", "normal", "depth", "variance", "samples"})
         for (const char* name : {"a.", "b."}) {
-            const image::Image image = image::readImage(path(name + std::string(aov) + (name[0] == 'a' ? ".exr" : ".png")));
+            const image::Image image =
+                image::readImage(path(name + std::string(aov) + (name[0] == 'a' ? ".exr" : ".png")));
             EXPECT_EQ(image.width, 32u) << aov;
             EXPECT_GT(std::abs(mean(image)), 0.0) << aov;
         }
@@ -56,7 +59,8 @@ TEST_F(Render, AnyThreadsAndPolicyGiveTheSameBits) {
     const std::string expected = pixels({"--spp", "19", "--threads", "1", "--policy", "seq"});
     for (const char* policy : {"seq", "par", "par_unseq"})
         for (const char* threads : {"1", "2", "5"})
-            EXPECT_TRUE(pixels({"--spp", "19", "--threads", threads, "--policy", policy}) == expected) << policy << threads;
+            EXPECT_TRUE(pixels({"--spp", "19", "--threads", threads, "--policy", policy}) == expected)
+                << policy << threads;
     EXPECT_TRUE(pixels({"--spp", "19", "--engine", "single"}) == expected);
     EXPECT_FALSE(pixels({"--spp", "19", "--seed", "1"}) == expected);
     EXPECT_FALSE(pixels({"--spp", "20"}) == expected);
@@ -69,13 +73,37 @@ TEST_F(Render, MoreFeaturesThanNeededChangeNothing) {
 }
 
 TEST_F(Render, StatisticsAreThoseOfTheContract) {
-    const Outcome outcome = render({"--spp", "33", "--max-depth", "7", "--seed", "5", "--stats", "-", "--engine", "single"});
+    const Outcome outcome =
+        render({"--spp", "33", "--max-depth", "7", "--seed", "5", "--stats", "-", "--engine", "single"});
     ASSERT_EQ(outcome.exitCode, 0);
     const auto stats = nlohmann::json::parse(outcome.out);
-    for (const char* key : {"version", "app", "scene", "engine", "device", "threads", "width", "height", "spp", "spp_done",
-                            "max_depth", "seed", "stopped_by", "settings", "features", "kernel", "skipped", "seconds",
-                            "samples_per_second", "rays", "mean_radiance", "standard_error", "nonfinite_samples",
-                            "estimated_relmse", "error_is", "memory", "outputs"})
+    for (const char* key : {"version",
+                            "app",
+                            "scene",
+                            "engine",
+                            "device",
+                            "threads",
+                            "width",
+                            "height",
+                            "spp",
+                            "spp_done",
+                            "max_depth",
+                            "seed",
+                            "stopped_by",
+                            "settings",
+                            "features",
+                            "kernel",
+                            "skipped",
+                            "seconds",
+                            "samples_per_second",
+                            "rays",
+                            "mean_radiance",
+                            "standard_error",
+                            "nonfinite_samples",
+                            "estimated_relmse",
+                            "error_is",
+                            "memory",
+                            "outputs"})
         EXPECT_TRUE(stats.contains(key)) << key;
     EXPECT_EQ(stats["version"], 1);
     EXPECT_EQ(stats["app"], "ray-tracing-cpu");
@@ -103,13 +131,17 @@ TEST_F(Render, StatisticsAreThoseOfTheContract) {
 TEST_F(Render, ReplicatesGiveHonestErrors) {
     nlohmann::json stats[2];
     for (int seed = 0; seed < 2; ++seed) {
-        ASSERT_EQ(render({"--spp", "64", "--replicates", "8", "--seed", std::to_string(seed), "--stats", "s.json"}).exitCode, 0);
+        ASSERT_EQ(
+            render({"--spp", "64", "--replicates", "8", "--seed", std::to_string(seed), "--stats", "s.json"}).exitCode,
+            0);
         stats[seed] = jsonOf("s.json");
         EXPECT_EQ(stats[seed]["error_is"], "replicates");
     }
     for (int c = 0; c < 3; ++c) {
-        const double difference = stats[0]["mean_radiance"][c].get<double>() - stats[1]["mean_radiance"][c].get<double>();
-        const double sigma = std::hypot(stats[0]["standard_error"][c].get<double>(), stats[1]["standard_error"][c].get<double>());
+        const double difference =
+            stats[0]["mean_radiance"][c].get<double>() - stats[1]["mean_radiance"][c].get<double>();
+        const double sigma =
+            std::hypot(stats[0]["standard_error"][c].get<double>(), stats[1]["standard_error"][c].get<double>());
         EXPECT_LT(std::abs(difference), 4 * sigma);
     }
 }
@@ -120,8 +152,7 @@ TEST_F(Render, ReferenceAddsErrorFigures) {
     const auto error = jsonOf("s.json")["error"];
     EXPECT_GT(error["mse"], 0.0);
     EXPECT_NEAR(error["rmse"].get<double>() * error["rmse"].get<double>(), error["mse"].get<double>(), 1e-9);
-    for (const char* key : {"relmse", "mae", "psnr"})
-        EXPECT_GT(error[key], 0.0) << key;
+    for (const char* key : {"relmse", "mae", "psnr"}) EXPECT_GT(error[key], 0.0) << key;
 }
 
 TEST_F(Render, TimeLimit) {
@@ -142,7 +173,8 @@ TEST_F(Render, TargetError) {
 }
 
 TEST_F(Render, ResumedRendersHaveTheBitsOfUninterruptedOnes) {
-    for (const Arguments& settings : {Arguments{"--sampler", "sobol"}, Arguments{"--sampler", "independent", "--replicates", "3"}}) {
+    for (const Arguments& settings :
+         {Arguments{"--sampler", "sobol"}, Arguments{"--sampler", "independent", "--replicates", "3"}}) {
         const auto with = [&settings](Arguments more) {
             more.insert(more.begin(), settings.begin(), settings.end());
             return more;
@@ -176,5 +208,5 @@ TEST_F(Render, FilesAreReplacedWholly) {
     EXPECT_EQ(files, 3u);
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

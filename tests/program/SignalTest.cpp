@@ -1,13 +1,12 @@
 // Ctrl-C and SIGTERM: the first keeps what there is, the second ends at once.
 #ifndef _WIN32
 
+#include <chrono>
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
-
-#include <chrono>
 #include <thread>
+#include <unistd.h>
 
 #include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
@@ -21,12 +20,11 @@ class Signal : public ProgramTest {
   protected:
     // Starts a render that takes years, and waits until its first checkpoint shows that it is under way.
     pid_t start(Arguments arguments) {
-        arguments.insert(arguments.begin(), {"-q", "--width", "64", "--spp", "2147483647", "--stats", "s.json", "-o", "a.pfm",
-                                             "--checkpoint", "c.rtc", "--save-every", "0.01"});
+        arguments.insert(arguments.begin(), {"-q", "--width", "64", "--spp", "2147483647", "--stats", "s.json", "-o",
+                                             "a.pfm", "--checkpoint", "c.rtc", "--save-every", "0.01"});
         const std::string program = programPath("ray-tracing-cpu");
         std::vector<char*> argv = {const_cast<char*>(program.c_str())};
-        for (const std::string& argument : arguments)
-            argv.push_back(const_cast<char*>(argument.c_str()));
+        for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
         const pid_t child = fork();
         if (child == 0) {
@@ -74,7 +72,7 @@ TEST_F(Signal, TheSecondEndsAtOnce) {
     close(reader);
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test
 
 #endif
