@@ -51,6 +51,7 @@ struct Vertex {
     vec3 position;
     vec3 error;   // of position, per axis
     vec3 origin;  // where rays on wo's side start
+    VertexNumbers numbers;
 };
 
 RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, RT_IN(Sampler) smp,
@@ -74,8 +75,7 @@ RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camer
     return s;
 }
 
-// ---- emission
-// --------------------------------------------------------------------------------------------------------
+// ---- emission -----------------------------------------------------------------------------------------------------
 
 // Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
 RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
@@ -119,8 +119,7 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
     s.radiance += s.throughput * emitted * weight;
 }
 
-// ---- scattering at a vertex
-// ------------------------------------------------------------------------------------------
+// ---- scattering at a vertex ---------------------------------------------------------------------------------------
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
 // are black, whatever the interpolated normal says.
@@ -207,7 +206,7 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
 RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                           RT_IN(Vertex) v, RT_INOUT(PathState) s) {
     SceneGlobals globals = loadGlobals(scene);
-    vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
+    vec2 u = v.numbers.light;
     LightChoice choice = chooseLight(scene, globals.lightCount, selectionNumber(globals, smp, v.index, u), s.last);
     if (choice.light == kNone) return;
     Light light = loadLight(scene, choice.light);
@@ -222,8 +221,7 @@ RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) par
     s.radiance += contribution * (visible / (choice.probability * sampled.pdf + f.w));
 }
 
-// ---- Shirley's mixture
-// -----------------------------------------------------------------------------------------------
+// ---- Shirley's mixture --------------------------------------------------------------------------------------------
 
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
 RT_FN float mixtureProbability(SceneRef scene, RT_IN(SceneGlobals) globals, uint i, RT_IN(LightContext) context) {
@@ -254,7 +252,7 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
 RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
                                      RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v, float time,
                                      RT_INOUT(LightContext) context) {
-    vec2 u = randomPair(smp, vertexPair(v.index, kPairLight));
+    vec2 u = v.numbers.light;
     float pick = selectionNumber(globals, smp, v.index, u);
     float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
     // The context is completed even when a target is chosen: the density of the direction sums over all of them.
@@ -281,7 +279,7 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
     if (lightless && globals.targetCount == 0u) return b;
     BsdfSample mixed = b;
     mixed.weight = vec3(0.0f, 0.0f, 0.0f);
-    if (randomPair(smp, vertexPair(v.index, kPairChoice)).y < 0.5f) {
+    if (v.numbers.choice.y < 0.5f) {
         if (!(sampled.pdf > 0.0f)) return mixed;
         mixed.wi = sampled.wi;
     }
@@ -292,8 +290,7 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
     return mixed;
 }
 
-// ---- a step
-// ----------------------------------------------------------------------------------------------------------
+// ---- a step -------------------------------------------------------------------------------------------------------
 
 // Continues the path from v. False: it ends here.
 RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
@@ -303,7 +300,7 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
     if (lights && params.lightSampling == kSampleMis) addDirectLight(features, scene, params, smp, v, s);
 
-    BsdfSample b = sampleScattering(features, v, randomPair(smp, vertexPair(v.index, kPairBsdf)));
+    BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
     if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
         b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
     }
@@ -322,7 +319,7 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     s.pdf = b.delta != 0u ? 0.0f : b.pdf;
     if (params.russianRoulette != 0u && v.index >= kRouletteStart) {
         float survival = clamp(strongest, kRouletteMin, kRouletteMax);
-        if (randomPair(smp, vertexPair(v.index, kPairChoice)).x >= survival) return false;
+        if (v.numbers.choice.x >= survival) return false;
         s.throughput /= survival;
     }
     return true;
@@ -429,6 +426,7 @@ RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         v = surfaceVertex(features, scene, s, surface, material);
     }
+    v.numbers = vertexNumbers(smp, v.index);
     return scatter(features, scene, params, smp, v, s);
 }
 

@@ -25,8 +25,7 @@ RT_FN uint vertexPair(uint vertex, uint pair) {
     return kPairsCamera + vertex * kPairsPerVertex + pair;
 }
 
-// ---- hashing
-// ---------------------------------------------------------------------------------------------------------
+// ---- hashing ------------------------------------------------------------------------------------------------------
 
 // Three words to three words. Jarzynski & Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 RT_FN uvec3 hash3(uvec3 v) {
@@ -61,8 +60,7 @@ RT_FN float toFineUniform(uint high, uint low) {
                0.999999940395355f);
 }
 
-// ---- Owen-scrambled Sobol
-// --------------------------------------------------------------------------------------------
+// ---- Owen-scrambled Sobol -----------------------------------------------------------------------------------------
 
 // Nested uniform scrambling of a word whose most significant digit is bit 0. Laine & Karras, "Stratified Sampling for
 // Stochastic Transparency", 2011, with the constants that Vegdahl found to scramble well for all seeds.
@@ -98,8 +96,7 @@ RT_FN uvec2 sobolPair(uint index, uvec3 key) {
                  bitfieldReverse(laineKarras(sobolSecondReversed(shuffled), key.y)));
 }
 
-// ---- jittered strata
-// -------------------------------------------------------------------------------------------------
+// ---- jittered strata ----------------------------------------------------------------------------------------------
 
 // Element i of a pseudo-random permutation of [0, n), n >= 1. Kensler, "Correlated Multi-Jittered Sampling", Pixar
 // 2013, with cycle walking over a hash that is a bijection of the words below the next power of two.
@@ -133,8 +130,9 @@ RT_FN uint permute(uint i, uint n, uint key) {
     return (i + key) % n;
 }
 
-// ---- the sampler
-// -----------------------------------------------------------------------------------------------------
+const uint kSobolKey = 0x50b01u; // keeps the scrambling apart from independent numbers
+
+// ---- the sampler --------------------------------------------------------------------------------------------------
 
 struct Sampler {
     uint kind;   // kSamplerIndependent, kSamplerStratified, kSamplerSobol
@@ -161,7 +159,7 @@ RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
         uvec3 h = hash3(uvec3(s.key, s.index, pair));
         return uvec2(h.x, h.y);
     }
-    if (s.kind == kSamplerSobol) return sobolPair(s.index, hash3(uvec3(s.key, 0x50b01u, pair)));
+    if (s.kind == kSamplerSobol) return sobolPair(s.index, hash3(uvec3(s.key, kSobolKey, pair)));
     uint cells = s.strataX * s.strataY;
     uint round = s.index / cells;
     uint cell = permute(s.index % cells, cells, hash3(uvec3(s.key, round, pair)).z);
@@ -176,6 +174,36 @@ RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
 RT_FN vec2 randomPair(RT_IN(Sampler) s, uint pair) {
     uvec2 words = randomWords(s, pair);
     return vec2(toUniform(words.x), toUniform(words.y));
+}
+
+// The pairs that nearly every vertex needs.
+struct VertexNumbers {
+    vec2 light;
+    vec2 bsdf;
+    vec2 choice;
+};
+
+// randomPair() of kPairLight, kPairBsdf and kPairChoice. Sobol's take one call: C++ compilers work on the pairs side by side.
+RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
+    VertexNumbers numbers;
+    if (s.kind != kSamplerSobol) {
+        numbers.light = randomPair(s, vertexPair(vertex, kPairLight));
+        numbers.bsdf = randomPair(s, vertexPair(vertex, kPairBsdf));
+        numbers.choice = randomPair(s, vertexPair(vertex, kPairChoice));
+        return numbers;
+    }
+    uint first = vertexPair(vertex, 0u);
+    float x[4];
+    float y[4];
+    for (uint i = 0u; i < 4u; i++) {
+        uvec2 words = sobolPair(s.index, hash3(uvec3(s.key, kSobolKey, first + i)));
+        x[i] = toUniform(words.x);
+        y[i] = toUniform(words.y);
+    }
+    numbers.light = vec2(x[kPairLight], y[kPairLight]);
+    numbers.bsdf = vec2(x[kPairBsdf], y[kPairBsdf]);
+    numbers.choice = vec2(x[kPairChoice], y[kPairChoice]);
+    return numbers;
 }
 
 // First number of the pair, in [0,1), fine near 0.
