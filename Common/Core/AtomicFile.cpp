@@ -49,10 +49,14 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::commit() {
+    const bool lost = stream_.fail();
     errno = 0;
-    const bool written = !stream_.fail();
-    stream_.close();  // tries again what could not be written, and so tells the reason
-    if (!written || stream_.fail()) fail(reasonOf(errno));
+    if (lost) {  // the reason may be gone by now: fail once more to learn it
+        stream_.clear();
+        stream_.put(0);
+    }
+    stream_.close();
+    if (lost || stream_.fail()) fail(reasonOf(errno));
     if (temporary_.empty()) return;
     std::error_code error;
     fs::rename(temporary_, target_, error);

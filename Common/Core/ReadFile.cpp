@@ -26,11 +26,11 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
     try {
         while (in) {
             const std::size_t have = content.size();
-            if (have > limit) fail("it is larger than " + std::to_string(limit) + " bytes");
             content.resize(have + piece);
             errno = 0;
             in.read(reinterpret_cast<char*>(content.data() + have), static_cast<std::streamsize>(piece));
             content.resize(have + static_cast<std::size_t>(in.gcount()));
+            if (content.size() > limit) fail("it is larger than " + std::to_string(limit) + " bytes");
             piece = std::clamp(content.size(), piece, std::size_t{1} << 26);
         }
     } catch (const std::bad_alloc&) {

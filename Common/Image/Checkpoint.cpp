@@ -34,11 +34,7 @@ FilmDesc toFilmDesc(const nlohmann::json& json) {
 
 class Reader {
   public:
-    explicit Reader(const std::filesystem::path& path) : name_(path.string()) {
-        errno = 0;
-        in_.open(path, std::ios::binary);
-        if (!in_) fail("cannot be read: " + std::generic_category().message(errno == 0 ? EIO : errno));
-    }
+    Reader(std::istream& in, const std::string& name) : in_(in), name_(name) {}
     void read(void* target, std::size_t bytes) {
         if (!in_.read(static_cast<char*>(target), static_cast<std::streamsize>(bytes)))
             fail("checkpoint ends before its header does");
@@ -51,11 +47,10 @@ class Reader {
     }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
     std::istream& stream() { return in_; }
-    const std::string& name() const { return name_; }
 
   private:
-    std::string name_;
-    std::ifstream in_;
+    std::istream& in_;
+    const std::string& name_;
 };
 
 nlohmann::json readHeader(Reader& in) {
@@ -76,27 +71,39 @@ nlohmann::json readHeader(Reader& in) {
 }  // namespace
 
 void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film) {
+    AtomicFile file(path);
+    writeCheckpoint(file.stream(), render, film);
+    file.commit();
+}
+
+void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film& film) {
     const std::string text = nlohmann::json{{"film", toJson(film.desc())}, {"render", render}}.dump();
     const auto size = static_cast<std::uint32_t>(text.size());
     const std::uint64_t hash = hashText(text);
-    AtomicFile file(path);
-    std::ostream& out = file.stream();
     out.write(kMagic, sizeof kMagic);
     out.write(reinterpret_cast<const char*>(&kVersion), sizeof kVersion);
     out.write(reinterpret_cast<const char*>(&size), sizeof size);
     out << text;
     out.write(reinterpret_cast<const char*>(&hash), sizeof hash);
     film.writeState(out);
-    file.commit();
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& path) {
-    Reader in(path);
+    errno = 0;
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        throw InputError("cannot read " + path.string() + ": " +
+                         std::generic_category().message(errno == 0 ? EIO : errno));
+    return readCheckpoint(in, path.string());
+}
+
+Checkpoint readCheckpoint(std::istream& stream, const std::string& name) {
+    Reader in(stream, name);
     try {
         const nlohmann::json header = readHeader(in);
         Checkpoint checkpoint{header.at("render"), {}};
-        checkpoint.film = Film::readState(toFilmDesc(header.at("film")), in.stream(), in.name());
-        if (in.stream().peek() != std::ifstream::traits_type::eof())
+        checkpoint.film = Film::readState(toFilmDesc(header.at("film")), stream, name);
+        if (stream.peek() != std::istream::traits_type::eof())
             in.fail("checkpoint is damaged: it goes on after its end");
         return checkpoint;
     } catch (const nlohmann::json::exception& error) {

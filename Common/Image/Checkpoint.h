@@ -17,9 +17,11 @@ struct Checkpoint {
 
 // Replaces the file atomically. Throws RenderError.
 void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film);
+void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film& film);
 
 // The film is that of writeCheckpoint bit for bit. Throws InputError naming the file and what is wrong with it: not a
 // checkpoint, another version, truncated, damaged.
 Checkpoint readCheckpoint(const std::filesystem::path& path);
+Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
 }  // namespace rt::image

@@ -14,15 +14,20 @@ namespace rt::image {
 // is.
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes);
 
+// What readImage does with the bytes of a file of that name.
+Image decodeImage(std::span<const std::byte> bytes, const std::filesystem::path& path);
+
 Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
 void encodePfm(const Image& image, std::ostream& out);
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
 void encodeExr(const Image& image, std::ostream& out);
 
-// PNG, JPEG, BMP, TGA to sRGB bytes; HDR to linear floats.
-Texels decodeStb(std::span<const std::byte> bytes, const std::string& name);
-void encodePng(const Image& image, std::ostream& out);
+Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 void encodeHdr(const Image& image, std::ostream& out);
+
+Texels decodeStb(std::span<const std::byte> bytes, const std::string& name);  // PNG, JPEG, BMP, TGA: sRGB bytes
+void checkJpeg(std::span<const std::byte> bytes, const std::string& name);    // before decoding one by stb
+void encodePng(const Image& image, std::ostream& out);
 
 }  // namespace rt::image

@@ -54,17 +54,11 @@ std::array<float, 256> makeDecodingTable() {
     return table;
 }
 
-Image toLinear(Texels&& texels) {
-    Image image;
-    image.width = texels.width;
-    image.height = texels.height;
-    image.data = std::move(texels.linear);
-    if (!texels.srgb8.empty()) {
-        static const std::array<float, 256> table = makeDecodingTable();
-        image.data.resize(texels.srgb8.size());
-        std::transform(texels.srgb8.begin(), texels.srgb8.end(), image.data.begin(),
-                       [](std::uint8_t b) { return table[b]; });
-    }
+Image toLinear(const Texels& texels) {
+    static const std::array<float, 256> table = makeDecodingTable();
+    Image image(texels.width, texels.height);
+    std::transform(texels.srgb8.begin(), texels.srgb8.end(), image.data.begin(),
+                   [](std::uint8_t b) { return table[b]; });
     return image;
 }
 
@@ -102,22 +96,27 @@ void checkDimensions(const std::string& name, double width, double height, doubl
                          std::to_string(fileBytes) + " bytes");
 }
 
-Image readImage(const fs::path& path) {
-    const Codec codec = codecOf<InputError>(path, false);
-    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
-    switch (codec) {
+Image decodeImage(std::span<const std::byte> bytes, const fs::path& path) {
+    switch (codecOf<InputError>(path, false)) {
         case Codec::Exr:
             return decodeExr(bytes, path.string());
         case Codec::Pfm:
             return decodePfm(bytes, path.string());
+        case Codec::Hdr:
+            return decodeHdr(bytes, path.string());
         default:
             return toLinear(decodeStb(bytes, path.string()));
     }
 }
 
+Image readImage(const fs::path& path) {
+    codecOf<InputError>(path, false);  // before reading what cannot be decoded
+    return decodeImage(readFile(path, kMaxFileBytes), path);
+}
+
 Texels loadTexels(const fs::path& path) {
     const Codec codec = codecOf<InputError>(path, false);
-    if (codec != Codec::Exr && codec != Codec::Pfm) return decodeStb(readFile(path, kMaxFileBytes), path.string());
+    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeStb(readFile(path, kMaxFileBytes), path.string());
     const Image image = readImage(path);
     if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
     Texels texels = toTexels(image);
@@ -149,6 +148,10 @@ void writeImage(const fs::path& path, const Image& image) {
 
 void checkWritable(const fs::path& path) {
     codecOf<UsageError>(path, true);
+}
+
+bool isDisplayReferred(const fs::path& path) {
+    return codecOf<UsageError>(path, true) == Codec::Png;
 }
 
 }  // namespace rt::image

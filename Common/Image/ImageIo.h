@@ -36,4 +36,7 @@ void writeImage(const std::filesystem::path& path, const Image& image);
 // Throws the UsageError of writeImage beforehand, so that a long render does not end with it.
 void checkWritable(const std::filesystem::path& path);
 
+// Whether writeImage takes what a screen shows rather than linear radiance. Throws like checkWritable.
+bool isDisplayReferred(const std::filesystem::path& path);
+
 }  // namespace rt::image

@@ -1,6 +1,5 @@
-// PNG, JPEG, BMP, TGA and HDR by the stb libraries, whose implementation is compiled here and nowhere else.
+// PNG, JPEG, BMP and TGA by the stb libraries, whose implementation is compiled here and nowhere else.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <ostream>
@@ -15,7 +14,7 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
-#define STBI_ONLY_HDR
+#define STBI_NO_LINEAR
 #define STB_IMAGE_STATIC
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_IMPLEMENTATION
@@ -35,22 +34,8 @@ void writeBytes(void* context, void* data, int size) {
     static_cast<std::ostream*>(context)->write(static_cast<const char*>(data), size);
 }
 
-// The nearest colour with one shared exponent of 8 bits and three mantissas of 8 bits, which stb then stores as it is:
-// left to itself it rounds mantissas down.
-void roundToSharedExponent(float* pixel) {
-    constexpr float kLargest = 1.69e38f;  // below 255 * 2^119, the largest mantissa at the largest exponent
-    for (int c = 0; c < 3; ++c)
-        pixel[c] = std::clamp(pixel[c], 0.0f, kLargest);
-    const float largest = std::max({pixel[0], pixel[1], pixel[2]});
-    if (largest < 1e-32f) {  // stb writes black
-        std::fill_n(pixel, 3, 0.0f);
-        return;
-    }
-    int exponent = 0;
-    const float mantissa = std::frexp(largest, &exponent);  // [1/2, 1)
-    if (mantissa * 256.0f >= 255.5f) ++exponent;            // it would round to 256
-    for (int c = 0; c < 3; ++c)
-        pixel[c] = std::ldexp(std::nearbyint(std::ldexp(pixel[c], 8 - exponent)), exponent - 8);
+bool isJpeg(std::span<const std::byte> bytes) {
+    return bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
 }
 
 }  // namespace
@@ -62,21 +47,15 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const int size = static_cast<int>(bytes.size());
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
+    if (isJpeg(bytes)) checkJpeg(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
     checkDimensions(name, width, height, 3.0 * width * height, bytes.size());
+    const std::unique_ptr<stbi_uc, FreePixels> pixels(
+        stbi_load_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+    if (!pixels) fail("damaged image: " + reason());
     Texels texels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}, {}};
-    const auto values = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-    const auto decode = [&](auto load, auto& target) {
-        using Value = std::remove_pointer_t<decltype(load(data, size, &width, &height, &channels, 3))>;
-        const std::unique_ptr<Value, FreePixels> pixels(load(data, size, &width, &height, &channels, 3));
-        if (!pixels) fail("damaged image: " + reason());
-        target.assign(pixels.get(), pixels.get() + values);
-    };
-    if (stbi_is_hdr_from_memory(data, size))
-        decode(stbi_loadf_from_memory, texels.linear);
-    else
-        decode(stbi_load_from_memory, texels.srgb8);
+    texels.srgb8.assign(pixels.get(), pixels.get() + std::size_t{texels.width} * texels.height * 3);
     return texels;
 }
 
@@ -90,16 +69,6 @@ void encodePng(const Image& image, std::ostream& out) {
     const int channels = static_cast<int>(image.channels);
     if (!stbi_write_png_to_func(writeBytes, &out, width, height, channels, bytes.data(), width * channels))
         throw std::bad_alloc();
-}
-
-void encodeHdr(const Image& image, std::ostream& out) {
-    std::vector<float> pixels(std::size_t{image.width} * image.height * 3);
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        pixels[i] = image.data[image.channels == 3 ? i : i / 3];
-    for (std::size_t i = 0; i < pixels.size(); i += 3)
-        roundToSharedExponent(&pixels[i]);
-    const int width = static_cast<int>(image.width), height = static_cast<int>(image.height);
-    if (!stbi_write_hdr_to_func(writeBytes, &out, width, height, 3, pixels.data())) throw std::bad_alloc();
 }
 
 bool inflate(std::span<const std::byte> in, std::span<std::byte> out) {

@@ -1,7 +1,6 @@
 // ray-tracing-image: compares, describes and converts image files.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -100,7 +99,7 @@ int convert(const Arguments& arguments) {
     image::checkWritable(arguments.b);
     image::Image image = image::readImage(arguments.a);
     if (arguments.exposure != 0 || arguments.tonemap != "none") {
-        if (std::filesystem::path(arguments.b).extension() != ".png")
+        if (!image::isDisplayReferred(arguments.b))
             throw UsageError(arguments.b + ": --exposure and --tonemap are for .png only");
         image = image::toDisplay(image, arguments.exposure, rowOf(kCurves, arguments.tonemap).curve);
     }

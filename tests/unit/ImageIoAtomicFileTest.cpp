@@ -1,0 +1,126 @@
+// Output files are replaced wholly or left alone, and nothing else stays behind.
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/AtomicFile.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/ReadFile.h"
+#include "tests/TempFolder.h"
+
+namespace rt {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string contentOf(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::size_t filesIn(const fs::path& folder) {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+void write(const fs::path& path, const std::string& text) {
+    AtomicFile file(path);
+    file.stream() << text;
+    file.commit();
+}
+
+std::string errorOf(const fs::path& path) {
+    try {
+        write(path, std::string(1 << 20, 'x'));
+    } catch (const RenderError& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(ImageIoAtomicFile, AppearsOnlyWhenCommitted) {
+    const tests::TempFolder folder;
+    {
+        AtomicFile file(folder / "a");
+        file.stream() << "half";
+        EXPECT_FALSE(fs::exists(folder / "a"));
+    }
+    EXPECT_EQ(filesIn(folder.path()), 0u);
+
+    write(folder / "a", "first");
+    {
+        AtomicFile file(folder / "a");
+        file.stream() << "abandoned" << std::flush;
+        EXPECT_EQ(contentOf(folder / "a"), "first");
+    }
+    EXPECT_EQ(contentOf(folder / "a"), "first");
+    write(folder / "a", "2nd");
+    EXPECT_EQ(contentOf(folder / "a"), "2nd");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+TEST(ImageIoAtomicFile, TakesNamesWithoutAFolderAndLongOnes) {
+    const tests::TempFolder folder;
+    const fs::path before = fs::current_path();
+    fs::current_path(folder.path());
+    write("plain", "here");
+    fs::current_path(before);
+    EXPECT_EQ(contentOf(folder / "plain"), "here");
+    write(folder / std::string(250, 'n'), "long");
+    EXPECT_EQ(filesIn(folder.path()), 2u);
+}
+
+TEST(ImageIoAtomicFile, ErrorsNameFileAndReason) {
+    const tests::TempFolder folder;
+    EXPECT_NE(errorOf(folder / "none" / "a").find("No such file"), std::string::npos);
+    EXPECT_NE(errorOf(folder.path()).find("directory"), std::string::npos);
+    write(folder / "file", "x");
+    EXPECT_NE(errorOf(folder / "file" / "a").find((folder / "file" / "a").string()), std::string::npos);
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
+#ifdef __linux__
+TEST(ImageIoAtomicFile, WritesDevicesDirectly) {
+    write("/dev/null", "gone");
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+    EXPECT_NE(errorOf("/dev/full").find("/dev/full: No space left"), std::string::npos);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(ImageIoAtomicFile, FollowsLinks) {
+    const tests::TempFolder folder;
+    fs::create_directory(folder / "elsewhere");
+    write(folder / "elsewhere" / "target", "old");
+    fs::create_symlink(folder / "elsewhere" / "target", folder / "link");
+    write(folder / "link", "new");
+    EXPECT_TRUE(fs::is_symlink(folder / "link"));
+    EXPECT_EQ(contentOf(folder / "elsewhere" / "target"), "new");
+    EXPECT_EQ(filesIn(folder / "elsewhere"), 1u);
+}
+
+TEST(ImageIoAtomicFile, NamesAReadOnlyFolder) {
+    const tests::TempFolder folder;
+    fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+    const bool bound = !std::ofstream(folder / "probe");  // root is not
+    const std::string error = bound ? errorOf(folder / "a") : "";
+    fs::permissions(folder.path(), fs::perms::owner_all);
+    if (!bound) GTEST_SKIP() << "permissions do not bind this user";
+    EXPECT_NE(error.find("Permission denied"), std::string::npos);
+}
+#endif
+
+TEST(ImageIoAtomicFile, ReadFileKeepsToItsLimit) {
+    const tests::TempFolder folder;
+    write(folder / "a", std::string(300000, 'y'));
+    EXPECT_EQ(readFile(folder / "a", 300000).size(), 300000u);
+    EXPECT_THROW(readFile(folder / "a", 299999), InputError);
+    EXPECT_THROW(readFile(folder / "none", 10), InputError);
+    write(folder / "empty", "");
+    EXPECT_TRUE(readFile(folder / "empty", 10).empty());
+#ifdef __linux__
+    EXPECT_THROW(readFile("/dev/zero", 1000000), InputError);
+#endif
+}
+
+}  // namespace
+}  // namespace rt
