@@ -28,7 +28,7 @@ TTest welch(const Estimate& a, const Estimate& b);
 // Probability that |t| or more is drawn from Student's distribution.
 double studentTwoSided(double t, double dof);
 
-// Regularised incomplete beta function I_x(a, b), a, b > 0, x in [0,1]; relative error below 1e-12.
+// Regularised incomplete beta function I_x(a, b), a, b > 0, x in [0,1]; relative error about 1e-15 log Gamma(a + b).
 double incompleteBeta(double a, double b, double x);
 
 // Benjamini and Hochberg 1995: indices, ascending, of the hypotheses to reject so that the expected share of false ones

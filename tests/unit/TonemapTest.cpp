@@ -1,0 +1,93 @@
+// Display transform against its definitions in double.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "Common/Image/Display.h"
+#include "Common/Shared/Tonemap.h"
+
+namespace rt::shared {
+namespace {
+
+double exactEncode(double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+TEST(Tonemap, SrgbIsThatOfTheStandard) {
+    for (int i = 0; i <= 100000; ++i) {
+        const float x = float(i) / 100000;
+        ASSERT_NEAR(srgbEncode(x), exactEncode(x), 5e-7) << x;
+        ASSERT_NEAR(srgbDecode(srgbEncode(x)), x, 1e-6) << x;
+    }
+    EXPECT_EQ(srgbEncode(0.0f), 0.0f);
+    EXPECT_NEAR(srgbEncode(1.0f), 1.0f, 1e-6f);
+    EXPECT_NEAR(srgbEncode(0.18f), 0.461356, 1e-5);  // middle grey; a square root would give 0.4243
+    EXPECT_NEAR(srgbDecode(0.04045f), 0.04045 / 12.92, 1e-8);
+}
+
+TEST(Tonemap, SrgbGrowsAndKeepsEveryByte) {
+    float before = -1;
+    for (int i = 0; i < 256; ++i) {
+        const float linear = srgbDecode(float(i) / 255);
+        EXPECT_GT(linear, before);
+        EXPECT_EQ(int(srgbEncode(linear) * 255 + 0.5f), i);
+        before = linear;
+    }
+}
+
+TEST(Tonemap, ExposureIsInStops) {
+    const vec3 color(0.1f, 0.2f, 0.05f);
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces}) {
+        const vec3 shown = tonemap(color, 2.0f, curve), scaled = tonemap(color * 4.0f, 0.0f, curve);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(shown[c], scaled[c], 1e-6f);
+    }
+    EXPECT_NEAR(tonemap(color, 1.0f, kTonemapNone).x, 0.2f, 1e-7f);
+    EXPECT_EQ(tonemap(vec3(3, -1, 0.5f), 0.0f, kTonemapNone), vec3(1, 0, 0.5f));
+}
+
+TEST(Tonemap, ReinhardActsOnLuminance) {
+    EXPECT_NEAR(tonemap(vec3(1.0f), 0.0f, kTonemapReinhard).x, 0.5f, 1e-6f);
+    const vec3 color(0.9f, 0.3f, 0.1f);
+    const float luminance = 0.2126f * 0.9f + 0.7152f * 0.3f + 0.0722f * 0.1f;
+    const vec3 shown = tonemap(color, 0.0f, kTonemapReinhard);
+    EXPECT_NEAR(displayLuminance(shown), luminance / (1 + luminance), 1e-6f);
+    EXPECT_NEAR(shown.x / shown.y, 3.0f, 1e-5f);  // the hue stays
+}
+
+TEST(Tonemap, AcesIsNarkowiczsCurve) {
+    for (const double x : {0.0, 0.01, 0.18, 0.5, 1.0, 3.0}) {
+        const double y = 0.6 * x;
+        const double curve = y * (2.51 * y + 0.03) / (y * (2.43 * y + 0.59) + 0.14);
+        EXPECT_NEAR(tonemap(vec3(float(x)), 0.0f, kTonemapAces).y, std::min(curve, 1.0), 1e-6);
+    }
+}
+
+TEST(Tonemap, AnyRadianceStaysInRange) {
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces}) {
+        float before = 0;
+        for (const float x : {0.0f, 1e-38f, 1e-6f, 0.1f, 1.0f, 100.0f, 1e10f, 1e30f, 3e38f}) {
+            for (const float stops : {-20.0f, 0.0f, 20.0f}) {
+                const float shown = tonemap(vec3(x), stops, curve).z;
+                EXPECT_TRUE(shown >= 0 && shown <= 1) << x;
+            }
+            const float shown = tonemap(vec3(x), 0.0f, curve).x;
+            EXPECT_GE(shown, before) << x;
+            before = shown;
+        }
+        EXPECT_GT(before, 0.999f);
+        EXPECT_EQ(tonemap(vec3(-5.0f), 0.0f, curve), vec3(0.0f));
+    }
+}
+
+TEST(Tonemap, DisplaysWholeImages) {
+    image::Image radiance(2, 1);
+    radiance.data = {0.25f, 0.5f, 4.0f, 0, 0.125f, 1};
+    EXPECT_EQ(image::toDisplay(radiance, 1, kTonemapNone).data, (std::vector<float>{0.5f, 1, 1, 0, 0.25f, 1}));
+    image::Image grey(2, 1, 1);
+    grey.data = {0.25f, 3.0f};
+    EXPECT_EQ(image::toDisplay(grey, 0, kTonemapNone).data, (std::vector<float>{0.25f, 0.25f, 0.25f, 1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace rt::shared
