@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-namespace rt::tests {
+namespace rt::test {
 
 class TempFolder {
   public:
@@ -27,4 +27,4 @@ class TempFolder {
     std::filesystem::path path_;
 };
 
-}  // namespace rt::tests
+} // namespace rt::test

@@ -25,10 +25,10 @@ std::string temporaryName() {
     return name;
 }
 
-}  // namespace
+} // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
-    std::error_code ignored;  // what cannot be looked at is reported when it is opened
+    std::error_code ignored; // what cannot be looked at is reported when it is opened
     if (const fs::path followed = fs::canonical(path, ignored); !ignored) target_ = followed;
     const fs::file_status status = fs::status(target_, ignored);
     if (fs::is_directory(status)) fail(reasonOf(EISDIR));
@@ -51,7 +51,7 @@ AtomicFile::~AtomicFile() {
 void AtomicFile::commit() {
     const bool lost = stream_.fail();
     errno = 0;
-    if (lost) {  // the reason may be gone by now: fail once more to learn it
+    if (lost) { // the reason may be gone by now: fail once more to learn it
         stream_.clear();
         stream_.put(0);
     }
@@ -68,4 +68,4 @@ void AtomicFile::fail(const std::string& reason) const {
     throw RenderError("cannot write " + path_.string() + ": " + reason);
 }
 
-}  // namespace rt
+} // namespace rt

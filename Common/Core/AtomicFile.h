@@ -23,10 +23,10 @@ class AtomicFile {
   private:
     [[noreturn]] void fail(const std::string& reason) const;
 
-    std::filesystem::path path_;       // as given, for messages
-    std::filesystem::path target_;     // what is replaced: path_ with links followed
-    std::filesystem::path temporary_;  // empty when the target is written directly
+    std::filesystem::path path_;      // as given, for messages
+    std::filesystem::path target_;    // what is replaced: path_ with links followed
+    std::filesystem::path temporary_; // empty when the target is written directly
     std::ofstream stream_;
 };
 
-}  // namespace rt
+} // namespace rt

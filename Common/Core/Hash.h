@@ -10,9 +10,8 @@ inline constexpr std::uint64_t kHashStart = 0xcbf29ce484222325u;
 
 // Hashes of consecutive pieces chain: hashBytes(b, hashBytes(a)) is the hash of a followed by b.
 inline std::uint64_t hashBytes(std::span<const std::byte> bytes, std::uint64_t hash = kHashStart) {
-    for (const std::byte byte : bytes)
-        hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
+    for (const std::byte byte : bytes) hash = (hash ^ std::to_integer<std::uint64_t>(byte)) * 0x100000001b3u;
     return hash;
 }
 
-}  // namespace rt
+} // namespace rt

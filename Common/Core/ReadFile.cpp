@@ -40,4 +40,4 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
     return content;
 }
 
-}  // namespace rt
+} // namespace rt

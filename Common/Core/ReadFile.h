@@ -10,4 +10,4 @@ namespace rt {
 // Throws InputError, naming the file and the reason, when it cannot be read or holds more than `limit` bytes.
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit);
 
-}  // namespace rt
+} // namespace rt

@@ -17,7 +17,7 @@ int report(const char* program, std::string message, ExitCode code) {
     return static_cast<int>(code);
 }
 
-}  // namespace
+} // namespace
 
 int runMain(const char* program, const std::function<int()>& body) {
     try {
@@ -34,4 +34,4 @@ int runMain(const char* program, const std::function<int()>& body) {
     }
 }
 
-}  // namespace rt
+} // namespace rt

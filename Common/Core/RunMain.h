@@ -8,4 +8,4 @@ namespace rt {
 // "<program>: <message>".
 int runMain(const char* program, const std::function<int()>& body);
 
-}  // namespace rt
+} // namespace rt

@@ -68,7 +68,7 @@ nlohmann::json readHeader(Reader& in) {
     return nlohmann::json::parse(text);
 }
 
-}  // namespace
+} // namespace
 
 void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film) {
     AtomicFile file(path);
@@ -108,9 +108,9 @@ Checkpoint readCheckpoint(std::istream& stream, const std::string& name) {
         return checkpoint;
     } catch (const nlohmann::json::exception& error) {
         in.fail(std::string("checkpoint is damaged: ") + error.what());
-    } catch (const UsageError& error) {  // a size that no film can have
+    } catch (const UsageError& error) { // a size that no film can have
         in.fail(std::string("checkpoint is damaged: ") + error.what());
     }
 }
 
-}  // namespace rt::image
+} // namespace rt::image

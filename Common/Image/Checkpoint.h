@@ -11,7 +11,7 @@
 namespace rt::image {
 
 struct Checkpoint {
-    nlohmann::json render;  // whatever the caller compares before going on: settings, scene hash, engine
+    nlohmann::json render; // whatever the caller compares before going on: settings, scene hash, engine
     Film film;
 };
 
@@ -24,4 +24,4 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -26,8 +26,8 @@ void encodeExr(const Image& image, std::ostream& out);
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 void encodeHdr(const Image& image, std::ostream& out);
 
-Texels decodeStb(std::span<const std::byte> bytes, const std::string& name);  // PNG, JPEG, BMP, TGA: sRGB bytes
-void checkJpeg(std::span<const std::byte> bytes, const std::string& name);    // before decoding one by stb
+Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, JPEG, BMP, TGA: sRGB bytes
+void checkJpeg(std::span<const std::byte> bytes, const std::string& name);   // before decoding one by stb
 void encodePng(const Image& image, std::ostream& out);
 
-}  // namespace rt::image
+} // namespace rt::image

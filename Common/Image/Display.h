@@ -8,4 +8,4 @@ namespace rt::image {
 // as writeImage expects for .png. An image of one channel is shown in grey.
 Image toDisplay(const Image& radiance, float exposure, std::uint32_t curve);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kVersionMask = 0xff;
-constexpr std::uint32_t kLongNames = 0x400;  // the only flag of the version that we can read
+constexpr std::uint32_t kLongNames = 0x400; // the only flag of the version that we can read
 
 enum PixelType : std::uint32_t { kUint, kHalf, kFloat };
 enum Compression : std::uint8_t { kNone, kRle, kZips, kZip };
@@ -58,10 +58,9 @@ class Cursor {
         std::memcpy(&value, take(sizeof(T)).data(), sizeof(T));
         return value;
     }
-    std::string string() {  // up to its terminating zero
+    std::string string() { // up to its terminating zero
         std::string text;
-        while (const char c = number<char>())
-            text += c;
+        while (const char c = number<char>()) text += c;
         return text;
     }
     void seek(std::uint64_t position) {
@@ -87,8 +86,7 @@ struct Header {
     std::size_t blockRows() const { return *compression == kZip ? 16 : 1; }
     std::size_t rowBytes() const {
         std::size_t pixel = 0;
-        for (const Channel& channel : channels)
-            pixel += channel.bytes();
+        for (const Channel& channel : channels) pixel += channel.bytes();
         return pixel * width();
     }
 };
@@ -97,7 +95,7 @@ std::vector<Channel> readChannels(Cursor& in) {
     std::vector<Channel> channels;
     for (std::string name = in.string(); !name.empty(); name = in.string()) {
         const auto type = in.number<std::uint32_t>();
-        in.take(4);  // perceptual linearity, reserved
+        in.take(4); // perceptual linearity, reserved
         const auto samplingX = in.number<std::int32_t>(), samplingY = in.number<std::int32_t>();
         if (type > kFloat) in.fail("EXR channel " + name + " has unknown type " + std::to_string(type));
         if (samplingX != 1 || samplingY != 1) in.fail("EXR channel " + name + " is subsampled, which is not supported");
@@ -113,7 +111,7 @@ Header readHeader(Cursor& in) {
         in.fail("tiled, deep and multi-part EXR files are not supported");
     Header header;
     for (std::string name = in.string(); !name.empty(); name = in.string()) {
-        in.string();  // type
+        in.string(); // type
         const auto size = in.number<std::uint32_t>();
         Cursor value(in.take(size), in.name());
         if (name == "channels") header.channels = readChannels(value);
@@ -153,14 +151,13 @@ void undoPrediction(std::vector<std::byte>& data) {
             static_cast<std::byte>(std::to_integer<unsigned>(data[i - 1]) + std::to_integer<unsigned>(data[i]) - 128);
     std::vector<std::byte> woven(data.size());
     const std::size_t half = (data.size() + 1) / 2;
-    for (std::size_t i = 0; i < data.size(); ++i)
-        woven[i] = data[i % 2 == 0 ? i / 2 : half + i / 2];
+    for (std::size_t i = 0; i < data.size(); ++i) woven[i] = data[i % 2 == 0 ? i / 2 : half + i / 2];
     data.swap(woven);
 }
 
 std::vector<std::byte> decodeBlock(Cursor& in, std::uint8_t compression, std::size_t size) {
     const auto stored = in.take(in.number<std::uint32_t>());
-    if (stored.size() == size) return {stored.begin(), stored.end()};  // what would not shrink is stored as it is
+    if (stored.size() == size) return {stored.begin(), stored.end()}; // what would not shrink is stored as it is
     std::vector<std::byte> data(size);
     const bool whole = compression == kRle ? expandRuns(stored, data) : compression != kNone && inflate(stored, data);
     if (!whole) in.fail("damaged EXR block");
@@ -201,7 +198,7 @@ std::vector<std::optional<std::size_t>> chooseChannels(const Header& header, con
     return targets;
 }
 
-}  // namespace
+} // namespace
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
     Cursor in(bytes, name);
@@ -273,7 +270,7 @@ std::string makeHeader(const Image& image, const std::string& channels) {
     appendAttribute(header, "compression", "compression", packed(std::uint8_t{kNone}));
     appendAttribute(header, "dataWindow", "box2i", window);
     appendAttribute(header, "displayWindow", "box2i", window);
-    appendAttribute(header, "lineOrder", "lineOrder", packed(std::uint8_t{0}));  // increasing y
+    appendAttribute(header, "lineOrder", "lineOrder", packed(std::uint8_t{0})); // increasing y
     appendAttribute(header, "pixelAspectRatio", "float", packed(1.0f));
     appendAttribute(header, "screenWindowCenter", "v2f", packed(0.0f, 0.0f));
     appendAttribute(header, "screenWindowWidth", "float", packed(1.0f));
@@ -281,7 +278,7 @@ std::string makeHeader(const Image& image, const std::string& channels) {
     return header;
 }
 
-}  // namespace
+} // namespace
 
 void encodeExr(const Image& image, std::ostream& out) {
     const std::string channels = image.channels == 3 ? "BGR" : "Y";
@@ -292,16 +289,14 @@ void encodeExr(const Image& image, std::ostream& out) {
 
     out << header;
     std::string offsets;
-    for (std::uint32_t y = 0; y < image.height; ++y)
-        append(offsets, firstBlock + y * blockBytes);
+    for (std::uint32_t y = 0; y < image.height; ++y) append(offsets, firstBlock + y * blockBytes);
     out << offsets;
     for (std::uint32_t y = 0; y < image.height; ++y) {
         std::string block = packed(y, rowBytes);
-        for (std::uint32_t c = image.channels; c-- > 0;)  // B, G, R: the image's channels backwards
-            for (std::uint32_t x = 0; x < image.width; ++x)
-                append(block, image.pixel(x, y)[c]);
+        for (std::uint32_t c = image.channels; c-- > 0;) // B, G, R: the image's channels backwards
+            for (std::uint32_t x = 0; x < image.width; ++x) append(block, image.pixel(x, y)[c]);
         out << block;
     }
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -60,7 +60,7 @@ double varianceAcross(double groups, double sumOfSquares, const Sum& total) {
     return std::max(spread, 0.0) / (groups - 1) / total.count;
 }
 
-}  // namespace
+} // namespace
 
 Film::Film(const FilmDesc& desc) : desc_(desc) {
     checkSide("width", desc.width);
@@ -73,15 +73,13 @@ Film::Film(const FilmDesc& desc) : desc_(desc) {
 
 std::uint64_t Film::samples(std::uint32_t tile) const {
     std::uint64_t total = 0;
-    for (std::uint32_t r = 0; r < desc_.replicates; ++r)
-        total += samples(tile, r);
+    for (std::uint32_t r = 0; r < desc_.replicates; ++r) total += samples(tile, r);
     return total;
 }
 
 std::uint64_t Film::minSamples() const {
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile)
-        least = std::min(least, samples(tile));
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, samples(tile));
     return tileCount() == 0 ? 0 : least;
 }
 
@@ -124,8 +122,7 @@ void Film::commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& 
         std::copy_n(block.sum, kTileValues, &open_[at * kTileValues]);
     } else {
         double* const sums = &sums_[at * kTileValues];
-        for (std::size_t i = 0; i < kTileValues; ++i)
-            sums[i] += double{block.sum[i]};
+        for (std::size_t i = 0; i < kTileValues; ++i) sums[i] += double{block.sum[i]};
         if (desc_.secondMoments) {
             double* const squares = &squares_[at * kTileValues];
             for (std::size_t i = 0; i < kTileValues; ++i)
@@ -197,8 +194,7 @@ Image Film::varianceOfMean() const {
     };
     Image image(desc_.width, desc_.height);
     forEachPixel(*this, image, [&](std::uint32_t tile, std::size_t index, float* pixel) {
-        for (std::size_t c = 0; c < 3; ++c)
-            pixel[c] = static_cast<float>(variance(tile, index * 3 + c));
+        for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<float>(variance(tile, index * 3 + c));
     });
     return image;
 }
@@ -215,4 +211,4 @@ std::uint64_t Film::bytes() const {
            squares_.capacity() * sizeof(squares_[0]) + open_.capacity() * sizeof(open_[0]);
 }
 
-}  // namespace rt::image
+} // namespace rt::image

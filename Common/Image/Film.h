@@ -14,10 +14,10 @@ namespace rt::image {
 inline constexpr std::uint32_t kMaxImageSide = 16384;
 
 struct FilmDesc {
-    std::uint32_t width = 0;  // 1 to kMaxImageSide
+    std::uint32_t width = 0; // 1 to kMaxImageSide
     std::uint32_t height = 0;
-    std::uint32_t replicates = 1;  // independent scramblings, each with sums of its own
-    bool secondMoments = false;    // keep what the variance within a single replicate needs
+    std::uint32_t replicates = 1; // independent scramblings, each with sums of its own
+    bool secondMoments = false;   // keep what the variance within a single replicate needs
     bool operator==(const FilmDesc&) const = default;
 };
 
@@ -26,20 +26,20 @@ struct FilmDesc {
 // Memory per pixel and replicate: 24 bytes, 24 more with second moments, 12 more once open blocks are reserved.
 class Film {
   public:
-    static constexpr std::uint32_t kBlock = 16;  // samples
-    static constexpr std::uint32_t kTile = 8;    // pixels
+    static constexpr std::uint32_t kBlock = 16; // samples
+    static constexpr std::uint32_t kTile = 8;   // pixels
     static constexpr std::uint32_t kTilePixels = kTile * kTile;
-    static constexpr std::uint32_t kMaxSamples = 1u << 31;  // per pixel and replicate
+    static constexpr std::uint32_t kMaxSamples = 1u << 31; // per pixel and replicate
 
     // Sums over the samples of one block, of one tile and replicate; channel-interleaved RGB, pixels row by row.
     struct TileBlock {
-        std::uint32_t firstSample = 0;  // index, in the replicate, of the block's first sample: a multiple of kBlock
-        std::uint32_t count = 0;        // samples already summed, < kBlock when begin() returns it
+        std::uint32_t firstSample = 0; // index, in the replicate, of the block's first sample: a multiple of kBlock
+        std::uint32_t count = 0;       // samples already summed, < kBlock when begin() returns it
         float sum[kTilePixels * 3] = {};
     };
 
     Film() = default;
-    explicit Film(const FilmDesc& desc);  // throws UsageError for a bad size, RenderError when memory does not suffice
+    explicit Film(const FilmDesc& desc); // throws UsageError for a bad size, RenderError when memory does not suffice
 
     const FilmDesc& desc() const { return desc_; }
     std::uint32_t tilesX() const { return (desc_.width + kTile - 1) / kTile; }
@@ -68,9 +68,9 @@ class Film {
     // What a tile and replicate hold: kTilePixels * 3 values each, laid out as in TileBlock.
     struct TileState {
         std::uint32_t samples = 0;
-        std::span<const double> sums;     // of all closed blocks
-        std::span<const double> squares;  // of (block sum)^2 / kBlock; empty without second moments
-        std::span<const float> open;      // the open block; empty unless there is one
+        std::span<const double> sums;    // of all closed blocks
+        std::span<const double> squares; // of (block sum)^2 / kBlock; empty without second moments
+        std::span<const float> open;     // the open block; empty unless there is one
     };
     // For engines that keep the film elsewhere and copy it. assign() replaces the state; an open block needs
     // reserveOpenBlocks().
@@ -85,14 +85,14 @@ class Film {
     // Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
     bool errorIsUpperBound() const { return desc_.replicates < 2; }
-    Image sampleCounts() const;  // one channel
+    Image sampleCounts() const; // one channel
 
     // Raw state for checkpoints, little-endian: written and read back bit for bit. readState throws InputError, naming
     // `name`, on a truncated or damaged stream, and allocates nothing that the rest of the stream cannot fill.
     void writeState(std::ostream& out) const;
     static Film readState(const FilmDesc& desc, std::istream& in, const std::string& name);
 
-    std::uint64_t bytes() const;  // of memory held
+    std::uint64_t bytes() const; // of memory held
 
   private:
     static constexpr std::size_t kTileValues = kTilePixels * 3;
@@ -101,13 +101,13 @@ class Film {
         return std::size_t{tile} * desc_.replicates + replicate;
     }
     std::size_t slotCount() const { return std::size_t{tileCount()} * desc_.replicates; }
-    std::span<const float> openBlock(std::size_t slot) const;  // empty unless the slot has an unfilled block
+    std::span<const float> openBlock(std::size_t slot) const; // empty unless the slot has an unfilled block
 
     FilmDesc desc_;
-    std::vector<std::uint32_t> samples_;  // per slot; modulo kBlock it is the size of the slot's open block
-    std::vector<double> sums_;            // kTileValues per slot: all closed blocks
-    std::vector<double> squares_;         // likewise, of (block sum)^2 / kBlock; empty without second moments
-    std::vector<float> open_;             // likewise, the open block; empty until reserved
+    std::vector<std::uint32_t> samples_; // per slot; modulo kBlock it is the size of the slot's open block
+    std::vector<double> sums_;           // kTileValues per slot: all closed blocks
+    std::vector<double> squares_;        // likewise, of (block sum)^2 / kBlock; empty without second moments
+    std::vector<float> open_;            // likewise, the open block; empty until reserved
 };
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -61,22 +61,21 @@ std::optional<double> remainingBytes(std::istream& in) {
     return static_cast<double>(end - here);
 }
 
-}  // namespace
+} // namespace
 
 void Film::writeState(std::ostream& out) const {
     StateWriter writer(out);
     writer.put(std::span(samples_));
     writer.put(std::span(sums_));
     writer.put(std::span(squares_));
-    for (std::size_t at = 0; at < slotCount(); ++at)
-        writer.put(openBlock(at));
+    for (std::size_t at = 0; at < slotCount(); ++at) writer.put(openBlock(at));
     const std::uint64_t hash = writer.hash();
     writer.put(std::span(&hash, 1));
 }
 
 Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& name) {
     StateReader reader(in, name);
-    const double least = 1.0 * desc.width * desc.height * desc.replicates * 3 * sizeof(double);  // bytes
+    const double least = 1.0 * desc.width * desc.height * desc.replicates * 3 * sizeof(double); // bytes
     if (remainingBytes(in).value_or(least) < least) reader.fail("ends before its image does");
 
     Film film(desc);
@@ -96,4 +95,4 @@ Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& 
     return film;
 }
 
-}  // namespace rt::image
+} // namespace rt::image

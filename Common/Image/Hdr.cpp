@@ -21,25 +21,22 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 void expand(const Rgbe& rgbe, float* pixel) {
-    for (std::size_t c = 0; c < 3; ++c)
-        pixel[c] = rgbe[3] == 0 ? 0.0f : std::ldexp(float(rgbe[c]), rgbe[3] - 136);
+    for (std::size_t c = 0; c < 3; ++c) pixel[c] = rgbe[3] == 0 ? 0.0f : std::ldexp(float(rgbe[c]), rgbe[3] - 136);
 }
 
 // The nearest of the colours that share an exponent with their largest component.
 Rgbe compress(const float* pixel) {
-    constexpr float kLargest = 0x1.fep126f;  // 255 2^(255 - 136)
-    constexpr float kLeast = 0x1p-128f;      // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
+    constexpr float kLargest = 0x1.fep126f; // 255 2^(255 - 136)
+    constexpr float kLeast = 0x1p-128f;     // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
     std::array<float, 3> color;
-    for (std::size_t c = 0; c < 3; ++c)
-        color[c] = std::clamp(pixel[c], 0.0f, kLargest);
+    for (std::size_t c = 0; c < 3; ++c) color[c] = std::clamp(pixel[c], 0.0f, kLargest);
     const float largest = std::max({color[0], color[1], color[2]});
     if (largest < kLeast) return {};
     int exponent = 0;
-    const float fraction = std::frexp(largest, &exponent);  // in [1/2, 1)
-    if (fraction * 256 >= 255.5f) ++exponent;               // it would be rounded to 256
+    const float fraction = std::frexp(largest, &exponent); // in [1/2, 1)
+    if (fraction * 256 >= 255.5f) ++exponent;              // it would be rounded to 256
     Rgbe rgbe;
-    for (std::size_t c = 0; c < 3; ++c)
-        rgbe[c] = static_cast<std::uint8_t>(std::ldexp(color[c], 8 - exponent) + 0.5f);
+    for (std::size_t c = 0; c < 3; ++c) rgbe[c] = static_cast<std::uint8_t>(std::ldexp(color[c], 8 - exponent) + 0.5f);
     rgbe[3] = static_cast<std::uint8_t>(exponent + 128);
     return rgbe;
 }
@@ -59,8 +56,7 @@ class Bytes {
     }
     std::string line() {
         std::string text;
-        for (char c = 0; (c = static_cast<char>(next())) != '\n';)
-            text += c;
+        for (char c = 0; (c = static_cast<char>(next())) != '\n';) text += c;
         return text;
     }
     [[noreturn]] void fail(const std::string& what) const { throw InputError(name_ + ": " + what); }
@@ -95,8 +91,7 @@ void readRuns(Bytes& in, std::vector<Rgbe>& row, std::size_t component) {
         const std::size_t length = count > 128 ? count - 128 : count;
         if (length == 0 || length > row.size() - x) in.fail("damaged HDR file: a run does not fit its row");
         const std::uint8_t repeated = count > 128 ? in.next() : 0;
-        for (const std::size_t end = x + length; x < end; ++x)
-            row[x][component] = count > 128 ? repeated : in.next();
+        for (const std::size_t end = x + length; x < end; ++x) row[x][component] = count > 128 ? repeated : in.next();
     }
 }
 
@@ -104,15 +99,14 @@ void readRow(Bytes& in, std::vector<Rgbe>& row) {
     const Rgbe first = in.nextPixel();
     const bool inRuns = first[0] == 2 && first[1] == 2 && std::size_t{first[2]} * 256 + first[3] == row.size();
     if (inRuns) {
-        for (std::size_t component = 0; component < 4; ++component)
-            readRuns(in, row, component);
+        for (std::size_t component = 0; component < 4; ++component) readRuns(in, row, component);
     } else {
         row[0] = first;
         std::generate(row.begin() + 1, row.end(), [&in] { return in.nextPixel(); });
     }
 }
 
-}  // namespace
+} // namespace
 
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
     Bytes in(bytes, name);
@@ -122,8 +116,7 @@ Image decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
     std::vector<Rgbe> row(image.width);
     for (std::uint32_t y = 0; y < image.height; ++y) {
         readRow(in, row);
-        for (std::uint32_t x = 0; x < image.width; ++x)
-            expand(row[x], image.pixel(x, y));
+        for (std::uint32_t x = 0; x < image.width; ++x) expand(row[x], image.pixel(x, y));
     }
     return image;
 }
@@ -137,4 +130,4 @@ void encodeHdr(const Image& image, std::ostream& out) {
     }
 }
 
-}  // namespace rt::image
+} // namespace rt::image

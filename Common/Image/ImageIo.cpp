@@ -49,8 +49,7 @@ Codec codecOf(const fs::path& path, bool writing) {
 
 std::array<float, 256> makeDecodingTable() {
     std::array<float, 256> table;
-    for (std::size_t i = 0; i < table.size(); ++i)
-        table[i] = shared::srgbDecode(static_cast<float>(i) / 255.0f);
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = shared::srgbDecode(static_cast<float>(i) / 255.0f);
     return table;
 }
 
@@ -77,15 +76,14 @@ bool isFinite(const Image& image) {
 Image withFiniteValues(const Image& image) {
     constexpr float kLargest = std::numeric_limits<float>::max();
     Image finite = image;
-    for (float& value : finite.data)
-        value = std::isnan(value) ? 0.0f : std::clamp(value, -kLargest, kLargest);
+    for (float& value : finite.data) value = std::isnan(value) ? 0.0f : std::clamp(value, -kLargest, kLargest);
     return finite;
 }
 
-}  // namespace
+} // namespace
 
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes) {
-    constexpr double kDensest = 1100;  // deflate reaches 1032
+    constexpr double kDensest = 1100; // deflate reaches 1032
     const auto text = [](double side) { return std::to_string(static_cast<std::int64_t>(side)); };
     const auto good = [](double side) { return side >= 1 && side <= kMaxSide && side == std::floor(side); };
     if (!good(width) || !good(height))
@@ -110,7 +108,7 @@ Image decodeImage(std::span<const std::byte> bytes, const fs::path& path) {
 }
 
 Image readImage(const fs::path& path) {
-    codecOf<InputError>(path, false);  // before reading what cannot be decoded
+    codecOf<InputError>(path, false); // before reading what cannot be decoded
     return decodeImage(readFile(path, kMaxFileBytes), path);
 }
 
@@ -120,8 +118,7 @@ Texels loadTexels(const fs::path& path) {
     const Image image = readImage(path);
     if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
     Texels texels = toTexels(image);
-    for (float& value : texels.linear)
-        value = std::max(value, 0.0f);
+    for (float& value : texels.linear) value = std::max(value, 0.0f);
     return texels;
 }
 
@@ -154,4 +151,4 @@ bool isDisplayReferred(const fs::path& path) {
     return codecOf<UsageError>(path, true) == Codec::Png;
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -17,8 +17,8 @@ namespace rt::image {
 struct Texels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> srgb8;  // sRGB-encoded RGB
-    std::vector<float> linear;        // RGB
+    std::vector<std::uint8_t> srgb8; // sRGB-encoded RGB
+    std::vector<float> linear;       // RGB
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
@@ -39,4 +39,4 @@ void checkWritable(const std::filesystem::path& path);
 // Whether writeImage takes what a screen shows rather than linear radiance. Throws like checkWritable.
 bool isDisplayReferred(const std::filesystem::path& path);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -26,8 +26,7 @@ Image shrink(const Image& image, std::uint32_t side) {
             for (std::uint32_t c = 0; c < image.channels; ++c) {
                 double sum = 0;
                 for (std::uint32_t v = y * side; v < endY; ++v)
-                    for (std::uint32_t u = x * side; u < endX; ++u)
-                        sum += image.pixel(u, v)[c];
+                    for (std::uint32_t u = x * side; u < endX; ++u) sum += image.pixel(u, v)[c];
                 const double count = double(endX - x * side) * double(endY - y * side);
                 small.pixel(x, y)[c] = static_cast<float>(sum / count);
             }
@@ -38,22 +37,19 @@ Image shrink(const Image& image, std::uint32_t side) {
 
 std::vector<Image> shrink(std::span<const Image> images, std::uint32_t side) {
     std::vector<Image> small;
-    for (const Image& image : images)
-        small.push_back(shrink(image, side));
+    for (const Image& image : images) small.push_back(shrink(image, side));
     return small;
 }
 
 Estimate estimateValue(std::span<const Image> blocks, std::size_t index) {
     std::vector<double> samples;
-    for (const Image& block : blocks)
-        samples.push_back(block.data[index]);
+    for (const Image& block : blocks) samples.push_back(block.data[index]);
     return estimate(samples);
 }
 
 std::vector<TTest> testValues(std::span<const Image> a, std::span<const Image> b) {
     std::vector<TTest> tests(a.front().data.size());
-    for (std::size_t i = 0; i < tests.size(); ++i)
-        tests[i] = welch(estimateValue(a, i), estimateValue(b, i));
+    for (std::size_t i = 0; i < tests.size(); ++i) tests[i] = welch(estimateValue(a, i), estimateValue(b, i));
     return tests;
 }
 
@@ -68,7 +64,7 @@ std::size_t countDiscoveries(const std::vector<TTest>& tests) {
 double spreadOf(const std::vector<TTest>& tests, std::size_t channel, std::size_t channels, double dof) {
     double sum = 0, count = 0;
     for (std::size_t i = channel; i < tests.size(); i += channels) {
-        if (tests[i].dof <= 0) continue;  // nothing varies there
+        if (tests[i].dof <= 0) continue; // nothing varies there
         sum += tests[i].t * tests[i].t;
         count += 1;
     }
@@ -101,7 +97,7 @@ void checkBlocks(std::span<const Image> a, std::span<const Image> b) {
                 throw InputError("the images of a test differ in size");
 }
 
-}  // namespace
+} // namespace
 
 bool ImageTestResult::passed() const {
     return globalP > kLeastGlobalP && tileDiscoveries == 0 && pixelDiscoveries == 0 &&
@@ -135,4 +131,4 @@ ImageTestResult testImages(std::span<const Image> a, std::span<const Image> b) {
     return result;
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -20,14 +20,14 @@ struct ImageTestResult {
     double spreadZ = 0;
     // What the global test can detect: 4 standard errors of the difference over the mean, worst channel.
     double detectableBias = 0;
-    Image pixelP;  // p of each pixel and channel, to look at when the test fails
+    Image pixelP; // p of each pixel and channel, to look at when the test fails
 
-    bool passed() const;          // globalP > 1e-3, no discovery, |spreadZ| <= 4
-    std::string summary() const;  // one line
+    bool passed() const;         // globalP > 1e-3, no discovery, |spreadZ| <= 4
+    std::string summary() const; // one line
 };
 
 // `a` and `b` are images of independent blocks of samples, all blocks of the same number of samples, >= 2 (better 32)
 // each; or `b` is a single image, which is then taken as exact. All of the same size.
 ImageTestResult testImages(std::span<const Image> a, std::span<const Image> b);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -26,20 +26,19 @@ bool hasGoodTables(std::span<const std::byte> segment) {
     while (!segment.empty()) {
         if (segment.size() < kHead) return false;
         std::size_t codes = 0;
-        for (std::size_t i = 1; i < kHead; ++i)
-            codes += at(segment, i);
+        for (std::size_t i = 1; i < kHead; ++i) codes += at(segment, i);
         if (codes > 256 || segment.size() < kHead + codes) return false;
         segment = segment.subspan(kHead + codes);
     }
     return true;
 }
 
-}  // namespace
+} // namespace
 
 void checkJpeg(std::span<const std::byte> bytes, const std::string& name) {
     for (std::size_t i = 0; i + 1 < bytes.size();) {
         const unsigned marker = at(bytes, i + 1);
-        if (at(bytes, i) != 0xff || marker == 0xff) {  // compressed data, or padding before a marker
+        if (at(bytes, i) != 0xff || marker == 0xff) { // compressed data, or padding before a marker
             ++i;
             continue;
         }
@@ -47,7 +46,7 @@ void checkJpeg(std::span<const std::byte> bytes, const std::string& name) {
         if (marker == kEndOfImage) return;
         if (standsAlone(marker)) continue;
         if (bytes.size() - i < 2) break;
-        const std::size_t length = at(bytes, i) << 8 | at(bytes, i + 1);  // counts itself
+        const std::size_t length = at(bytes, i) << 8 | at(bytes, i + 1); // counts itself
         if (length < 2 || bytes.size() - i < length) break;
         if (marker == kHuffmanTables && !hasGoodTables(bytes.subspan(i + 2, length - 2)))
             throw InputError(name + ": damaged JPEG file");
@@ -56,4 +55,4 @@ void checkJpeg(std::span<const std::byte> bytes, const std::string& name) {
     throw InputError(name + ": truncated JPEG file");
 }
 
-}  // namespace rt::image
+} // namespace rt::image

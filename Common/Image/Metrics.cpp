@@ -12,7 +12,7 @@ namespace rt::image {
 
 namespace {
 
-constexpr double kRelativeFloor = 0.01;  // of relMSE's denominator
+constexpr double kRelativeFloor = 0.01; // of relMSE's denominator
 
 std::string sizeOf(const Image& image) {
     return std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels with " +
@@ -55,7 +55,7 @@ Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint3
     return image;
 }
 
-}  // namespace
+} // namespace
 
 ErrorFigures compare(const Image& image, const Image& reference) {
     checkComparable(image, reference);
@@ -86,8 +86,7 @@ Image heatMap(const Image& image, const Image& reference) {
     const auto brightest = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() - 1 - sorted.size() / 200);
     std::nth_element(sorted.begin(), brightest, sorted.end());
     if (const float scale = *brightest; scale > 0)
-        for (float& value : error)
-            value /= scale;
+        for (float& value : error) value /= scale;
     return colourise(error, image.width, image.height);
 }
 
@@ -101,18 +100,15 @@ double estimatedRelMse(const Image& mean, const Image& variance) {
 std::array<double, 3> channelMeans(const Image& image) {
     std::array<double, 3> means = {};
     for (std::size_t i = 0; i < image.data.size(); i += image.channels)
-        for (std::size_t c = 0; c < 3; ++c)
-            means[c] += image.data[i + (image.channels == 3 ? c : 0)];
-    for (double& mean : means)
-        mean /= static_cast<double>(image.width) * image.height;
+        for (std::size_t c = 0; c < 3; ++c) means[c] += image.data[i + (image.channels == 3 ? c : 0)];
+    for (double& mean : means) mean /= static_cast<double>(image.width) * image.height;
     return means;
 }
 
 std::array<double, 3> standardErrors(const Image& variance) {
     std::array<double, 3> errors = channelMeans(variance);
-    for (double& error : errors)
-        error = std::sqrt(error / (static_cast<double>(variance.width) * variance.height));
+    for (double& error : errors) error = std::sqrt(error / (static_cast<double>(variance.width) * variance.height));
     return errors;
 }
 
-}  // namespace rt::image
+} // namespace rt::image

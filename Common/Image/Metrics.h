@@ -7,12 +7,12 @@
 namespace rt::image {
 
 struct ErrorFigures {
-    double mse = 0;     // mean((x - ref)^2)
-    double rmse = 0;    // its square root
-    double relmse = 0;  // mean((x - ref)^2 / (ref^2 + 0.01))
-    double mae = 0;     // mean(|x - ref|)
-    double psnr = 0;    // dB, of clamped sRGB-encoded values with peak 1; infinite for equal ones
-    double maxAbs = 0;  // largest |x - ref|
+    double mse = 0;    // mean((x - ref)^2)
+    double rmse = 0;   // its square root
+    double relmse = 0; // mean((x - ref)^2 / (ref^2 + 0.01))
+    double mae = 0;    // mean(|x - ref|)
+    double psnr = 0;   // dB, of clamped sRGB-encoded values with peak 1; infinite for equal ones
+    double maxAbs = 0; // largest |x - ref|
 };
 
 // Both linear. Throws InputError, saying what differs, unless both have the same size and channels and all values are
@@ -32,4 +32,4 @@ double estimatedRelMse(const Image& mean, const Image& variance);
 std::array<double, 3> channelMeans(const Image& image);
 std::array<double, 3> standardErrors(const Image& variance);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -17,10 +17,10 @@ namespace {
 void swapBytes(float& value) {
     std::uint32_t bits = std::bit_cast<std::uint32_t>(value);
     bits = bits >> 24 | (bits >> 8 & 0xff00u) | (bits << 8 & 0xff0000u) | bits << 24;
-    std::memcpy(&value, &bits, sizeof value);  // not through a float register, which might quiet a NaN
+    std::memcpy(&value, &bits, sizeof value); // not through a float register, which might quiet a NaN
 }
 
-}  // namespace
+} // namespace
 
 Image decodePfm(std::span<const std::byte> bytes, const std::string& name) {
     constexpr std::size_t kLongestHeader = 128;
@@ -54,4 +54,4 @@ void encodePfm(const Image& image, std::ostream& out) {
                   static_cast<std::streamsize>(rowValues * sizeof(float)));
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -33,15 +33,14 @@ double betaFraction(double a, double b, double x) {
     return fraction;
 }
 
-}  // namespace
+} // namespace
 
 Estimate estimate(std::span<const double> samples) {
     const auto count = static_cast<double>(samples.size());
     const double mean = std::accumulate(samples.begin(), samples.end(), 0.0) / count;
     if (samples.size() < 2) return {mean, 0, 0};
     double squares = 0;
-    for (const double sample : samples)
-        squares += (sample - mean) * (sample - mean);
+    for (const double sample : samples) squares += (sample - mean) * (sample - mean);
     return {mean, squares / (count - 1) / count, count - 1};
 }
 
@@ -79,11 +78,10 @@ std::vector<std::size_t> discoveries(std::span<const double> pValues, double q) 
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return pValues[i] < pValues[j]; });
     const auto count = static_cast<double>(pValues.size());
     std::size_t rejected = order.size();
-    while (rejected > 0 && pValues[order[rejected - 1]] > q * static_cast<double>(rejected) / count)
-        --rejected;
+    while (rejected > 0 && pValues[order[rejected - 1]] > q * static_cast<double>(rejected) / count) --rejected;
     order.resize(rejected);
     std::sort(order.begin(), order.end());
     return order;
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -10,7 +10,7 @@ namespace rt::image {
 struct Estimate {
     double mean = 0;
     double varianceOfMean = 0;
-    double dof = 0;  // degrees of freedom of the variance
+    double dof = 0; // degrees of freedom of the variance
 };
 
 Estimate estimate(std::span<const double> samples);
@@ -18,7 +18,7 @@ Estimate estimate(std::span<const double> samples);
 struct TTest {
     double t = 0;
     double dof = 0;
-    double p = 1;  // probability of |t| or more if the means are the same
+    double p = 1; // probability of |t| or more if the means are the same
 };
 
 // Welch's test with Satterthwaite's degrees of freedom. Two means without variance are compared exactly, but for a
@@ -35,4 +35,4 @@ double incompleteBeta(double a, double b, double x);
 // among them is at most q.
 std::vector<std::size_t> discoveries(std::span<const double> pValues, double q);
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -38,7 +38,7 @@ bool isJpeg(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
 }
 
-}  // namespace
+} // namespace
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto fail = [&name](const std::string& what) { throw InputError(name + ": " + what); };
@@ -79,4 +79,4 @@ bool inflate(std::span<const std::byte> in, std::span<std::byte> out) {
     return written == static_cast<int>(out.size());
 }
 
-}  // namespace rt::image
+} // namespace rt::image

@@ -6,9 +6,9 @@
 
 RT_SHARED_BEGIN
 
-const uint kTonemapNone = 0u;      // clamp
-const uint kTonemapReinhard = 1u;  // by luminance
-const uint kTonemapAces = 2u;      // filmic curve
+const uint kTonemapNone = 0u;     // clamp
+const uint kTonemapReinhard = 1u; // by luminance
+const uint kTonemapAces = 2u;     // filmic curve
 
 // Relative luminance of linear RGB with Rec. 709 primaries (ITU-R BT.709).
 RT_FN float displayLuminance(vec3 color) {

@@ -58,8 +58,7 @@ const Row& rowOf(const Row (&table)[N], const std::string& name) {
 template <class Row, std::size_t N>
 std::vector<std::string> namesOf(const Row (&table)[N]) {
     std::vector<std::string> names;
-    for (const Row& row : table)
-        names.emplace_back(row.name);
+    for (const Row& row : table) names.emplace_back(row.name);
     return names;
 }
 
@@ -89,8 +88,7 @@ int info(const Arguments& arguments) {
     const auto mean = image::channelMeans(image);
     std::cout << "size " << image.width << ' ' << image.height << "\nchannels " << image.channels << "\nmin " << *least
               << "\nmax " << *most << "\nmean";
-    for (std::uint32_t c = 0; c < image.channels; ++c)
-        std::cout << ' ' << mean[c];
+    for (std::uint32_t c = 0; c < image.channels; ++c) std::cout << ' ' << mean[c];
     std::cout << "\nnonfinite " << bad << '\n';
     return static_cast<int>(ExitCode::Done);
 }
@@ -132,7 +130,7 @@ int run(int argc, char** argv) {
 
     try {
         app.parse(argc, argv);
-    } catch (const CLI::Success& request) {  // --help or --version
+    } catch (const CLI::Success& request) { // --help or --version
         return app.exit(request);
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what());
@@ -141,7 +139,7 @@ int run(int argc, char** argv) {
     return infos->parsed() ? info(arguments) : convert(arguments);
 }
 
-}  // namespace
+} // namespace
 
 int main(int argc, char** argv) {
     return rt::runMain(kProgram, [&] { return run(argc, argv); });

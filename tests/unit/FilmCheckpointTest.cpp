@@ -55,7 +55,7 @@ std::string errorOf(const std::string& bytes) {
 }
 
 TEST(FilmCheckpoint, ComesBackBitForBit) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     writeCheckpoint(folder / "render.rtc", kRender, makeFilm());
     const Checkpoint checkpoint = readCheckpoint(folder / "render.rtc");
     EXPECT_EQ(checkpoint.render, kRender);
@@ -97,15 +97,15 @@ TEST(FilmCheckpoint, ErrorsSayWhatIsWrong) {
     EXPECT_NE(errorOf("hello").find("not a checkpoint"), std::string::npos);
     bytes[8] = 9;
     EXPECT_NE(errorOf(bytes).find("version 9"), std::string::npos);
-    EXPECT_THROW(readCheckpoint(tests::TempFolder() / "missing.rtc"), InputError);
-    EXPECT_THROW(writeCheckpoint(tests::TempFolder() / "missing" / "a.rtc", kRender, makeFilm()), RenderError);
+    EXPECT_THROW(readCheckpoint(test::TempFolder() / "missing.rtc"), InputError);
+    EXPECT_THROW(writeCheckpoint(test::TempFolder() / "missing" / "a.rtc", kRender, makeFilm()), RenderError);
 }
 
 TEST(FilmCheckpoint, AHugeImageInASmallFileCostsNoMemory) {
     std::istringstream in("short");
-    const FilmDesc huge{kMaxImageSide, kMaxImageSide, 0xffffffffu, true};  // would throw RenderError when allocated
+    const FilmDesc huge{kMaxImageSide, kMaxImageSide, 0xffffffffu, true}; // would throw RenderError when allocated
     EXPECT_THROW(Film::readState(huge, in, "state"), InputError);
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

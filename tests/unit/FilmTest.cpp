@@ -55,8 +55,7 @@ float syntheticSample(std::size_t stream, std::mt19937& random) {
             return u < 1e-4f ? 2e4f : 0.02f * u;
         default: {
             float product = 1;
-            for (int i = 0; i < 4; ++i)
-                product *= -std::log1p(-static_cast<float>(random() >> 8) * 0x1p-24f);
+            for (int i = 0; i < 4; ++i) product *= -std::log1p(-static_cast<float>(random() >> 8) * 0x1p-24f);
             return product;
         }
     }
@@ -66,7 +65,7 @@ TEST(Film, SumsTheStreamsOfN15) {
     for (const std::uint32_t count : {200000u, 2000000u}) {
         Film film({8, 8});
         std::mt19937 random(7);
-        double exact[4] = {};  // of at most 2e6 floats: its error is below 1e-10
+        double exact[4] = {}; // of at most 2e6 floats: its error is below 1e-10
         for (std::uint32_t first = 0; first < count; first += Film::kBlock) {
             Film::TileBlock block;
             film.begin(0, 0, block);
@@ -120,7 +119,7 @@ TEST(Film, MapsTilesToPixelsAtTheEdges) {
     ASSERT_EQ(film.tilesX(), 2u);
     ASSERT_EQ(film.tileCount(), 4u);
     for (std::uint32_t tile = 0; tile < 4; ++tile) {
-        if (tile == 2) continue;  // stays black
+        if (tile == 2) continue; // stays black
         addSamples(film, tile, 0, 16 * (tile + 1),
                    [tile](std::uint32_t, std::size_t value) { return float(tile * 1000 + value); });
     }
@@ -149,8 +148,7 @@ TEST(Film, VarianceWithinOneReplicateIsThatOfBlocks) {
     EXPECT_TRUE(film.errorIsUpperBound());
 
     double mean = 0;
-    for (const float v : variance.data)
-        mean += v / double(variance.data.size());
+    for (const float v : variance.data) mean += v / double(variance.data.size());
     // 192 estimates of 60 degrees of freedom each
     EXPECT_NEAR(mean * count * 12, 1.0, 4 * std::sqrt(2.0 / 60 / 192));
 
@@ -168,7 +166,7 @@ TEST(Film, VarianceWithinOneReplicateIsThatOfBlocks) {
 
 TEST(Film, VarianceOfEqualBlocksIsNone) {
     Film film({8, 8, 1, true});
-    addSamples(film, 0, 0, 160, [](std::uint32_t i, std::size_t) { return float(i % 16); });  // perfectly stratified
+    addSamples(film, 0, 0, 160, [](std::uint32_t i, std::size_t) { return float(i % 16); }); // perfectly stratified
     EXPECT_LT(film.varianceOfMean().data[0], 1e-12f);
     EXPECT_EQ(film.resolve().data[0], 7.5f);
 }
@@ -182,8 +180,7 @@ TEST(Film, VarianceAcrossReplicatesIsUnbiased) {
     EXPECT_FALSE(film.errorIsUpperBound());
     const Image variance = film.varianceOfMean();
     double mean = 0;
-    for (const float v : variance.data)
-        mean += v / double(variance.data.size());
+    for (const float v : variance.data) mean += v / double(variance.data.size());
     // Values 4 with probability 1/4: variance 3. 192 estimates of 3 degrees of freedom.
     EXPECT_NEAR(mean * kReplicates * kSamples / 3, 1.0, 4 * std::sqrt(2.0 / 3 / 192));
 }
@@ -202,16 +199,16 @@ TEST(Film, RefusesBlocksThatDoNotContinue) {
     Film film({8, 8});
     Film::TileBlock block;
     block.count = 3;
-    EXPECT_THROW(film.commit(0, 0, block), std::logic_error);  // nothing reserved
+    EXPECT_THROW(film.commit(0, 0, block), std::logic_error); // nothing reserved
     film.reserveOpenBlocks();
     film.commit(0, 0, block);
     block.count = 2;
-    EXPECT_THROW(film.commit(0, 0, block), std::logic_error);  // goes back
+    EXPECT_THROW(film.commit(0, 0, block), std::logic_error); // goes back
     block.count = 17;
     EXPECT_THROW(film.commit(0, 0, block), std::logic_error);
     block.count = 16;
     block.firstSample = 16;
-    EXPECT_THROW(film.commit(0, 0, block), std::logic_error);  // leaves samples out
+    EXPECT_THROW(film.commit(0, 0, block), std::logic_error); // leaves samples out
     EXPECT_EQ(film.samples(0, 0), 3u);
 }
 
@@ -233,7 +230,7 @@ TEST(Film, GoesOnAtTwoToThe31Samples) {
     EXPECT_EQ(film.samples(0), Film::kMaxSamples);
     double sum = 0;
     std::memcpy(&sum, &stateOf(film)[sizeof before], sizeof sum);
-    EXPECT_NEAR(sum - 0.1 * before, 16000.0, 1e-6);  // nothing is lost
+    EXPECT_NEAR(sum - 0.1 * before, 16000.0, 1e-6); // nothing is lost
     EXPECT_FLOAT_EQ(film.resolve().data[0], static_cast<float>((0.1 * before + 16000) / Film::kMaxSamples));
 }
 
@@ -271,8 +268,8 @@ TEST(Film, RefusesBadSizes) {
     EXPECT_THROW(Film({kMaxImageSide + 1, 8}), UsageError);
     EXPECT_THROW(Film({8, 100000}), UsageError);
     EXPECT_THROW(Film({8, 8, 0}), UsageError);
-    EXPECT_THROW(Film({kMaxImageSide, kMaxImageSide, 0xffffffffu}), RenderError);  // more than any machine has
+    EXPECT_THROW(Film({kMaxImageSide, kMaxImageSide, 0xffffffffu}), RenderError); // more than any machine has
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

@@ -4,6 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#ifdef __linux__
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
@@ -39,7 +44,7 @@ std::string errorOf(const fs::path& path) {
 }
 
 TEST(ImageIoAtomicFile, AppearsOnlyWhenCommitted) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     {
         AtomicFile file(folder / "a");
         file.stream() << "half";
@@ -60,7 +65,7 @@ TEST(ImageIoAtomicFile, AppearsOnlyWhenCommitted) {
 }
 
 TEST(ImageIoAtomicFile, TakesNamesWithoutAFolderAndLongOnes) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     const fs::path before = fs::current_path();
     fs::current_path(folder.path());
     write("plain", "here");
@@ -71,7 +76,7 @@ TEST(ImageIoAtomicFile, TakesNamesWithoutAFolderAndLongOnes) {
 }
 
 TEST(ImageIoAtomicFile, ErrorsNameFileAndReason) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     EXPECT_NE(errorOf(folder / "none" / "a").find("No such file"), std::string::npos);
     EXPECT_NE(errorOf(folder.path()).find("directory"), std::string::npos);
     write(folder / "file", "x");
@@ -87,8 +92,24 @@ TEST(ImageIoAtomicFile, WritesDevicesDirectly) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST(ImageIoAtomicFile, AFullDiskLeavesTheOldFile) {
+    const test::TempFolder folder;
+    write(folder / "a", "old");
+    rlimit before = {};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small = {4096, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    const std::string error = errorOf(folder / "a");
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    EXPECT_NE(error.find("a: File too large"), std::string::npos) << error;
+    EXPECT_EQ(contentOf(folder / "a"), "old");
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+}
+
 TEST(ImageIoAtomicFile, FollowsLinks) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     fs::create_directory(folder / "elsewhere");
     write(folder / "elsewhere" / "target", "old");
     fs::create_symlink(folder / "elsewhere" / "target", folder / "link");
@@ -99,9 +120,9 @@ TEST(ImageIoAtomicFile, FollowsLinks) {
 }
 
 TEST(ImageIoAtomicFile, NamesAReadOnlyFolder) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
-    const bool bound = !std::ofstream(folder / "probe");  // root is not
+    const bool bound = !std::ofstream(folder / "probe"); // root is not
     const std::string error = bound ? errorOf(folder / "a") : "";
     fs::permissions(folder.path(), fs::perms::owner_all);
     if (!bound) GTEST_SKIP() << "permissions do not bind this user";
@@ -110,7 +131,7 @@ TEST(ImageIoAtomicFile, NamesAReadOnlyFolder) {
 #endif
 
 TEST(ImageIoAtomicFile, ReadFileKeepsToItsLimit) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     write(folder / "a", std::string(300000, 'y'));
     EXPECT_EQ(readFile(folder / "a", 300000).size(), 300000u);
     EXPECT_THROW(readFile(folder / "a", 299999), InputError);
@@ -122,5 +143,5 @@ TEST(ImageIoAtomicFile, ReadFileKeepsToItsLimit) {
 #endif
 }
 
-}  // namespace
-}  // namespace rt
+} // namespace
+} // namespace rt

@@ -29,9 +29,8 @@ std::string dataFile(const std::string& name) {
 // A small good file of each format that is read.
 std::vector<File> makeFiles() {
     Image image(9, 5);
-    for (std::size_t i = 0; i < image.data.size(); ++i)
-        image.data[i] = float(i % 17) / 17;
-    const tests::TempFolder folder;
+    for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = float(i % 17) / 17;
+    const test::TempFolder folder;
     std::vector<File> files;
     for (const std::string name : {"a.png", "a.exr", "a.hdr", "a.pfm"}) {
         writeImage(folder / name, image);
@@ -98,12 +97,12 @@ TEST(ImageIoHostile, SaysWhatIsNotSupported) {
 }
 
 TEST(ImageIoHostile, MissingFilesAndFolders) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     EXPECT_THROW(readImage(folder / "none.exr"), InputError);
     EXPECT_THROW(loadTexels(folder / "none.png"), InputError);
     std::filesystem::create_directory(folder / "folder.exr");
     EXPECT_THROW(readImage(folder / "folder.exr"), InputError);
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

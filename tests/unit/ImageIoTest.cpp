@@ -22,8 +22,7 @@ std::filesystem::path dataFile(const std::string& name) {
 
 std::vector<std::uint32_t> bitsOf(const Image& image) {
     std::vector<std::uint32_t> bits;
-    for (const float value : image.data)
-        bits.push_back(std::bit_cast<std::uint32_t>(value));
+    for (const float value : image.data) bits.push_back(std::bit_cast<std::uint32_t>(value));
     return bits;
 }
 
@@ -38,7 +37,7 @@ Image makeImage(std::uint32_t width, std::uint32_t height, std::uint32_t channel
 }
 
 TEST(ImageIo, FloatFormatsAreExact) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     for (const std::string name : {"a.exr", "a.pfm", "A.EXR", "b.c.Pfm"}) {
         for (const std::uint32_t channels : {1u, 3u}) {
             for (const auto& [width, height] : {std::pair{37u, 19u}, std::pair{7u, 1u}, std::pair{1u, 33u}}) {
@@ -55,39 +54,35 @@ TEST(ImageIo, FloatFormatsAreExact) {
 }
 
 TEST(ImageIo, PngHoldsAll256Levels) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     Image image(16, 16);
     for (std::size_t i = 0; i < 256; ++i) {
         const double encoded = double(i) / 255;
         const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-        for (std::size_t c = 0; c < 3; ++c)
-            image.data[i * 3 + c] = static_cast<float>(linear);
+        for (std::size_t c = 0; c < 3; ++c) image.data[i * 3 + c] = static_cast<float>(linear);
     }
     writeImage(folder / "levels.png", image);
     const Texels texels = loadTexels(folder / "levels.png");
     ASSERT_EQ(texels.width, 16u);
     ASSERT_TRUE(texels.linear.empty());
-    for (std::size_t i = 0; i < 768; ++i)
-        ASSERT_EQ(texels.srgb8[i], i / 3);
+    for (std::size_t i = 0; i < 768; ++i) ASSERT_EQ(texels.srgb8[i], i / 3);
     const Image back = readImage(folder / "levels.png");
-    for (std::size_t i = 0; i < 768; ++i)
-        EXPECT_NEAR(back.data[i], image.data[i], 1e-6f);
+    for (std::size_t i = 0; i < 768; ++i) EXPECT_NEAR(back.data[i], image.data[i], 1e-6f);
 }
 
 TEST(ImageIo, PngClampsAndRounds) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     const auto linear = [](double level) { return float(std::pow((level / 255 + 0.055) / 1.055, 2.4)); };
     Image image(5, 1, 1);
     image.data = {-1.0f, 7.0f, linear(127.51), linear(128.49), linear(128.51)};
     writeImage(folder / "grey.png", image);
     const std::vector<std::uint8_t> texels = loadTexels(folder / "grey.png").srgb8;
     const std::uint8_t expected[] = {0, 255, 128, 128, 129};
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        EXPECT_EQ(texels[i], expected[i / 3]) << i;
+    for (std::size_t i = 0; i < texels.size(); ++i) EXPECT_EQ(texels[i], expected[i / 3]) << i;
 }
 
 TEST(ImageIo, HdrRoundsToNearest) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     Image image(100, 50);
     std::mt19937 random(5);
     for (float& value : image.data)
@@ -97,18 +92,18 @@ TEST(ImageIo, HdrRoundsToNearest) {
     double bias = 0;
     for (std::size_t i = 0; i < image.data.size(); i += 3) {
         const float largest = std::max({image.data[i], image.data[i + 1], image.data[i + 2]});
-        const float step = std::ldexp(1.0f, std::ilogb(largest) - 7);  // of a mantissa of 8 bits
+        const float step = std::ldexp(1.0f, std::ilogb(largest) - 7); // of a mantissa of 8 bits
         for (std::size_t c = i; c < i + 3; ++c) {
-            EXPECT_LE(std::abs(back.data[c] - image.data[c]), step);  // half of it, but where the largest rounds up
+            EXPECT_LE(std::abs(back.data[c] - image.data[c]), step); // half of it, but where the largest rounds up
             bias += (back.data[c] - image.data[c]) / step;
         }
     }
     const auto count = static_cast<double>(image.data.size());
-    EXPECT_LT(std::abs(bias / count), 4 * std::sqrt(1.0 / 12 / count));  // rounding down would give -1/2
+    EXPECT_LT(std::abs(bias / count), 4 * std::sqrt(1.0 / 12 / count)); // rounding down would give -1/2
 }
 
 TEST(ImageIo, HdrExtremes) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     Image image(9, 1);
     image.data = {0, 0,     0,      1, 1, 1,      255, 1, 0,      kLargest, 1, 1,      -1,
                   2, -0.0f, 1e-38f, 0, 0, 1e-44f, 0,   0, 0.999f, 0.5f,     0, 0.9985f};
@@ -122,7 +117,7 @@ TEST(ImageIo, HdrExtremes) {
     EXPECT_EQ(back.data[13], 2.0f);
     EXPECT_NEAR(back.data[15], 1e-38f, 1e-38f / 128);
     EXPECT_EQ(back.data[18], 0.0f);
-    EXPECT_EQ(back.data[21], 1.0f);  // rounds up to the next exponent
+    EXPECT_EQ(back.data[21], 1.0f); // rounds up to the next exponent
     EXPECT_EQ(back.data[22], 0.5f);
     EXPECT_EQ(back.data[24], 1.0f);
 
@@ -133,7 +128,7 @@ TEST(ImageIo, HdrExtremes) {
 }
 
 TEST(ImageIo, WritesNothingThatIsNotFinite) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     Image image(4, 1);
     image.data = {NAN, INFINITY, -INFINITY, 1, 2, 3, 4, 5, 6, NAN, 0, 0};
     for (const std::string name : {"a.exr", "a.pfm"}) {
@@ -168,16 +163,16 @@ TEST(ImageIo, ReadsFilesOfOthers) {
 }
 
 TEST(ImageIo, ReadsBigEndianPfm) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     std::ofstream(folder / "a.pfm", std::ios::binary)
-        << std::string("Pf\n1 2\n1.0\n\x3f\x80\0\0\xc0\x20\0\0", 19);  // 1 below -2.5: rows come from the bottom
+        << std::string("Pf\n1 2\n1.0\n\x3f\x80\0\0\xc0\x20\0\0", 19); // 1 below -2.5: rows come from the bottom
     const Image image = readImage(folder / "a.pfm");
     EXPECT_EQ(image.channels, 1u);
     EXPECT_EQ(image.data, (std::vector<float>{-2.5f, 1.0f}));
 }
 
 TEST(ImageIo, TexelsOfFloatFilesAreRgbAndNotNegative) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     Image image(2, 1, 1);
     image.data = {-1.0f, 0.75f};
     writeImage(folder / "a.exr", image);
@@ -191,7 +186,7 @@ TEST(ImageIo, TexelsOfFloatFilesAreRgbAndNotNegative) {
 }
 
 TEST(ImageIo, ReadsJpeg) {
-    const Texels texels = loadTexels(dataFile("gradient.jpg"));  // (12 x, 13 y, 128), quality 90
+    const Texels texels = loadTexels(dataFile("gradient.jpg")); // (12 x, 13 y, 128), quality 90
     ASSERT_EQ(texels.width, 21u);
     ASSERT_EQ(texels.height, 19u);
     for (std::size_t y = 0; y < 19; ++y) {
@@ -203,7 +198,7 @@ TEST(ImageIo, ReadsJpeg) {
 }
 
 TEST(ImageIo, TheExtensionDecides) {
-    const tests::TempFolder folder;
+    const test::TempFolder folder;
     const Image image(2, 2);
     for (const std::string name : {"a", "a.gif", "a.jpg", "a.", ".png"}) {
         try {
@@ -220,5 +215,5 @@ TEST(ImageIo, TheExtensionDecides) {
     EXPECT_FALSE(isDisplayReferred("x.exr"));
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

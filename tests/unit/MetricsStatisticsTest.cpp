@@ -26,12 +26,12 @@ TEST(MetricsStatistics, IncompleteBetaHasItsClosedForms) {
 
 TEST(MetricsStatistics, StudentMatchesTables) {
     for (const double t : {0.1, 1.0, 3.0, 40.0}) {
-        EXPECT_NEAR(studentTwoSided(t, 1), 1 - 2 / std::numbers::pi * std::atan(t), 1e-12);  // Cauchy
+        EXPECT_NEAR(studentTwoSided(t, 1), 1 - 2 / std::numbers::pi * std::atan(t), 1e-12); // Cauchy
         EXPECT_NEAR(studentTwoSided(t, 2), 1 - t / std::sqrt(2 + t * t), 1e-12);
         EXPECT_NEAR(studentTwoSided(-t, 7.5), studentTwoSided(t, 7.5), 1e-15);
         EXPECT_NEAR(studentTwoSided(t, 1e6), std::erfc(t / std::numbers::sqrt2), 1e-6);
     }
-    EXPECT_NEAR(studentTwoSided(2.0422725, 30), 0.05, 1e-8);  // critical values of the printed tables
+    EXPECT_NEAR(studentTwoSided(2.0422725, 30), 0.05, 1e-8); // critical values of the printed tables
     EXPECT_NEAR(studentTwoSided(3.6460, 30), 0.001, 1e-6);
     EXPECT_NEAR(studentTwoSided(4, 62), 1.7e-4, 1e-5);
 }
@@ -98,7 +98,7 @@ TEST_F(MetricsImageTest, KnowsWhatItCanDetect) {
     // Each channel's mean has standard error 0.05 rms / mean / sqrt(32 * 4096), with rms / mean = 0.7616 / 0.7.
     const double expected = 4 * std::sqrt(2.0) * 0.05 * 1.09 / std::sqrt(32.0 * kSide * kSide);
     EXPECT_NEAR(result.detectableBias / expected, 1,
-                0.35);  // the worst of three estimates, of 62 degrees of freedom each
+                0.35); // the worst of three estimates, of 62 degrees of freedom each
     const ImageTestResult biased = testImages(render(1 + float(2 * expected)), render());
     EXPECT_LT(biased.globalP, 1e-6);
     EXPECT_FALSE(biased.passed());
@@ -108,15 +108,13 @@ TEST_F(MetricsImageTest, FindsOneWrongTileAndOneWrongPixel) {
     std::vector<Image> a = render();
     for (Image& block : a)
         for (std::uint32_t y = 16; y < 24; ++y)
-            for (std::uint32_t x = 40; x < 48; ++x)
-                block.pixel(x, y)[1] *= 1.02f;
+            for (std::uint32_t x = 40; x < 48; ++x) block.pixel(x, y)[1] *= 1.02f;
     ImageTestResult result = testImages(a, render());
     EXPECT_EQ(result.tileDiscoveries, 1u) << result.summary();
     EXPECT_FALSE(result.passed());
 
     a = render();
-    for (Image& block : a)
-        block.pixel(7, 60)[2] *= 1.2f;
+    for (Image& block : a) block.pixel(7, 60)[2] *= 1.2f;
     result = testImages(a, render());
     EXPECT_GE(result.pixelDiscoveries, 1u) << result.summary();
     EXPECT_LT(result.pixelP.pixel(7, 60)[2], 1e-8f);
@@ -131,16 +129,14 @@ TEST_F(MetricsImageTest, FindsCorrelatedPixels) {
     std::normal_distribution<float> normal(0, 0.02f);
     for (std::size_t i = 0; i < b.front().data.size(); ++i) {
         const float common = 1 + normal(random_);
-        for (Image& block : b)
-            block.data[i] *= common;
+        for (Image& block : b) block.data[i] *= common;
     }
     EXPECT_GT(testImages(render(), b).spreadZ, 4);
 }
 
 TEST_F(MetricsImageTest, ComparesWithAnExactImage) {
     Image exact(kSide, kSide);
-    for (std::size_t i = 0; i < exact.data.size(); ++i)
-        exact.data[i] = truth(i);
+    for (std::size_t i = 0; i < exact.data.size(); ++i) exact.data[i] = truth(i);
     EXPECT_TRUE(testImages(render(), {&exact, 1}).passed()) << testImages(render(), {&exact, 1}).summary();
     EXPECT_FALSE(testImages(render(1.001f), {&exact, 1}).passed());
 
@@ -148,8 +144,7 @@ TEST_F(MetricsImageTest, ComparesWithAnExactImage) {
     const std::vector<Image> still(2, exact);
     EXPECT_TRUE(testImages(still, {&exact, 1}).passed());
     std::vector<Image> off = still;
-    for (Image& block : off)
-        block.data[100] *= 1.0001f;
+    for (Image& block : off) block.data[100] *= 1.0001f;
     EXPECT_EQ(testImages(off, {&exact, 1}).pixelDiscoveries, 1u);
 }
 
@@ -160,5 +155,5 @@ TEST_F(MetricsImageTest, RefusesWhatCannotBeTested) {
     EXPECT_THROW(testImages(two, other), InputError);
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

@@ -47,8 +47,7 @@ TEST(Metrics, OfEqualImages) {
 TEST(Metrics, DoNotLoseSmallErrorsInLargeImages) {
     // 2^22 values of error 2^-12 each: a sum in float would stop growing at 1.
     Image reference(2048, 2048, 1), image(2048, 2048, 1);
-    for (std::size_t i = 0; i < image.data.size(); ++i)
-        image.data[i] = (reference.data[i] = 1.0f) + 0x1p-12f;
+    for (std::size_t i = 0; i < image.data.size(); ++i) image.data[i] = (reference.data[i] = 1.0f) + 0x1p-12f;
     EXPECT_DOUBLE_EQ(compare(image, reference).mae, 0x1p-12);
     EXPECT_DOUBLE_EQ(compare(image, reference).mse, 0x1p-24);
 }
@@ -70,8 +69,7 @@ TEST(Metrics, RefuseWhatCannotBeCompared) {
 
 TEST(Metrics, HeatMapGrowsLighterWithTheError) {
     Image reference(100, 1), image(100, 1);
-    for (std::uint32_t x = 0; x < 100; ++x)
-        image.pixel(x, 0)[x % 3] = 0.01f * float(x) * (x % 2 == 0 ? 1.0f : -1.0f);
+    for (std::uint32_t x = 0; x < 100; ++x) image.pixel(x, 0)[x % 3] = 0.01f * float(x) * (x % 2 == 0 ? 1.0f : -1.0f);
     const Image heat = heatMap(image, reference);
     for (std::uint32_t x = 1; x < 100; ++x)
         EXPECT_GT(lightness(heat.pixel(x, 0)), lightness(heat.pixel(x - 1, 0))) << x;
@@ -81,8 +79,7 @@ TEST(Metrics, HeatMapGrowsLighterWithTheError) {
 
 TEST(Metrics, HeatMapIsNotDimmedByAFirefly) {
     Image reference(1000, 1), image(1000, 1);
-    for (std::uint32_t x = 0; x < 1000; ++x)
-        image.pixel(x, 0)[0] = x == 500 ? 1e30f : 1.0f;
+    for (std::uint32_t x = 0; x < 1000; ++x) image.pixel(x, 0)[0] = x == 500 ? 1e30f : 1.0f;
     EXPECT_GT(lightness(heatMap(image, reference).pixel(0, 0)), 0.7);
     EXPECT_LT(lightness(heatMap(image, image).pixel(0, 0)), 0.01);
 }
@@ -97,5 +94,5 @@ TEST(Metrics, EstimatesFromVariances) {
     EXPECT_NEAR(channelMeans(makeImage(2, 1, {1, 2}))[2], 1.5, 1e-12);
 }
 
-}  // namespace
-}  // namespace rt::image
+} // namespace
+} // namespace rt::image

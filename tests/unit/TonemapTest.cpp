@@ -21,7 +21,7 @@ TEST(Tonemap, SrgbIsThatOfTheStandard) {
     }
     EXPECT_EQ(srgbEncode(0.0f), 0.0f);
     EXPECT_NEAR(srgbEncode(1.0f), 1.0f, 1e-6f);
-    EXPECT_NEAR(srgbEncode(0.18f), 0.461356, 1e-5);  // middle grey; a square root would give 0.4243
+    EXPECT_NEAR(srgbEncode(0.18f), 0.461356, 1e-5); // middle grey; a square root would give 0.4243
     EXPECT_NEAR(srgbDecode(0.04045f), 0.04045 / 12.92, 1e-8);
 }
 
@@ -39,8 +39,7 @@ TEST(Tonemap, ExposureIsInStops) {
     const vec3 color(0.1f, 0.2f, 0.05f);
     for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces}) {
         const vec3 shown = tonemap(color, 2.0f, curve), scaled = tonemap(color * 4.0f, 0.0f, curve);
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(shown[c], scaled[c], 1e-6f);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], scaled[c], 1e-6f);
     }
     EXPECT_NEAR(tonemap(color, 1.0f, kTonemapNone).x, 0.2f, 1e-7f);
     EXPECT_EQ(tonemap(vec3(3, -1, 0.5f), 0.0f, kTonemapNone), vec3(1, 0, 0.5f));
@@ -52,7 +51,7 @@ TEST(Tonemap, ReinhardActsOnLuminance) {
     const float luminance = 0.2126f * 0.9f + 0.7152f * 0.3f + 0.0722f * 0.1f;
     const vec3 shown = tonemap(color, 0.0f, kTonemapReinhard);
     EXPECT_NEAR(displayLuminance(shown), luminance / (1 + luminance), 1e-6f);
-    EXPECT_NEAR(shown.x / shown.y, 3.0f, 1e-5f);  // the hue stays
+    EXPECT_NEAR(shown.x / shown.y, 3.0f, 1e-5f); // the hue stays
 }
 
 TEST(Tonemap, AcesIsNarkowiczsCurve) {
@@ -89,5 +88,5 @@ TEST(Tonemap, DisplaysWholeImages) {
     EXPECT_EQ(image::toDisplay(grey, 0, kTonemapNone).data, (std::vector<float>{0.25f, 0.25f, 0.25f, 1, 1, 1}));
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared
