@@ -25,7 +25,7 @@ RT_FN BsdfSample absorbed() {
     return s;
 }
 
-// Not a number of any lobe but a question to the material: `features` keep kinds that the scene lacks out of the code.
+// Kinds that the scene lacks are false by `features` alone, which keeps them out of the code.
 RT_FN bool isLambertian(uint features, Material m) {
     return has(features, kFeatureLambertian) && m.kind == kMaterialLambertian;
 }
