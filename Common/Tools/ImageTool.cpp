@@ -109,7 +109,7 @@ int convert(const Arguments& arguments) {
 int run(int argc, char** argv) {
     CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga.", kProgram};
     app.set_version_flag("--version", std::string(kProgram) + " " RT_VERSION);
-    app.require_subcommand(1);
+    app.require_subcommand(0, 1); // an unknown one is named in its error, a missing one below
     Arguments arguments;
 
     CLI::App* const diffs = app.add_subcommand("diff", "Print how far image A is from B; both in linear radiance");
@@ -135,6 +135,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what());
     }
+    if (app.get_subcommands().empty()) throw UsageError("a subcommand is required: diff, info or convert");
     if (diffs->parsed()) return diff(arguments);
     return infos->parsed() ? info(arguments) : convert(arguments);
 }
