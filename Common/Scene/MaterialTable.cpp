@@ -58,4 +58,9 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
     return entry->second;
 }
 
+bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {
+    const auto* albedo = std::get_if<std::string>(&desc.albedo);
+    return (albedo && textures_.mayShowImage(*albedo)) || textures_.mayShowImage(desc.emissionTexture);
+}
+
 }  // namespace rt::scene

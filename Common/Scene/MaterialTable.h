@@ -19,6 +19,9 @@ class MaterialTable {
     // The record of a description, which must stay where it is.
     std::uint32_t index(const MaterialDesc& desc);
 
+    // Whether texture coordinates matter to the material.
+    bool mayShowImage(const MaterialDesc& desc) const;
+
     // Mean emitted radiance of a record.
     const glm::dvec3& meanEmission(std::uint32_t material) const { return meanEmission_[material]; }
 

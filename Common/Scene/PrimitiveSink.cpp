@@ -31,14 +31,12 @@ bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
 }
 
-bool usesImage(const CompiledScene& scene, std::uint32_t material) {
-    const auto isImage = [&](std::uint32_t texture) {
-        if (texture == shared::kNone) return false;
-        const std::uint32_t kind = scene.textures[texture].kind;
-        return kind == shared::kTextureImage ||
-               kind == shared::kTextureChecker;  // the fields of a checker may be images
-    };
-    return isImage(scene.materials[material].texture) || isImage(scene.materials[material].emissionTexture);
+// The factor by which a map scales a sphere, when the image is a sphere again; `isOriented`: its texture shows a
+// rotation.
+std::optional<double> sphereScale(const Affine& map, bool isOriented) {
+    const std::optional<double> scale = uniformScale(map);
+    if (!scale || !isOriented) return scale;
+    return map.linear == glm::dmat3(map.linear[0][0]) && map.linear[0][0] > 0 ? scale : std::nullopt;
 }
 
 }  // namespace
@@ -46,12 +44,22 @@ bool usesImage(const CompiledScene& scene, std::uint32_t material) {
 // What all spheres of one object have in common.
 struct PrimitiveSink::SphereFrame {
     Affine map;
-    std::optional<double> scale;  // of the map, when it is uniform
+    std::optional<double> scale;  // of the map, when it leaves spheres spheres
     const MaterialDesc& material;
     bool light;
-    bool isShareable;  // as far as the transform and the material go
+    bool isShareable;  // unless they move
     const Placement& at;
 };
+
+template <typename Spheres>
+PrimitiveSink::SphereFrame PrimitiveSink::frameOf(const Spheres& object, const Placement& at) const {
+    const MaterialDesc& own = materials_.find(object.material);
+    const MaterialDesc& material = at.material ? *at.material : own;
+    const bool isOriented = materials_.mayShowImage(own) || materials_.mayShowImage(material);
+    const Affine map = at.outer * at.local;
+    const bool isShareable = !emits(own) && sphereScale(at.local, isOriented);
+    return {map, sphereScale(map, isOriented), material, object.light, isShareable, at};
+}
 
 const MaterialDesc& PrimitiveSink::materialOf(const std::string& name, const Placement& at) const {
     return at.material ? *at.material : materials_.find(name);
@@ -72,20 +80,15 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
 // ---- spheres
 // ---------------------------------------------------------------------------------------------------------
 
-void PrimitiveSink::add(const SphereDesc& sphere, const Placement& at) {
-    const Affine map = at.outer * at.local;
-    const bool isShareable = uniformScale(at.local) && !emits(materials_.find(sphere.material));
-    const SphereFrame frame{map, uniformScale(map), materialOf(sphere.material, at), sphere.light, isShareable, at};
-    const glm::dvec3 motion = sphere.centerEnd ? *sphere.centerEnd - sphere.center : glm::dvec3(0);
-    this->sphere(sphere.center, motion, sphere.radius, frame);
+void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
+    const glm::dvec3 motion = object.centerEnd ? *object.centerEnd - object.center : glm::dvec3(0);
+    sphere(object.center, motion, object.radius, frameOf(object, at));
 }
 
-void PrimitiveSink::add(const SphereSetDesc& spheres, const Placement& at) {
-    const Affine map = at.outer * at.local;
-    const bool isShareable = uniformScale(at.local) && !emits(materials_.find(spheres.material));
-    const SphereFrame frame{map, uniformScale(map), materialOf(spheres.material, at), spheres.light, isShareable, at};
-    for (const glm::dvec3& center : spheres.centers)
-        sphere(center, glm::dvec3(0), spheres.radius, frame);
+void PrimitiveSink::add(const SphereSetDesc& object, const Placement& at) {
+    const SphereFrame frame = frameOf(object, at);
+    for (const glm::dvec3& center : object.centers)
+        sphere(center, glm::dvec3(0), object.radius, frame);
 }
 
 void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius,
@@ -104,10 +107,9 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
             return;
         }
         const std::string place = out_.id + ": " + frame.at.place + ": ";
-        if (emits(frame.material))
-            throw InputError(place + "an emissive sphere under a non-uniform scale: only uniform ones are allowed");
-        if (isMoving)
-            throw InputError(place + "a moving sphere under a non-uniform scale: only uniform ones are allowed");
+        const char* allowed = " sphere can be scaled uniformly only, and not be turned if it shows an image";
+        if (emits(frame.material)) throw InputError(place + "an emissive" + allowed);
+        if (isMoving) throw InputError(place + "a moving" + allowed);
         ellipsoids_.push_back(
             {frame.map * translation(center) * scaling(glm::dvec3(radius)), materials_.index(frame.material)});
         return;
@@ -166,7 +168,7 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
         return;
     }
     record.material = materials_.index(material);
-    if (map.mirrors() && usesImage(out_, record.material)) {
+    if (map.mirrors() && materials_.mayShowImage(material)) {
         // Its front faces the mirrored way while its texture keeps its directions: no parallelogram says both.
         const MeshData halves{{corner, corner + u, corner + v, corner + u + v},
                               {},

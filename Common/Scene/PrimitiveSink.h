@@ -26,7 +26,7 @@ struct Placement {
     std::string place;                       // JSON path, for errors
 };
 
-// An ellipsoid: the unit sphere under an affine map.
+// What is no sphere in the world, or one whose texture is turned: the unit sphere under an affine map.
 struct Ellipsoid {
     Affine toWorld;
     std::uint32_t material;
@@ -52,6 +52,8 @@ class PrimitiveSink {
 
   private:
     struct SphereFrame;
+    template <typename Spheres>
+    SphereFrame frameOf(const Spheres& object, const Placement& at) const;
     void sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius, const SphereFrame& frame);
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);

@@ -1,13 +1,12 @@
 #include "Common/Scene/SceneCompiler.h"
 
-#include <algorithm>
-#include <map>
 #include <string>
 
-#include "Common/Core/Error.h"
 #include "Common/Scene/FeatureMask.h"
+#include "Common/Scene/InstancePlan.h"
 #include "Common/Scene/LightTable.h"
 #include "Common/Scene/MaterialTable.h"
+#include "Common/Scene/ModelCache.h"
 #include "Common/Scene/PrimitiveSink.h"
 #include "Common/Scene/SceneHash.h"
 #include "Common/Scene/TextureTable.h"
@@ -15,16 +14,6 @@
 namespace rt::scene {
 
 namespace {
-
-constexpr std::size_t kSharedPrimitives = 64;  // below it an instance costs more than copies of the primitives
-constexpr std::size_t kMaxInstances = 1u << 24;
-constexpr double kMaxPrimitives = 1u << 28;
-
-// One appearance of a prototype.
-struct Occurrence {
-    Affine toWorld;
-    const MaterialDesc* material;  // replaces those of the surfaces unless null
-};
 
 void setRows(const Affine& map, shared::vec4 (&rows)[3]) {
     for (int row = 0; row < 3; ++row)
@@ -37,6 +26,7 @@ class Compiler {
         : desc_(desc),
           textures_(desc, options, *out_),
           materials_(desc, options, *out_, textures_),
+          models_(desc, options, *out_, textures_, materials_),
           sink_(*out_, materials_) {}
 
     std::shared_ptr<const CompiledScene> run() {
@@ -47,10 +37,10 @@ class Compiler {
         out_->origin = desc_.camera.lookFrom;
         out_->globals.origin = shared::vec3(out_->origin);
         const Affine toWorld = translation(-out_->origin);
-        findOccurrences(desc_.objects, toWorld, nullptr, "/objects");
-        checkSize();
-        emitWorld(toWorld);
-        emitGeometries();
+        const InstancePlan plan(desc_, materials_, models_, toWorld);
+        emitWorld(plan, toWorld);
+        emitSharedGeometries(plan);
+        emitEllipsoids();
         emitSky();
         finishLights(*out_);
         for (const TargetDesc& target : desc_.importanceTargets)
@@ -60,78 +50,12 @@ class Compiler {
     }
 
   private:
-    // ---- which prototypes appear where ------------------------------------------------------------------------------
+    // ---- objects ----------------------------------------------------------------------------------------------------
 
-    void findOccurrences(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
-                         const std::string& place) {
+    void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
+        Placement at = parent;
         for (std::size_t i = 0; i < objects.size(); ++i) {
-            if (const auto* group = std::get_if<GroupDesc>(&objects[i].shape))
-                findOccurrences(group->objects, toWorld * toAffine(group->transform), material,
-                                place + "/" + std::to_string(i) + "/objects");
-            else if (const auto* instance = std::get_if<InstanceDesc>(&objects[i].shape))
-                enter(*instance, toWorld, material, place + "/" + std::to_string(i));
-        }
-    }
-
-    void enter(const InstanceDesc& instance, const Affine& toWorld, const MaterialDesc* material,
-               const std::string& place) {
-        const auto prototype = desc_.prototypes.find(instance.prototype);
-        if (prototype == desc_.prototypes.end())
-            throw InputError(desc_.id + ": " + place + ": prototype \"" + instance.prototype + "\" is not defined");
-        if (std::find(open_.begin(), open_.end(), &prototype->first) != open_.end())
-            throw InputError(desc_.id + ": " + place + ": prototype \"" + instance.prototype + "\" contains itself");
-        if (++occurrenceCount_ > kMaxInstances)
-            throw InputError(desc_.id + ": " + place + ": more than 2^24 instances");
-        if (!material && !instance.material.empty()) material = &materials_.find(instance.material);
-        const Affine placed = toWorld * toAffine(instance.transform);
-        occurrences_[prototype->first].push_back({placed, material});
-        open_.push_back(&prototype->first);
-        findOccurrences(prototype->second, placed, material, "/prototypes/" + prototype->first);
-        open_.pop_back();
-    }
-
-    static std::size_t primitiveCount(const std::vector<ObjectDesc>& objects) {
-        struct Count {
-            std::size_t operator()(const SphereSetDesc& spheres) const { return spheres.centers.size(); }
-            std::size_t operator()(const BoxDesc&) const { return 6; }
-            std::size_t operator()(const MeshDesc& mesh) const {
-                return std::get<MeshData>(mesh.source).triangles.size();
-            }
-            std::size_t operator()(const MediumDesc&) const { return 0; }
-            std::size_t operator()(const GroupDesc& group) const { return primitiveCount(group.objects); }
-            std::size_t operator()(const InstanceDesc&) const { return 0; }
-            std::size_t operator()(const SphereDesc&) const { return 1; }
-            std::size_t operator()(const QuadDesc&) const { return 1; }
-        };
-        std::size_t sum = 0;
-        for (const ObjectDesc& object : objects)
-            sum += std::visit(Count{}, object.shape);
-        return sum;
-    }
-
-    bool isShared(const std::string& prototype) const {
-        return occurrences_.at(prototype).size() > 1 &&
-               primitiveCount(desc_.prototypes.at(prototype)) >= kSharedPrimitives;
-    }
-
-    static bool isBaked(const Occurrence& occurrence) { return occurrence.material && emits(*occurrence.material); }
-
-    void checkSize() const {
-        double primitives = static_cast<double>(primitiveCount(desc_.objects));
-        for (const auto& [name, occurrences] : occurrences_)
-            primitives += static_cast<double>(primitiveCount(desc_.prototypes.at(name))) *
-                          static_cast<double>(isShared(name) ? 1 : occurrences.size());
-        if (primitives > kMaxPrimitives) throw InputError(desc_.id + ": the scene comes to more than 2^28 primitives");
-    }
-
-    // ---- filling the arrays -----------------------------------------------------------------------------------------
-
-    void emit(const std::vector<ObjectDesc>& objects, Placement at) {
-        const Affine local = at.local;
-        const std::string place = at.place;
-        for (std::size_t i = 0; i < objects.size(); ++i) {
-            at.place = place + "/" + std::to_string(i);
-            at.local = local;
+            at.place = parent.place + "/" + std::to_string(i);
             std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
         }
     }
@@ -140,16 +64,16 @@ class Compiler {
     void emitOne(const Surface& surface, const Placement& at) {
         sink_.add(surface, at);
     }
+    void emitOne(const MeshDesc& object, const Placement& at) {
+        for (const ModelCache::Part& part : models_.parts(object))
+            sink_.add(*part.mesh, *part.material, object.light, at);
+    }
     void emitOne(const GroupDesc& group, Placement at) {
         at.local = at.local * toAffine(group.transform);
         at.place += "/objects";
         emit(group.objects, at);
     }
-    void emitOne(const InstanceDesc&, const Placement&) {}
-    void emitOne(const MeshDesc& mesh, const Placement& at) {
-        if (const auto* data = std::get_if<MeshData>(&mesh.source))
-            sink_.add(*data, materials_.find(mesh.material), mesh.light, at);
-    }
+    void emitOne(const InstanceDesc&, const Placement&) {}  // the plan has them
 
     void emitOne(const MediumDesc& desc, const Placement& at) {
         if (at.part == Part::Shared) return;
@@ -177,32 +101,32 @@ class Compiler {
         bounds_.add(cube, boundary);
     }
 
-    void emitWorld(const Affine& toWorld) {
+    // ---- geometries and instances -----------------------------------------------------------------------------------
+
+    void emitWorld(const InstancePlan& plan, const Affine& toWorld) {
         emit(desc_.objects, {toWorld, {}, Part::All, nullptr, "/objects"});
-        for (const auto& [name, occurrences] : occurrences_)
-            for (const Occurrence& occurrence : occurrences) {
-                const Part part = isShared(name) && !isBaked(occurrence) ? Part::Rest : Part::All;
-                emit(desc_.prototypes.at(name),
-                     {occurrence.toWorld, {}, part, occurrence.material, "/prototypes/" + name});
+        for (const auto& [name, prototype] : plan.prototypes())
+            for (const Occurrence& occurrence : prototype.occurrences) {
+                const Part part = prototype.isShared && !occurrence.isBaked() ? Part::Rest : Part::All;
+                emit(*prototype.objects, {occurrence.toWorld, {}, part, occurrence.material, "/prototypes/" + name});
             }
         bounds_.add(sink_.finishGeometry(), {});
     }
 
-    void emitGeometries() {
-        for (const auto& [name, occurrences] : occurrences_) {
-            if (!isShared(name)) continue;
-            emit(desc_.prototypes.at(name), {{}, {}, Part::Shared, nullptr, "/prototypes/" + name});
+    void emitSharedGeometries(const InstancePlan& plan) {
+        for (const auto& [name, prototype] : plan.prototypes()) {
+            if (!prototype.isShared) continue;
+            emit(*prototype.objects, {{}, {}, Part::Shared, nullptr, "/prototypes/" + name});
             const Bounds bounds = sink_.finishGeometry();
             if (bounds.empty()) {
                 out_->geometries.pop_back();
                 continue;
             }
-            for (const Occurrence& occurrence : occurrences)
-                if (!isBaked(occurrence))
+            for (const Occurrence& occurrence : prototype.occurrences)
+                if (!occurrence.isBaked())
                     addInstance(occurrence.toWorld, bounds,
                                 occurrence.material ? materials_.index(*occurrence.material) : shared::kNone);
         }
-        emitEllipsoids();
     }
 
     void emitEllipsoids() {
@@ -289,10 +213,8 @@ class Compiler {
     std::shared_ptr<CompiledScene> out_ = std::make_shared<CompiledScene>();
     TextureTable textures_;
     MaterialTable materials_;
+    ModelCache models_;
     PrimitiveSink sink_;
-    std::map<std::string, std::vector<Occurrence>> occurrences_;  // by prototype
-    std::vector<const std::string*> open_;                        // prototypes being entered
-    std::size_t occurrenceCount_ = 0;
     Bounds bounds_;  // of everything, in world space
     std::uint64_t droppedMedia_ = 0;
     std::uint64_t droppedInstances_ = 0;

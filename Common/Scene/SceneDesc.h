@@ -206,7 +206,9 @@ struct InstanceDesc {
     bool operator==(const InstanceDesc&) const = default;
 };
 struct ObjectDesc {
-    std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, GroupDesc, InstanceDesc> shape;
+    using Shape =
+        std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, GroupDesc, InstanceDesc>;
+    Shape shape;
     bool operator==(const ObjectDesc&) const = default;
 };
 inline bool GroupDesc::operator==(const GroupDesc& other) const {

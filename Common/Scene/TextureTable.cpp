@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/Paths.h"
 #include "Common/Scene/PerlinTable.h"
+#include "Common/Scene/StandIns.h"
 
 namespace rt::scene {
 
@@ -52,7 +52,7 @@ glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, st
 }
 
 TextureTable::TextureTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out)
-    : desc_(desc), options_(options), out_(out) {}
+    : id_(desc.id), library_(desc.textures), options_(options), out_(out) {}
 
 std::uint32_t TextureTable::resolve(const ColorOrTexture& source, shared::vec3& color) {
     if (const auto* constant = std::get_if<glm::dvec3>(&source)) {
@@ -60,8 +60,8 @@ std::uint32_t TextureTable::resolve(const ColorOrTexture& source, shared::vec3& 
         return shared::kNone;
     }
     const auto& name = std::get<std::string>(source);
-    const auto found = desc_.textures.find(name);
-    if (found != desc_.textures.end())
+    const auto found = library_.find(name);
+    if (found != library_.end())
         if (const auto* solid = std::get_if<SolidTexture>(&found->second)) {
             color = shared::vec3(solid->color);
             return shared::kNone;
@@ -71,11 +71,11 @@ std::uint32_t TextureTable::resolve(const ColorOrTexture& source, shared::vec3& 
 }
 
 std::uint32_t TextureTable::named(const std::string& name) {
-    const auto desc = desc_.textures.find(name);
-    if (desc == desc_.textures.end()) throw InputError(desc_.id + ": texture \"" + name + "\" is not defined");
+    const auto desc = library_.find(name);
+    if (desc == library_.end()) throw InputError(id_ + ": texture \"" + name + "\" is not defined");
     const auto [entry, isNew] = named_.try_emplace(name, shared::kNone);
     if (!isNew) {
-        if (entry->second == shared::kNone) throw InputError(desc_.id + ": /textures/" + name + ": refers to itself");
+        if (entry->second == shared::kNone) throw InputError(id_ + ": /textures/" + name + ": refers to itself");
         return entry->second;
     }
     const shared::Texture made = record(desc->second);
@@ -125,13 +125,13 @@ shared::Texture TextureTable::record(const TextureDesc& desc) {
 }
 
 TexelData TextureTable::load(const std::string& file, const std::string& standIn) {
-    const std::filesystem::path path(file);
-    const auto found = path.is_absolute() ? std::optional(path) : findAsset(path);
-    if (!found)
-        throw InputError(desc_.id + ": " + file + ": no such file, neither beside the scene nor among the assets");
-    if (!options_.loadTexels) throw InputError(desc_.id + ": " + file + ": images cannot be read here");
-    (void)standIn;
-    return options_.loadTexels(*found);
+    const std::optional<std::filesystem::path> path = locateAsset(file, standIn, options_, id_);
+    if (!path) {
+        out_.notices.push_back(file + ": a generated map stands in");
+        return makePlanetMap(standIn);
+    }
+    if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
+    return options_.loadTexels(*path);
 }
 
 std::uint32_t TextureTable::image(const std::string& file, const std::string& standIn) {
@@ -144,10 +144,22 @@ std::uint32_t TextureTable::image(const std::string& file, const std::string& st
     image.height = data.height;
     image.format = data.format;
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
-    if (out_.texels.size() > shared::kNone)
-        throw InputError(desc_.id + ": " + file + ": all images together exceed 16 GiB");
+    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
     return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
+}
+
+bool TextureTable::mayShowImage(const std::string& name, int depth) const {
+    const auto found = library_.find(name);
+    if (found == library_.end()) return false;
+    if (const auto* checker = std::get_if<CheckerTexture>(&found->second)) {
+        const auto showsImage = [&](const ColorOrTexture& cube) {
+            const auto* inner = std::get_if<std::string>(&cube);
+            return inner && (depth == 0 || mayShowImage(*inner, depth - 1));
+        };
+        return showsImage(checker->even) || showsImage(checker->odd);
+    }
+    return std::holds_alternative<ImageTexture>(found->second);
 }
 
 glm::dvec3 TextureTable::mean(std::uint32_t index) const {

@@ -15,10 +15,15 @@ class TextureTable {
     // All references must outlive the table.
     TextureTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out);
 
+    // Makes the textures of a model file known.
+    void add(const std::map<std::string, TextureDesc>& textures) { library_.insert(textures.begin(), textures.end()); }
     // Index of the texture, or kNone and `color` set for a constant.
     std::uint32_t resolve(const ColorOrTexture& source, shared::vec3& color);
     // Index into images of a file; files and stand-ins are read once each. Throws InputError when there is neither.
     std::uint32_t image(const std::string& file, const std::string& standIn);
+    // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
+    // `depth`).
+    bool mayShowImage(const std::string& name, int depth = 8) const;
     // Mean colour of a texture: exact over an image or a checker, 0.5 of the tint for noise.
     glm::dvec3 mean(std::uint32_t texture) const;
 
@@ -28,7 +33,8 @@ class TextureTable {
     shared::Texture record(const TextureDesc& desc);
     TexelData load(const std::string& file, const std::string& standIn);
 
-    const SceneDesc& desc_;
+    const std::string id_;  // of the scene, for errors
+    std::map<std::string, TextureDesc> library_;
     const CompileOptions& options_;
     CompiledScene& out_;
     std::map<std::string, std::uint32_t> named_;  // kNone: being made

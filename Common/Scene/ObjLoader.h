@@ -1,0 +1,36 @@
+// Wavefront OBJ files with their MTL materials.
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+// The triangles of one material.
+struct ObjPart {
+    std::string material;  // key of ObjModel::materials; empty: the file names none
+    MeshData mesh;
+};
+
+struct ObjModel {
+    std::vector<ObjPart> parts;  // none is empty
+    std::map<std::string, MaterialDesc> materials;
+    std::map<std::string, TextureDesc> textures;
+};
+
+// What a surface without a material looks like.
+MaterialDesc plainMaterial();
+
+// Reads a file: polygons are cut into triangles, normals and texture coordinates kept where every corner of a part has
+// them. Kd becomes a lambertian, Ke emission, illum 3, 5 and 8 a metal (Ks, fuzz Pr), illum 4, 6, 7 and 9 glass (Ni,
+// Tf), map_Kd and map_Ke image textures; the names of materials and textures start with `prefix`. Without
+// `withMaterials` the file's materials are ignored and there is one part. Throws InputError with file and line.
+ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const std::string& prefix = {});
+
+// A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.
+SceneDesc loadObjScene(const std::filesystem::path& path);
+
+}  // namespace rt::scene
