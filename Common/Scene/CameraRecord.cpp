@@ -31,7 +31,7 @@ void check(const CameraDesc& desc) {
     }
 }
 
-}  // namespace
+} // namespace
 
 shared::Camera makeCamera(const CameraDesc& desc, std::uint32_t width, std::uint32_t height, const glm::dvec3& origin) {
     check(desc);
@@ -61,4 +61,4 @@ shared::Camera makeCamera(const CameraDesc& desc, std::uint32_t width, std::uint
     return camera;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

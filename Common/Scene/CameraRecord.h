@@ -12,4 +12,4 @@ namespace rt::scene {
 // numbers are out of range.
 shared::Camera makeCamera(const CameraDesc& desc, std::uint32_t width, std::uint32_t height, const glm::dvec3& origin);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -1,5 +1,6 @@
-// Scattering at surfaces and in media. Directions point away from the surface, `n` is the unit shading normal on the side
-// of wo. Densities are per steradian; `weight` is value * |cosine| / density, so no division is left to the caller.
+// Scattering at surfaces and in media. Directions point away from the surface, `n` is the unit shading normal on the
+// side of wo. Densities are per steradian; `weight` is value * |cosine| / density, so no division is left to the
+// caller.
 #ifndef RT_SHARED_BSDF_H
 #define RT_SHARED_BSDF_H
 #include "Features.h"
@@ -26,36 +27,36 @@ RT_FN BsdfSample absorbed() {
 }
 
 // Kinds that the scene lacks are false by `features` alone, which keeps them out of the code.
-RT_FN bool isLambertian(uint features, Material m) {
+RT_FN bool isLambertian(uint features, RT_IN(Material) m) {
     return has(features, kFeatureLambertian) && m.kind == kMaterialLambertian;
 }
-RT_FN bool isMetal(uint features, Material m) {
+RT_FN bool isMetal(uint features, RT_IN(Material) m) {
     return has(features, kFeatureMetal) && m.kind == kMaterialMetal;
 }
-RT_FN bool isFuzzy(uint features, Material m) {
+RT_FN bool isFuzzy(uint features, RT_IN(Material) m) {
     return has(features, kFeatureFuzz) && m.fuzz > kMirrorFuzz;
 }
-RT_FN bool isDielectric(uint features, Material m) {
+RT_FN bool isDielectric(uint features, RT_IN(Material) m) {
     return has(features, kFeatureDielectric) && m.kind == kMaterialDielectric;
 }
 
 // Whether every lobe is a delta: no direction can be evaluated, lights need not be sampled.
-RT_FN bool isDelta(uint features, Material m) {
+RT_FN bool isDelta(uint features, RT_IN(Material) m) {
     return isDielectric(features, m) || (isMetal(features, m) && !isFuzzy(features, m));
 }
 
-// ---- metal with fuzz -------------------------------------------------------------------------------------------------
+// ---- metal with fuzz ------------------------------------------------------------------------------------------------
 
-// Density of w = normalize(r + fuzz s), s uniform on the unit sphere, r unit, 0 < fuzz <= 1. Along w lie up to two points
-// of that sphere, at distances t = cos +- root, where cos = w.r and root^2 = fuzz^2 - sin^2:
+// Density of w = normalize(r + fuzz s), s uniform on the unit sphere, r unit, 0 < fuzz <= 1. Along w lie up to two
+// points of that sphere, at distances t = cos +- root, where cos = w.r and root^2 = fuzz^2 - sin^2:
 //     p = (t+^2 + t-^2) / (4 pi fuzz root) = (cos^2 + root^2) / (2 pi fuzz root).
-// At the rim root is 0 and p infinite (integrably). There (root / fuzz)^2 is kept above the resolution of a float direction,
-// and the lobe reaches as far beyond the rim, which leaves its integral 1.
+// At the rim root is 0 and p infinite (integrably). There (root / fuzz)^2 is kept above the resolution of a float
+// direction, and the lobe reaches as far beyond the rim, which leaves its integral 1.
 RT_FN float fuzzPdf(vec3 r, float fuzz, vec3 w) {
     float cosine = dot(r, w);
     vec3 chord = w - r;
-    float q = dot(chord, chord);                             // 2 (1 - cos), accurate for small angles
-    float x = 1.0f - q * (1.0f - 0.25f * q) / square(fuzz);  // (root / fuzz)^2
+    float q = dot(chord, chord);                            // 2 (1 - cos), accurate for small angles
+    float x = 1.0f - q * (1.0f - 0.25f * q) / square(fuzz); // (root / fuzz)^2
     float blur = 4.0e-7f / fuzz;
     float root = fuzz * sqrt(max(x, blur));
     return x > -blur && cosine > 0.0f ? (square(cosine) + square(root)) / (2.0f * kPi * fuzz * root) : 0.0f;
@@ -65,7 +66,7 @@ RT_FN vec3 mirrorDirection(vec3 wo, vec3 n) {
     return normalize(n * (2.0f * dot(n, wo)) - wo);
 }
 
-RT_FN BsdfSample sampleMetal(uint features, Material m, vec3 albedo, vec3 n, vec3 wo, vec2 u) {
+RT_FN BsdfSample sampleMetal(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, vec3 wo, vec2 u) {
     BsdfSample s = absorbed();
     s.wi = mirrorDirection(wo, n);
     s.weight = albedo;
@@ -82,10 +83,10 @@ RT_FN BsdfSample sampleMetal(uint features, Material m, vec3 albedo, vec3 n, vec
     return s;
 }
 
-// ---- dielectric ------------------------------------------------------------------------------------------------------
+// ---- dielectric -----------------------------------------------------------------------------------------------------
 
-// (reflectance, cosine of the refracted ray or 0 under total reflection) of unpolarised light, for the cosine c in [0,1]
-// of the incident ray and eta = index on its side / index beyond.
+// (reflectance, cosine of the refracted ray or 0 under total reflection) of unpolarised light, for the cosine c in
+// [0,1] of the incident ray and eta = index on its side / index beyond.
 RT_FN vec2 fresnel(float c, float eta) {
     // cos^2 of the refracted ray, in whichever form cancels less.
     float eta2 = eta * eta;
@@ -99,7 +100,7 @@ RT_FN vec2 fresnel(float c, float eta) {
 
 // Reflects with the probability that Fresnel's equations give, else refracts; radiance is not scaled by the indices, as
 // long as camera and lights stand in the same medium.
-RT_FN BsdfSample sampleDielectric(Material m, vec3 tint, vec3 n, uint frontFace, vec3 wo, float uLobe) {
+RT_FN BsdfSample sampleDielectric(RT_IN(Material) m, vec3 tint, vec3 n, uint frontFace, vec3 wo, float uLobe) {
     BsdfSample s = absorbed();
     s.weight = tint;
     s.delta = 1u;
@@ -117,11 +118,11 @@ RT_FN BsdfSample sampleDielectric(Material m, vec3 tint, vec3 n, uint frontFace,
     return s;
 }
 
-// ---- any material ----------------------------------------------------------------------------------------------------
+// ---- any material ---------------------------------------------------------------------------------------------------
 
 // `albedo` is the material's, texture applied. `u` chooses the direction, `uLobe` between reflection and refraction.
 // A material that does not scatter returns weight 0.
-RT_FN BsdfSample sampleBsdf(uint features, Material m, vec3 albedo, vec3 n, uint frontFace, vec3 wo, vec2 u,
+RT_FN BsdfSample sampleBsdf(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, uint frontFace, vec3 wo, vec2 u,
                             float uLobe) {
     if (isLambertian(features, m)) {
         vec3 local = sampleCosineHemisphere(u);
@@ -137,7 +138,7 @@ RT_FN BsdfSample sampleBsdf(uint features, Material m, vec3 albedo, vec3 n, uint
 }
 
 // (value * |cosine| per channel, density with which sampleBsdf chooses wi); zero for delta lobes.
-RT_FN vec4 evalBsdf(uint features, Material m, vec3 albedo, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalBsdf(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, vec3 wo, vec3 wi) {
     float cosine = dot(n, wi);
     if (isLambertian(features, m)) {
         float pdf = max(cosine, 0.0f) * kInvPi;
@@ -150,9 +151,10 @@ RT_FN vec4 evalBsdf(uint features, Material m, vec3 albedo, vec3 n, vec3 wo, vec
     return vec4(0.0f);
 }
 
-// ---- media -----------------------------------------------------------------------------------------------------------
+// ---- media ----------------------------------------------------------------------------------------------------------
 
-const float kPhasePdf = 0.0795774715f; // 1 / (4 pi), in all directions: value and density of the isotropic phase function
+// Value and density of the isotropic phase function: 1 / (4 pi).
+const float kPhasePdf = 0.0795774715f;
 
 RT_FN BsdfSample samplePhase(vec3 albedo, vec2 u) {
     BsdfSample s = absorbed();

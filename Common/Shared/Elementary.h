@@ -1,5 +1,6 @@
-// Elementary functions with the same short code on every device: Vulkan promises only 2^-11 for sin and cos and 4096 ulp
-// for atan, and libm's calls cannot be inlined. Polynomials are our own minimax fits. Bounds are asserted by the tests.
+// Elementary functions with the same short code on every device: Vulkan promises only 2^-11 for sin and cos and 4096
+// ulp for atan, and libm's calls cannot be inlined. Polynomials are our own minimax fits. Bounds are asserted by the
+// tests.
 #ifndef RT_SHARED_ELEMENTARY_H
 #define RT_SHARED_ELEMENTARY_H
 #include "Types.h"

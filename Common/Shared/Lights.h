@@ -9,13 +9,13 @@
 RT_SHARED_BEGIN
 
 struct LightSample {
-    vec3 wi;         // unit, from the shading point to the light
-    float distance;  // along wi
-    float pdf;       // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
-    vec3 radiance;   // emitted towards the shading point, without the emission's texture
-    vec3 point;      // on the light
-    vec3 normal;     // unit geometric normal at `point`, front side of a flat light, outward of a sphere
-    vec2 uv;         // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
+    vec3 wi;        // unit, from the shading point to the light
+    float distance; // along wi
+    float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
+    vec3 radiance;  // emitted towards the shading point, without the emission's texture
+    vec3 point;     // on the light
+    vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a sphere
+    vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
 };
 
 RT_FN LightSample noLightSample() {
@@ -31,10 +31,10 @@ RT_FN LightSample noLightSample() {
 }
 
 // How a light's shape is sampled from a shading point.
-const uint kRegimeSolidAngle = 0u;  // uniform in solid angle
-const uint kRegimeArea = 1u;        // uniform in area
-const uint kRegimeColumns = 2u;     // a thin quad: by solid angle along the long edge, uniform across
-const uint kRegimeInside = 3u;      // the point is inside a sphere light, which fills all directions
+const uint kRegimeSolidAngle = 0u; // uniform in solid angle
+const uint kRegimeArea = 1u;       // uniform in area
+const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
+const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
@@ -47,8 +47,7 @@ RT_FN bool isSurface(vec3 normal) {
     return dot(normal, normal) > 0.0f;
 }
 
-// ---- regimes
-// ---------------------------------------------------------------------------------------------------------
+// ---- regimes --------------------------------------------------------------------------------------------------------
 
 RT_FN uint sphereLightRegime(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter) {
     if (dot(toCenter, toCenter) <= light.radius * light.radius) return kRegimeInside;
@@ -75,10 +74,10 @@ RT_FN bool isRectangle(RT_IN(Light) light) {
 
 // A quad light from a point, with what its regime depends on.
 struct QuadView {
-    vec3 corner;  // relative to the point
+    vec3 corner; // relative to the point
     uint regime;
-    bool swapped;     // edgeV is the long edge
-    Columns columns;  // in that regime
+    bool swapped;    // edgeV is the long edge
+    Columns columns; // in that regime
 };
 
 // Automatic: a rectangle at twice its short edge or farther is sampled by columns.
@@ -103,8 +102,7 @@ RT_FN QuadView viewQuad(uint method, RT_IN(Light) light, vec3 position) {
     return q;
 }
 
-// ---- spheres
-// ---------------------------------------------------------------------------------------------------------
+// ---- spheres --------------------------------------------------------------------------------------------------------
 
 // Uniform over all directions for a point in a medium, by the cosine for a point on a surface.
 RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
@@ -160,8 +158,7 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
 }
 
-// ---- flat lights
-// -----------------------------------------------------------------------------------------------------
+// ---- flat lights ----------------------------------------------------------------------------------------------------
 
 // Fills in what follows from s.uv.
 RT_FN void placeOnLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 position) {
@@ -297,8 +294,7 @@ RT_FN float triangleLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec
     return areaPdf(light.area, distance, dot(light.normal, wi));
 }
 
-// ---- any light
-// -------------------------------------------------------------------------------------------------------
+// ---- any light ------------------------------------------------------------------------------------------------------
 
 // Whether a point lies on the side that a flat light illuminates.
 RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
@@ -349,8 +345,7 @@ RT_FN vec3 lightPointError(RT_IN(Light) light) {
     return 8.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
 }
 
-// ---- choosing among lights
-// -------------------------------------------------------------------------------------------
+// ---- choosing among lights ------------------------------------------------------------------------------------------
 
 // Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact
 // for small and distant lights, and 0 only where the light cannot contribute: wholly below the horizon of `normal`, or

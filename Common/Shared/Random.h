@@ -7,8 +7,8 @@
 
 RT_SHARED_BEGIN
 
-// ---- dimensions
-// ------------------------------------------------------------------------------------------------------ A dimension
+// ---- dimensions -----------------------------------------------------------------------------------------------------
+// A dimension
 // names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
 const uint kPairPixel = 0u;  // position in the pixel
 const uint kPairLens = 1u;   // position on the lens
@@ -25,7 +25,7 @@ RT_FN uint vertexPair(uint vertex, uint pair) {
     return kPairsCamera + vertex * kPairsPerVertex + pair;
 }
 
-// ---- hashing ------------------------------------------------------------------------------------------------------
+// ---- hashing --------------------------------------------------------------------------------------------------------
 
 // Three words to three words. Jarzynski & Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 RT_FN uvec3 hash3(uvec3 v) {
@@ -60,7 +60,7 @@ RT_FN float toFineUniform(uint high, uint low) {
                0.999999940395355f);
 }
 
-// ---- Owen-scrambled Sobol -----------------------------------------------------------------------------------------
+// ---- Owen-scrambled Sobol -------------------------------------------------------------------------------------------
 
 // Nested uniform scrambling of a word whose most significant digit is bit 0. Laine & Karras, "Stratified Sampling for
 // Stochastic Transparency", 2011, with the constants that Vegdahl found to scramble well for all seeds.
@@ -96,7 +96,7 @@ RT_FN uvec2 sobolPair(uint index, uvec3 key) {
                  bitfieldReverse(laineKarras(sobolSecondReversed(shuffled), key.y)));
 }
 
-// ---- jittered strata ----------------------------------------------------------------------------------------------
+// ---- jittered strata ------------------------------------------------------------------------------------------------
 
 // Element i of a pseudo-random permutation of [0, n), n >= 1. Kensler, "Correlated Multi-Jittered Sampling", Pixar
 // 2013, with cycle walking over a hash that is a bijection of the words below the next power of two.
@@ -132,7 +132,7 @@ RT_FN uint permute(uint i, uint n, uint key) {
 
 const uint kSobolKey = 0x50b01u; // keeps the scrambling apart from independent numbers
 
-// ---- the sampler --------------------------------------------------------------------------------------------------
+// ---- the sampler ----------------------------------------------------------------------------------------------------
 
 struct Sampler {
     uint kind;   // kSamplerIndependent, kSamplerStratified, kSamplerSobol
@@ -183,7 +183,8 @@ struct VertexNumbers {
     vec2 choice;
 };
 
-// randomPair() of kPairLight, kPairBsdf and kPairChoice. Sobol's take one call: C++ compilers work on the pairs side by side.
+// randomPair() of kPairLight, kPairBsdf and kPairChoice. Sobol's take one call: C++ compilers work on the pairs side by
+// side.
 RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
     VertexNumbers numbers;
     if (s.kind != kSamplerSobol) {

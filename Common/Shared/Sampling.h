@@ -1,12 +1,13 @@
-// What samplers have in common: frames, hemispheres, disks and spheres, heuristics, origins of secondary rays. A sampler
-// maps a pair of uniforms on the grid of Random.h, k 2^-24 in [0, 1 - 2^-24], to its domain; densities are per steradian.
+// What samplers have in common: frames, hemispheres, disks and spheres, heuristics, origins of secondary rays. A
+// sampler maps a pair of uniforms on the grid of Random.h, k 2^-24 in [0, 1 - 2^-24], to its domain; densities are per
+// steradian.
 #ifndef RT_SHARED_SAMPLING_H
 #define RT_SHARED_SAMPLING_H
 #include "Elementary.h"
 
 RT_SHARED_BEGIN
 
-// ---- frames ----------------------------------------------------------------------------------------------------------
+// ---- frames ---------------------------------------------------------------------------------------------------------
 
 // Right-handed, orthonormal; local z is `normal`.
 struct Frame {
@@ -28,7 +29,7 @@ RT_FN Frame makeFrame(vec3 n) {
     return f;
 }
 
-RT_FN vec3 toWorld(Frame f, vec3 local) {
+RT_FN vec3 toWorld(RT_IN(Frame) f, vec3 local) {
     return f.tangent * local.x + f.bitangent * local.y + f.normal * local.z;
 }
 
@@ -44,7 +45,7 @@ RT_FN float luminance(vec3 rgb) {
     return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
 
-// ---- standard domains ------------------------------------------------------------------------------------------------
+// ---- standard domains -----------------------------------------------------------------------------------------------
 
 // Uniform on the unit disk, as (x, y, r) with |r| the radius: the concentric map (Shirley & Chiu 1997), which keeps
 // neighbours neighbours. Grid points are moved to the middle of their cells, so the centre and the rim are never hit.
@@ -76,7 +77,7 @@ RT_FN vec3 sampleSphere(vec2 u) {
     return vec3(r * sc.y, r * sc.x, z);
 }
 
-// ---- multiple importance sampling ------------------------------------------------------------------------------------
+// ---- multiple importance sampling -----------------------------------------------------------------------------------
 
 // Weight of the technique whose density is pdfA, against one of density pdfB. As 1 / (1 + ratio) nothing overflows.
 RT_FN float balanceHeuristic(float pdfA, float pdfB) {
@@ -87,10 +88,11 @@ RT_FN float powerHeuristic(float pdfA, float pdfB) {
     return pdfA > 0.0f ? 1.0f / (1.0f + square(pdfB / pdfA)) : 0.0f;
 }
 
-// ---- origins of secondary rays ---------------------------------------------------------------------------------------
+// ---- origins of secondary rays --------------------------------------------------------------------------------------
 
-// Moves p, known to within +-error per axis, along the geometric normal n to the side of w, so far that it lies beyond the
-// true surface whatever the error and the rounding of the result. No absolute length enters: scaling by 2^k is exact.
+// Moves p, known to within +-error per axis, along the geometric normal n to the side of w, so far that it lies beyond
+// the true surface whatever the error and the rounding of the result. No absolute length enters: scaling by 2^k is
+// exact.
 RT_FN vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
     float reach = dot(abs(n), error + abs(p) * (2.0f * kEpsilon));
     return p + n * (dot(n, w) < 0.0f ? -reach : reach);

@@ -1,20 +1,20 @@
 // Solid angles of light shapes and samplers of directions towards them. A sampler and its density are computed from one
-// record, the shape as seen from one point, so that both take every decision from the same numbers. Nothing here contains
-// an absolute length: scaling everything by 2^k changes no bit of a direction.
+// record, the shape as seen from one point, so that both take every decision from the same numbers. Nothing here
+// contains an absolute length: scaling everything by 2^k changes no bit of a direction.
 #ifndef RT_SHARED_SPHERICAL_SHAPES_H
 #define RT_SHARED_SPHERICAL_SHAPES_H
 #include "Sampling.h"
 
 RT_SHARED_BEGIN
 
-// ---- sphere ----------------------------------------------------------------------------------------------------------
+// ---- sphere ---------------------------------------------------------------------------------------------------------
 
 // A sphere seen from outside.
 struct SphereCone {
-    vec3 axis;           // unit, towards the centre
-    float distance;      // to the centre
-    float sine;          // of the half angle: radius / distance
-    float cosine;        // of the half angle
+    vec3 axis;            // unit, towards the centre
+    float distance;       // to the centre
+    float sine;           // of the half angle: radius / distance
+    float cosine;         // of the half angle
     float oneMinusCosine; // of the half angle; solid angle / (2 pi)
 };
 
@@ -30,7 +30,7 @@ RT_FN SphereCone makeSphereCone(vec3 toCenter, float radius) {
     return s;
 }
 
-RT_FN float sphereConePdf(SphereCone s) {
+RT_FN float sphereConePdf(RT_IN(SphereCone) s) {
     return 1.0f / (2.0f * kPi * s.oneMinusCosine);
 }
 
@@ -41,7 +41,7 @@ struct ConeSample {
     vec3 normal;
 };
 
-RT_FN ConeSample sampleSphereCone(SphereCone s, float radius, vec2 u) {
+RT_FN ConeSample sampleSphereCone(RT_IN(SphereCone) s, float radius, vec2 u) {
     float q = u.x * s.oneMinusCosine; // 1 - cos of the angle to the axis
     float cosine = 1.0f - q;
     float sine2 = q * (2.0f - q);
@@ -53,8 +53,7 @@ RT_FN ConeSample sampleSphereCone(SphereCone s, float radius, vec2 u) {
     result.direction = around * sine + s.axis * cosine;
     // Half chord / radius, 0 at the rim.
     float w = sqrt(max(0.0f, 1.0f - u.x * (2.0f - q) / (1.0f + s.cosine)));
-    result.distance =
-        (s.distance - radius) * (s.distance + radius) / (s.distance * cosine + radius * w);
+    result.distance = (s.distance - radius) * (s.distance + radius) / (s.distance * cosine + radius * w);
     // Angle at the centre, between the point and the axis.
     float sinAlpha = result.distance * sine / radius;
     float cosAlpha = sine2 / s.sine + cosine * w;
@@ -62,11 +61,11 @@ RT_FN ConeSample sampleSphereCone(SphereCone s, float radius, vec2 u) {
     return result;
 }
 
-// ---- triangle --------------------------------------------------------------------------------------------------------
+// ---- triangle -------------------------------------------------------------------------------------------------------
 
-// A triangle seen from a point: unit vectors to its vertices and the terms of tan(solid angle / 2) = det / (dots + base),
-// where det = a . (b x c), dots = (a + b) . c and base = 1 + a . b. The determinant comes from the plane's normal: formed
-// from the unit vectors it would cancel (Van Oosterom & Strackee 1983, made stable for small triangles).
+// A triangle seen from a point: unit vectors to its vertices and the terms of tan(solid angle / 2) = det / (dots +
+// base), where det = a . (b x c), dots = (a + b) . c and base = 1 + a . b. The determinant comes from the plane's
+// normal: formed from the unit vectors it would cancel (Van Oosterom & Strackee 1983, made stable for small triangles).
 struct SphericalTriangle {
     vec3 a;
     vec3 b;
@@ -103,20 +102,20 @@ RT_FN vec3 sampleArc(vec3 a, vec3 b, float u) {
     return a * (1.0f - q) + t * sqrt(q * (2.0f - q) / max(l2, 1.0e-37f));
 }
 
-// Direction uniform in solid angle. Arvo, "Stratified Sampling of Spherical Triangles", 1995, with the bisector h of a and
-// the split point c': the solid angle of (a, b, c') has tangent of the half det(a, b, h) / ((a + b) . h), linear in h, so
-// h is found without an inverse cosine and without loss for small triangles (after Peters 2021).
-RT_FN vec3 sampleSphericalTriangle(SphericalTriangle t, vec2 u) {
+// Direction uniform in solid angle. Arvo, "Stratified Sampling of Spherical Triangles", 1995, with the bisector h of a
+// and the split point c': the solid angle of (a, b, c') has tangent of the half det(a, b, h) / ((a + b) . h), linear in
+// h, so h is found without an inverse cosine and without loss for small triangles (after Peters 2021).
+RT_FN vec3 sampleSphericalTriangle(RT_IN(SphericalTriangle) t, vec2 u) {
     vec2 sc = sinCos2Pi(u.x * t.solidAngle * (0.25f * kInvPi));
     vec3 h = t.a * (t.det * sc.y - t.dots * sc.x) + t.c * (t.base * sc.x);
     vec3 split = h * (2.0f * dot(t.a, h) / max(dot(h, h), 1.0e-37f)) - t.a;
     return normalize(sampleArc(t.b, split, u.y));
 }
 
-// ---- rectangle -------------------------------------------------------------------------------------------------------
+// ---- rectangle ------------------------------------------------------------------------------------------------------
 
-// A rectangle seen from a point at height h above its plane: points x xAxis + y yAxis + h zAxis with x in [x0, x0 + width]
-// and y in [y0, y0 + height].
+// A rectangle seen from a point at height h above its plane: points x xAxis + y yAxis + h zAxis with x in [x0, x0 +
+// width] and y in [y0, y0 + height].
 struct SphericalRectangle {
     vec3 xAxis;
     vec3 yAxis;
@@ -134,8 +133,8 @@ RT_FN vec2 complexProduct(vec2 a, vec2 b) {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
-// Solid angle of a rectangle that no coordinate axis through the foot (0, 0) crosses, or that is small as seen from there:
-// two triangles, without cancellation however small they are.
+// Solid angle of a rectangle that no coordinate axis through the foot (0, 0) crosses, or that is small as seen from
+// there: two triangles, without cancellation however small they are.
 RT_FN float smallRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
     float x1 = x0 + width;
     float y1 = y0 + height;
@@ -152,8 +151,8 @@ RT_FN float smallRectangleSolidAngle(float x0, float width, float y0, float heig
     return 2.0f * arcTan(z.y, z.x);
 }
 
-// The same for any rectangle, within 3e-7 absolutely: the angles atan(x y / (h R)) of the rectangles between the foot and
-// each corner, added with signs.
+// The same for any rectangle, within 3e-7 absolutely: the angles atan(x y / (h R)) of the rectangles between the foot
+// and each corner, added with signs.
 RT_FN float wideRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
     float x1 = x0 + width;
     float y1 = y0 + height;
@@ -162,8 +161,9 @@ RT_FN float wideRectangleSolidAngle(float x0, float width, float y0, float heigh
     float i10 = 1.0f / sqrt(x1 * x1 + y0 * y0 + h2);
     float i11 = 1.0f / sqrt(x1 * x1 + y1 * y1 + h2);
     float i01 = 1.0f / sqrt(x0 * x0 + y1 * y1 + h2);
-    vec2 z = complexProduct(complexProduct(vec2(h * i00, x0 * i00 * (y0 * i00)), vec2(h * i10, -x1 * i10 * (y0 * i10))),
-                            complexProduct(vec2(h * i11, x1 * i11 * (y1 * i11)), vec2(h * i01, -x0 * i01 * (y1 * i01))));
+    vec2 z =
+        complexProduct(complexProduct(vec2(h * i00, x0 * i00 * (y0 * i00)), vec2(h * i10, -x1 * i10 * (y0 * i10))),
+                       complexProduct(vec2(h * i11, x1 * i11 * (y1 * i11)), vec2(h * i01, -x0 * i01 * (y1 * i01))));
     float angle = arcTan(z.y, z.x);
     // Small negative angles are the noise of small rectangles.
     return angle < -4.0e-6f ? angle + 2.0f * kPi : angle;
@@ -203,10 +203,10 @@ RT_FN SphericalRectangle makeSphericalRectangle(vec3 corner, vec3 edgeU, vec3 ed
     return r;
 }
 
-// Width w of the column [x0, x0 + w] that has the share u of the solid angle, in closed form. Urena, Fajardo & King, "An
-// Area-Preserving Parametrization for Spherical Rectangles", 2013; the angle k = 2 pi - g2 - g3 enters by its sine and
-// cosine only. Good while the solid angle is well above a float's resolution of 2 pi.
-RT_FN float rectangleColumn(SphericalRectangle r, float u) {
+// Width w of the column [x0, x0 + w] that has the share u of the solid angle, in closed form. Urena, Fajardo & King,
+// "An Area-Preserving Parametrization for Spherical Rectangles", 2013; the angle k = 2 pi - g2 - g3 enters by its sine
+// and cosine only. Good while the solid angle is well above a float's resolution of 2 pi.
+RT_FN float rectangleColumn(RT_IN(SphericalRectangle) r, float u) {
     float y1 = r.y0 + r.height;
     float i0 = 1.0f / sqrt(r.h * r.h + r.y0 * r.y0);
     float i2 = 1.0f / sqrt(r.h * r.h + y1 * y1);
@@ -231,8 +231,9 @@ RT_FN float rectangleColumn(SphericalRectangle r, float u) {
     return x - r.x0;
 }
 
-// The same by Newton's method in w, for any solid angle: seeded by the exact answer for thin strips, guarded by bisection.
-RT_FN float rectangleColumnNewton(SphericalRectangle r, float u) {
+// The same by Newton's method in w, for any solid angle: seeded by the exact answer for thin strips, guarded by
+// bisection.
+RT_FN float rectangleColumnNewton(RT_IN(SphericalRectangle) r, float u) {
     float y1 = r.y0 + r.height;
     float h2 = r.h * r.h;
     float target = u * r.solidAngle;
@@ -254,8 +255,8 @@ RT_FN float rectangleColumnNewton(SphericalRectangle r, float u) {
         float r0 = sqrt(d + r.y0 * r.y0);
         float r1 = sqrt(d + y1 * y1);
         // Difference of y / R at y1 and y0, without cancellation where they have the same sign.
-        float span = mid == 0.0f ? y1 / r1 - r.y0 / r0
-                                 : d * r.height * (y1 + r.y0) / ((y1 * r0 + r.y0 * r1) * (r0 * r1));
+        float span =
+            mid == 0.0f ? y1 / r1 - r.y0 / r0 : d * r.height * (y1 + r.y0) / ((y1 * r0 + r.y0 * r1) * (r0 * r1));
         float next = w - error * d / (r.h * span);
         // Far from the root the bracket is safe to use; near it the sign of the error is noise.
         if (abs(error) > 2.0e-3f * r.solidAngle) {
@@ -271,9 +272,9 @@ RT_FN float rectangleColumnNewton(SphericalRectangle r, float u) {
     return w;
 }
 
-// Position on the rectangle, (a, b) in [0, width] x [0, height], such that the direction is uniform in solid angle: first
-// a column, then y in the column.
-RT_FN vec2 sampleSphericalRectangle(SphericalRectangle r, vec2 u) {
+// Position on the rectangle, (a, b) in [0, width] x [0, height], such that the direction is uniform in solid angle:
+// first a column, then y in the column.
+RT_FN vec2 sampleSphericalRectangle(RT_IN(SphericalRectangle) r, vec2 u) {
     float a = r.solidAngle >= kSmallRectangle ? rectangleColumn(r, u.x) : rectangleColumnNewton(r, u.x);
     a = clamp(a, 0.0f, r.width);
     float d2 = square(r.x0 + a) + r.h * r.h;
@@ -285,15 +286,15 @@ RT_FN vec2 sampleSphericalRectangle(SphericalRectangle r, vec2 u) {
     return vec2(a, clamp(y - r.y0, 0.0f, r.height));
 }
 
-// ---- thin rectangle --------------------------------------------------------------------------------------------------
+// ---- thin rectangle -------------------------------------------------------------------------------------------------
 
-// Importance of positions along the long edge of a thin rectangle. A line at distance sqrt(d) is seen at d / (p^2 + d)^(3/2)
-// per unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge. That is only nearly
-// uniform in solid angle, but the density is exactly that of the samples.
+// Importance of positions along the long edge of a thin rectangle. A line at distance sqrt(d) is seen at
+// d / (p^2 + d)^(3/2) per unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge.
+// That is only nearly uniform in solid angle, but the density is exactly that of the samples.
 struct Columns {
-    float start;   // p of the edge's beginning; its end is at start + 1
+    float start; // p of the edge's beginning; its end is at start + 1
     float d;
-    float rest0;   // 1 - |p| / sqrt(p^2 + d) at the beginning and the end, signed towards the side where most of the edge is
+    float rest0; // 1 - p / sqrt(p^2 + d) at one end and the other, p counted towards the side where most of the edge is
     float rest1;
     float mirror;  // that side: 1 or -1
     float inverse; // 1 / length^2 of the edge
@@ -311,8 +312,8 @@ RT_FN float columnRest(float p, float d) {
     return (p > 0.0f ? d : r2 - pr) / (p > 0.0f ? r2 + pr : r2);
 }
 
-// `middle`: from the point to the middle of the short edge at the beginning; `edge` the long edge; `width2` the short one
-// squared.
+// `middle`: from the point to the middle of the short edge at the beginning; `edge` the long edge; `width2` the short
+// one squared.
 RT_FN Columns makeColumns(vec3 middle, vec3 edge, float width2) {
     Columns c;
     c.inverse = 1.0f / dot(edge, edge);
@@ -327,11 +328,11 @@ RT_FN Columns makeColumns(vec3 middle, vec3 edge, float width2) {
 }
 
 // Distance squared from the point to the segment, in units of its length.
-RT_FN float columnsDistance2(Columns c) {
+RT_FN float columnsDistance2(RT_IN(Columns) c) {
     return c.d + square(max(max(c.start, -1.0f - c.start), 0.0f));
 }
 
-RT_FN ColumnSample sampleColumns(Columns c, float u) {
+RT_FN ColumnSample sampleColumns(RT_IN(Columns) c, float u) {
     float rest = mix(c.rest0, c.rest1, u);
     float cosine2 = rest * (2.0f - rest);
     float r = sqrt(c.d / max(cosine2, 1.0e-37f));
@@ -342,14 +343,15 @@ RT_FN ColumnSample sampleColumns(Columns c, float u) {
 }
 
 // The same density at the coordinate p.
-RT_FN float columnsPdf(Columns c, float p) {
+RT_FN float columnsPdf(RT_IN(Columns) c, float p) {
     float r2 = p * p + c.d;
     return c.d / (r2 * sqrt(r2) * (c.rest0 - c.rest1));
 }
 
-// ---- points uniform in area ------------------------------------------------------------------------------------------
+// ---- points uniform in area -----------------------------------------------------------------------------------------
 
-// Density per steradian of a point drawn uniformly from `area`, seen at `distance` under the cosine `cosine` of its normal.
+// Density per steradian of a point drawn uniformly from `area`, seen at `distance` under the cosine `cosine` of its
+// normal.
 RT_FN float areaPdf(float area, float distance, float cosine) {
     float denominator = area * abs(cosine);
     return denominator > 0.0f ? distance * distance / denominator : 0.0f;

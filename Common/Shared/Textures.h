@@ -12,7 +12,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- coordinates -----------------------------------------------------------------------------------------------------
+// ---- coordinates ----------------------------------------------------------------------------------------------------
 
 // Texture coordinates of a sphere's outward unit normal: u around +y from -x, v from the south pole.
 RT_FN vec2 sphereUv(vec3 n) {
@@ -21,7 +21,7 @@ RT_FN vec2 sphereUv(vec3 n) {
     return clamp(vec2(u, v), vec2(0.0f), vec2(1.0f));
 }
 
-// ---- Perlin noise ----------------------------------------------------------------------------------------------------
+// ---- Perlin noise ---------------------------------------------------------------------------------------------------
 
 // Contribution of the lattice point `cell` + `corner`, corner in {0,1}^3, to the noise at `cell` + `f`.
 RT_FN float perlinCorner(SceneRef scene, uint table, ivec3 cell, vec3 f, vec3 smoothed, ivec3 corner) {
@@ -62,7 +62,7 @@ RT_FN float perlinTurbulence(SceneRef scene, uint table, vec3 p) {
 }
 
 // Brightness of the noise kinds.
-RT_FN float noiseValue(SceneRef scene, Texture t, vec3 point) {
+RT_FN float noiseValue(SceneRef scene, RT_IN(Texture) t, vec3 point) {
     vec3 p = point * t.scale;
     if (t.kind == kTextureNoise) return 0.5f * (1.0f + perlinNoise(scene, t.first, p));
     float turbulence = perlinTurbulence(scene, t.first, p);
@@ -71,10 +71,10 @@ RT_FN float noiseValue(SceneRef scene, Texture t, vec3 point) {
     return 0.5f * (1.0f + sinCos2Pi(turns - floor(turns)).x);
 }
 
-// ---- images ----------------------------------------------------------------------------------------------------------
+// ---- images ---------------------------------------------------------------------------------------------------------
 
-// The four texels of a bilinear lookup and the weights of the second column and row. Texel centres lie at (i + 1/2) / size;
-// beyond the outermost the edge is repeated.
+// The four texels of a bilinear lookup and the weights of the second column and row. Texel centres lie at (i + 1/2) /
+// size; beyond the outermost the edge is repeated.
 struct Footprint {
     uvec2 low;
     uvec2 high;
@@ -82,7 +82,7 @@ struct Footprint {
 };
 
 // uv with v upwards from the last row of the image.
-RT_FN Footprint imageFootprint(Image image, vec2 uv) {
+RT_FN Footprint imageFootprint(RT_IN(Image) image, vec2 uv) {
     vec2 limit = vec2(float(image.width - 1u), float(image.height - 1u));
     vec2 p = vec2(uv.x * float(image.width), (1.0f - uv.y) * float(image.height)) - 0.5f;
     p = clamp(p, vec2(0.0f), limit);
@@ -94,14 +94,15 @@ RT_FN Footprint imageFootprint(Image image, vec2 uv) {
     return f;
 }
 
-RT_FN vec3 imageColor(SceneRef scene, Image image, vec2 uv) {
+RT_FN vec3 imageColor(SceneRef scene, RT_IN(Image) image, vec2 uv) {
     Footprint f = imageFootprint(image, uv);
     vec3 upper = mix(loadTexel(scene, image, f.low.x, f.low.y), loadTexel(scene, image, f.high.x, f.low.y), f.weight.x);
-    vec3 lower = mix(loadTexel(scene, image, f.low.x, f.high.y), loadTexel(scene, image, f.high.x, f.high.y), f.weight.x);
+    vec3 lower =
+        mix(loadTexel(scene, image, f.low.x, f.high.y), loadTexel(scene, image, f.high.x, f.high.y), f.weight.x);
     return mix(upper, lower, f.weight.y);
 }
 
-// ---- any texture -----------------------------------------------------------------------------------------------------
+// ---- any texture ----------------------------------------------------------------------------------------------------
 
 // Whether the cell of the solid checker that holds p, cells of edge `scale`, is one of the even ones.
 RT_FN bool isEvenCell(vec3 p, float scale) {

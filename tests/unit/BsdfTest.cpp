@@ -1,5 +1,4 @@
 #include "Common/Shared/Bsdf.h"
-
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -39,7 +38,7 @@ dvec3 inPlane(double cosine, double phi = 0.3) {
     return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
-// ---- lambertian ------------------------------------------------------------------------------------------------------
+// ---- lambertian -----------------------------------------------------------------------------------------------------
 
 TEST(Lambertian, SampleAndEvaluationAgree) {
     Uniforms uniform(1);
@@ -57,13 +56,13 @@ TEST(Lambertian, SampleAndEvaluationAgree) {
     EXPECT_FALSE(isDelta(kFeatureAll, lambertian()));
 }
 
-// ---- metal -----------------------------------------------------------------------------------------------------------
+// ---- metal ----------------------------------------------------------------------------------------------------------
 
-// Probability that normalize(r + fuzz s), s uniform on the sphere, is within the angle gamma of r. The cone of that angle
-// meets the sphere about the tip of r in two circles: beyond the far one and before the near one lie two caps.
+// Probability that normalize(r + fuzz s), s uniform on the sphere, is within the angle gamma of r. The cone of that
+// angle meets the sphere about the tip of r in two circles: beyond the far one and before the near one lie two caps.
 double fuzzCdf(double fuzz, double gamma) {
-    const double beta = std::asin(std::min(std::sin(gamma) / fuzz, 1.0));  // between the ray and the sphere's radius
-    const double far = gamma + beta, near = gamma + kPiD - beta;           // polar angles of the circles, seen from the tip
+    const double beta = std::asin(std::min(std::sin(gamma) / fuzz, 1.0)); // between the ray and the sphere's radius
+    const double far = gamma + beta, near = gamma + kPiD - beta; // polar angles of the circles, seen from the tip
     return (1 - std::cos(far)) / 2 + (1 + std::cos(near)) / 2;
 }
 
@@ -79,7 +78,8 @@ TEST_P(MetalFuzz, LobeHasTheExactDistribution) {
     std::vector<double> weights(rings * sectors);
     const auto edge = [&](int k) { return std::asin(std::sin(widest) * std::sqrt(double(k) / rings)); };
     for (int k = 0; k < rings; ++k)
-        for (int j = 0; j < sectors; ++j) weights[k * sectors + j] = fuzzCdf(fuzz, edge(k + 1)) - fuzzCdf(fuzz, edge(k));
+        for (int j = 0; j < sectors; ++j)
+            weights[k * sectors + j] = fuzzCdf(fuzz, edge(k + 1)) - fuzzCdf(fuzz, edge(k));
     for (int i = 0; i < 1 << 19; ++i) {
         const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), vec3(1), kUp, 1, wo, uniform.pair(), 0);
         const double r2 = (double(s.wi.x) * s.wi.x + double(s.wi.y) * s.wi.y) / (fuzz * fuzz);
@@ -97,11 +97,12 @@ TEST_P(MetalFuzz, DensityIntegratesToOne) {
     const int steps = 20000;
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
-        const double t = (i + 0.5) / steps * kPiD / 2;  // sin gamma = fuzz sin t
+        const double t = (i + 0.5) / steps * kPiD / 2; // sin gamma = fuzz sin t
         const double gamma = std::asin(fuzz * std::sin(t));
         const double slope = fuzz * std::cos(t) / std::cos(gamma);
         const vec3 w = toWorld(frame, vec3(inPlane(std::cos(gamma), i * 0.7)));
-        sum += double(fuzzPdf(vec3(r), float(fuzz), normalize(w))) * 2 * kPiD * std::sin(gamma) * slope * (kPiD / 2 / steps);
+        sum += double(fuzzPdf(vec3(r), float(fuzz), normalize(w))) * 2 * kPiD * std::sin(gamma) * slope *
+               (kPiD / 2 / steps);
     }
     EXPECT_NEAR(sum, 1, fuzz < 0.01 ? 0.02 : 3e-3);
 }
@@ -113,7 +114,8 @@ TEST_P(MetalFuzz, LosesExactlyWhatPointsIntoTheSurface) {
         Uniforms uniform(3);
         Mean reflected;
         for (int i = 0; i < 1 << 16; ++i) {
-            const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), vec3(1), kUp, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
+            const BsdfSample s =
+                sampleBsdf(kFeatureAll, metal(float(fuzz)), vec3(1), kUp, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
             reflected.add(s.weight.x);
             ASSERT_TRUE(s.weight.x == 0 || s.wi.z > 0);
         }
@@ -172,7 +174,7 @@ TEST(Metal, MirrorsDoNotDrift) {
     EXPECT_NEAR(length(w), 1.0f, 3e-7f);
 }
 
-// ---- dielectric ------------------------------------------------------------------------------------------------------
+// ---- dielectric -----------------------------------------------------------------------------------------------------
 
 // Unpolarised reflectance and the refracted cosine in long double; eta = index here over index there.
 std::pair<double, double> exactFresnel(double cosine, double eta) {
@@ -189,7 +191,8 @@ TEST(Dielectric, FresnelIsExact) {
             for (int i = 0; i < 1 << 17; ++i) {
                 float c = uniform();
                 // A tenth next to the critical angle.
-                if (eta > 1 && i % 10 == 0) c = float(std::sqrt(1 - 1 / (double(eta) * eta)) * (1 + uniform.between(-1e-6, 1e-6)));
+                if (eta > 1 && i % 10 == 0)
+                    c = float(std::sqrt(1 - 1 / (double(eta) * eta)) * (1 + uniform.between(-1e-6, 1e-6)));
                 const auto [reflectance, cosine] = exactFresnel(c, eta);
                 const vec2 f = fresnel(c, eta);
                 const double margin = std::abs(double(eta) * eta * (1 - double(c)) * (1 + double(c)) - 1);
@@ -234,12 +237,14 @@ TEST(Dielectric, SnellAndTheWayBack) {
         const BsdfSample s = sampleBsdf(kFeatureAll, glass(ior), vec3(1), n, front, wo, vec2(0), 0.999999f);
         if (s.transmitted == 0) continue;
         ASSERT_LT(dot(s.wi, n), 0.0f);
-        const double sineHere = glm::length(glm::cross(dvec3(wo), dvec3(n))), sineThere = glm::length(glm::cross(dvec3(s.wi), dvec3(n)));
+        const double sineHere = glm::length(glm::cross(dvec3(wo), dvec3(n))),
+                     sineThere = glm::length(glm::cross(dvec3(s.wi), dvec3(n)));
         worstSnell = std::max(worstSnell, std::abs(eta * sineHere - sineThere));
         // From the other side, where the other face is the front.
         const BsdfSample back = sampleBsdf(kFeatureAll, glass(ior), vec3(1), -n, 1u - front, s.wi, vec2(0), 0.999999f);
         if (back.transmitted == 0) continue;
-        const double steep = std::max(std::abs(double(dot(s.wi, n))), 1e-3) * std::max(std::abs(double(dot(wo, n))), 1e-3);
+        const double steep =
+            std::max(std::abs(double(dot(s.wi, n))), 1e-3) * std::max(std::abs(double(dot(wo, n))), 1e-3);
         worstBack = std::max(worstBack, glm::length(dvec3(back.wi) - dvec3(wo)) * steep);
     }
     EXPECT_LE(worstSnell, 2e-6);
@@ -281,7 +286,7 @@ TEST(Dielectric, SlabIsParallel) {
     }
 }
 
-// ---- others ----------------------------------------------------------------------------------------------------------
+// ---- others ---------------------------------------------------------------------------------------------------------
 
 TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
     Material emitter{};
@@ -307,7 +312,8 @@ TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
             const BsdfSample b = sampleBsdf(kFeatureAll, material, vec3(1), kUp, 1, wo, u, u.x);
             ASSERT_EQ(a.wi, b.wi);
             ASSERT_EQ(a.pdf, b.pdf);
-            ASSERT_EQ(evalBsdf(features, material, vec3(1), kUp, wo, a.wi), evalBsdf(kFeatureAll, material, vec3(1), kUp, wo, a.wi));
+            ASSERT_EQ(evalBsdf(features, material, vec3(1), kUp, wo, a.wi),
+                      evalBsdf(kFeatureAll, material, vec3(1), kUp, wo, a.wi));
         }
     }
 }
@@ -325,5 +331,5 @@ TEST(Phase, IsotropicIsUniform) {
     EXPECT_NEAR(kPhasePdf, 1 / (4 * kPiD), 1e-8);
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

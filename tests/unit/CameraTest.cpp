@@ -1,9 +1,8 @@
-#include "Common/Shared/Camera.h"
-
 #include <numbers>
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/CameraRecord.h"
+#include "Common/Shared/Camera.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -148,5 +147,5 @@ TEST(Camera, ImpossibleCamerasAreErrors) {
     fails([](CameraDesc& d) { d.defocusAngle = -1; });
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

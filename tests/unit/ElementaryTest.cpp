@@ -1,9 +1,8 @@
-#include "Common/Shared/Elementary.h"
-
 #include <limits>
 #include <numbers>
 
 #include "Common/Shared/Color.h"
+#include "Common/Shared/Elementary.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -24,7 +23,8 @@ TEST(Elementary, SinCos2PiOnTheWholeGrid) {
         const vec2 sc = sinCos2Pi(u);
         const double angle = 2 * std::numbers::pi * static_cast<double>(u);
         worst = std::max({worst, std::abs(sc.x - std::sin(angle)), std::abs(sc.y - std::cos(angle))});
-        worstLength = std::max(worstLength, std::abs(static_cast<double>(sc.x) * sc.x + static_cast<double>(sc.y) * sc.y - 1));
+        worstLength =
+            std::max(worstLength, std::abs(static_cast<double>(sc.x) * sc.x + static_cast<double>(sc.y) * sc.y - 1));
     }
     EXPECT_LE(worst, 1.2e-7);
     EXPECT_LE(worstLength, 3e-7);
@@ -59,7 +59,8 @@ TEST(Elementary, LogarithmsAndExponentials) {
         const auto large = static_cast<float>(uniform.logBetween(1, 1e30));
         worstLog1p = std::max(worstLog1p, ulps(log1p(large), std::log1p(static_cast<double>(large))));
         const auto positive = static_cast<float>(uniform.logBetween(1e-37, 1e37));
-        if (positive != 1.0f) worstLog = std::max(worstLog, ulps(logarithm(positive), std::log(static_cast<double>(positive))));
+        if (positive != 1.0f)
+            worstLog = std::max(worstLog, ulps(logarithm(positive), std::log(static_cast<double>(positive))));
         const auto x = static_cast<float>(sign * uniform.logBetween(1e-30, 86));
         worstExpm1 = std::max(worstExpm1, ulps(expm1(x), std::expm1(static_cast<double>(x))));
         worstExp = std::max(worstExp, ulps(exponential(x), std::exp(static_cast<double>(x))));
@@ -112,5 +113,5 @@ TEST(Elementary, SrgbOfEveryByte) {
     EXPECT_NEAR(srgbToLinear(1.0f), 1.0f, 2e-7f);
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

@@ -1,9 +1,8 @@
-#include "Common/Shared/Lights.h"
-
 #include <array>
 #include <functional>
 #include <string>
 
+#include "Common/Shared/Lights.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -82,7 +81,7 @@ double solidAngle(const Light& light) {
 struct Case {
     std::string name;
     Light light;
-    bool areaIsHopeless = false;  // unbounded weights: no standard error to test with
+    bool areaIsHopeless = false; // unbounded weights: no standard error to test with
 };
 
 std::vector<Case> cases() {
@@ -141,7 +140,8 @@ TEST_P(LightCase, InverseDensitySumsToTheSolidAngle) {
         Uniforms uniform(2);
         Mean mean;
         for (int i = 0; i < 1 << 16; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
+            const LightSample s =
+                sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
             mean.add(s.pdf > 0 ? 1 / double(s.pdf) : 0);
         }
         EXPECT_TRUE(agrees(mean, solidAngle(light))) << name << ", method " << method;
@@ -154,17 +154,20 @@ TEST_P(LightCase, SampleIsOneGeometry) {
         Uniforms uniform(3);
         double pdf = 0, point = 0, surface = 0, length = 0;
         for (int i = 0; i < 1 << 13; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
+            const LightSample s =
+                sampleLight(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, uniform.pair());
             if (!(s.pdf > 0)) continue;
             const float again =
                 lightPdf(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, s.wi, s.distance, s.normal);
             pdf = std::max(pdf, std::abs(double(again) / double(s.pdf) - 1));
-            point = std::max(point, glm::length(dvec3(s.point) - dvec3(s.wi) * double(s.distance)) / double(s.distance));
+            point =
+                std::max(point, glm::length(dvec3(s.point) - dvec3(s.wi) * double(s.distance)) / double(s.distance));
             length = std::max(length, std::abs(glm::length(dvec3(s.wi)) - 1));
             const dvec3 away = dvec3(s.point) - dvec3(light.position);
-            surface = std::max(surface, light.kind == kLightSphere
-                                            ? std::abs(glm::length(away) - light.radius) / glm::length(dvec3(light.position))
-                                            : std::abs(glm::dot(away, dvec3(light.normal))) / double(s.distance));
+            surface =
+                std::max(surface, light.kind == kLightSphere
+                                      ? std::abs(glm::length(away) - light.radius) / glm::length(dvec3(light.position))
+                                      : std::abs(glm::dot(away, dvec3(light.normal))) / double(s.distance));
             if (light.kind != kLightSphere) {
                 const dvec3 placed = dvec3(light.edgeU) * double(s.uv.x) + dvec3(light.edgeV) * double(s.uv.y);
                 surface = std::max(surface, glm::length(placed - away) / double(s.distance));
@@ -218,11 +221,11 @@ INSTANTIATE_TEST_SUITE_P(Lights, LightCase, testing::ValuesIn(cases()), [](const
     return name;
 });
 
-// ---- what cannot contribute ------------------------------------------------------------------------------------------
+// ---- what cannot contribute -----------------------------------------------------------------------------------------
 
 TEST(Lights, DarkSideAndHorizon) {
     Uniforms uniform(5);
-    Light front = quad({-0.5, -0.3, 0.5}, {1, 0, 0}, {0, 0.6, 0});  // faces +z, away from the point
+    Light front = quad({-0.5, -0.3, 0.5}, {1, 0, 0}, {0, 0.6, 0}); // faces +z, away from the point
     front.sides = kSidesFront;
     const Light below = quad({-0.5, -0.3, -0.5}, {1, 0, 0}, {0, 0.6, 0});
     Light facing = quad({-0.5, -0.3, 0.5}, {0, 0.6, 0}, {1, 0, 0});
@@ -237,8 +240,8 @@ TEST(Lights, DarkSideAndHorizon) {
         }
     }
     // In the light's own plane.
-    const LightSample edge = sampleLight(kFeatureAll, withMethod(kShapeArea), quad({1, 0, 0}, {1, 0, 0}, {0, 0, 1}), vec3(0),
-                                         vec3(0), 0, vec2(0.3f, 0.6f));
+    const LightSample edge = sampleLight(kFeatureAll, withMethod(kShapeArea), quad({1, 0, 0}, {1, 0, 0}, {0, 0, 1}),
+                                         vec3(0), vec3(0), 0, vec2(0.3f, 0.6f));
     EXPECT_EQ(edge.pdf, 0.0f);
 }
 
@@ -269,7 +272,8 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
     light.edgeU = vec3(2, 0, 0);
     const vec2 u(0.3f, 0.7f);
     const LightSample moved = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0.5f, u);
-    const LightSample still = sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kUp, 0, u);
+    const LightSample still =
+        sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kUp, 0, u);
     EXPECT_EQ(moved.wi, still.wi);
     EXPECT_EQ(moved.pdf, still.pdf);
 }
@@ -280,7 +284,8 @@ TEST(Lights, VarianceOfSolidAngleSampling) {
         Uniforms uniform(7);
         Mean mean;
         for (int i = 0; i < 1 << 18; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(kShapeSolidAngle), light, vec3(0), kUp, 0, uniform.pair());
+            const LightSample s =
+                sampleLight(kFeatureAll, withMethod(kShapeSolidAngle), light, vec3(0), kUp, 0, uniform.pair());
             mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
         }
         return mean.relativeVariance();
@@ -292,7 +297,7 @@ TEST(Lights, VarianceOfSolidAngleSampling) {
     EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)), 3.7, 0.37);
 }
 
-// ---- choosing --------------------------------------------------------------------------------------------------------
+// ---- choosing -------------------------------------------------------------------------------------------------------
 
 LightBound boundOf(const Light& light) {
     LightBound bound{};
@@ -315,15 +320,18 @@ LightBound boundOf(const Light& light) {
 
 Light randomLight(Uniforms& uniform, double size) {
     const auto inBox = [&](double extent) {
-        return dvec3(uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent));
+        return dvec3(uniform.between(-extent, extent), uniform.between(-extent, extent),
+                     uniform.between(-extent, extent));
     };
     switch (uniform.word() % 3) {
-    case 0: return sphere(inBox(3), size);
-    case 1: return quad(inBox(3), inBox(size), inBox(size));
-    default: {
-        const dvec3 a = inBox(3);
-        return triangle(a, a + inBox(size), a + inBox(size));
-    }
+        case 0:
+            return sphere(inBox(3), size);
+        case 1:
+            return quad(inBox(3), inBox(size), inBox(size));
+        default: {
+            const dvec3 a = inBox(3);
+            return triangle(a, a + inBox(size), a + inBox(size));
+        }
     }
 }
 
@@ -349,7 +357,7 @@ TEST(LightContribution, IsNeverZeroWhereTheLightContributes) {
             ASSERT_GT(inMedium, 0.0f);
         }
     }
-    EXPECT_GT(zero, 30000);  // and it does exclude lights
+    EXPECT_GT(zero, 30000); // and it does exclude lights
 }
 
 TEST(LightContribution, IsTheIrradianceOfSmallLights) {
@@ -358,7 +366,8 @@ TEST(LightContribution, IsTheIrradianceOfSmallLights) {
         Light light = randomLight(uniform, 0.01);
         const dvec3 center(boundOf(light).center);
         if (center.z < 0.1 * glm::length(center) || glm::length(center) < 1) continue;
-        if (light.kind != kLightSphere && std::abs(glm::dot(dvec3(light.normal), glm::normalize(center))) < 0.1) continue;
+        if (light.kind != kLightSphere && std::abs(glm::dot(dvec3(light.normal), glm::normalize(center))) < 0.1)
+            continue;
         const double exact = irradiance(light, dvec3(kUp));
         ASSERT_NEAR(lightContribution(boundOf(light), vec3(0), kUp), exact, 0.1 * exact);
     }
@@ -394,7 +403,8 @@ TEST(LightContribution, BeatsChoiceByPower) {
         }
         return std::pair(mean, mean.relativeVariance());
     };
-    const auto [byContribution, low] = variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kUp)); });
+    const auto [byContribution, low] =
+        variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kUp)); });
     const auto [byPower, high] = variance([](const Light& l) { return double(l.area); });
     double exact = 0;
     for (const Light& light : lights) exact += irradiance(light, dvec3(kUp));
@@ -403,5 +413,5 @@ TEST(LightContribution, BeatsChoiceByPower) {
     EXPECT_LT(low * 5, high);
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

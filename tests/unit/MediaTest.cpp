@@ -1,8 +1,7 @@
-#include "Common/Shared/Media.h"
-
 #include <limits>
 #include <optional>
 
+#include "Common/Shared/Media.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -49,7 +48,7 @@ TEST(MediumSphere, IntervalFromAnyDistanceAndDirectionLength) {
             continue;
         }
         if (!exact || distance < 2) continue;
-        if (glm::length(closest) > 0.99) continue;  // grazing: conditioned by the half chord
+        if (glm::length(closest) > 0.99) continue; // grazing: conditioned by the half chord
         squared.add(std::pow(double(t.x / exact->first) - 1, 2));
         squared.add(std::pow(double(t.y / exact->second) - 1, 2));
     }
@@ -189,5 +188,5 @@ TEST(Transmittance, OfABallUnderDiffuseLight) {
     }
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

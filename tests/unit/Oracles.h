@@ -46,8 +46,8 @@ inline double polygonIrradiance(const std::vector<dvec3>& polygon, const dvec3& 
     return 0.5 * std::abs(sum);
 }
 
-// Irradiance under a sphere of radiance 1 whose centre is at `center` relative to the point: the projected solid angle of a
-// spherical cap, clipped to the horizon.
+// Irradiance under a sphere of radiance 1 whose centre is at `center` relative to the point: the projected solid angle
+// of a spherical cap, clipped to the horizon.
 inline double sphereIrradiance(const dvec3& center, double radius, const dvec3& n) {
     const double d = glm::length(center);
     const double s = radius / d, cz = glm::dot(n, center) / d;
@@ -57,4 +57,4 @@ inline double sphereIrradiance(const dvec3& center, double radius, const dvec3& 
     return std::atan2(g, c) - c * g + s * s * cz * std::atan2(g, -cz * c);
 }
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -1,9 +1,8 @@
-#include "Common/Shared/Random.h"
-
 #include <bit>
 #include <functional>
 #include <string>
 
+#include "Common/Shared/Random.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -25,7 +24,7 @@ RenderParams paramsOf(uint kind, uint strataX = 16, uint strataY = 16, uint seed
 
 constexpr uint kKinds[] = {kSamplerIndependent, kSamplerStratified, kSamplerSobol};
 
-// ---- numbers ---------------------------------------------------------------------------------------------------------
+// ---- numbers --------------------------------------------------------------------------------------------------------
 
 TEST(Uniform, IsTheGridWithoutOne) {
     for (uint k = 0; k < 1u << 24; ++k) {
@@ -41,7 +40,7 @@ TEST(Uniform, FineHas48BitsNearZero) {
     EXPECT_EQ(toFineUniform(0, 256), 0x1p-48f);
     EXPECT_EQ(toFineUniform(256, 0), 0x1p-24f);
     EXPECT_LT(toFineUniform(0xffffffffu, 0xffffffffu), 1.0f);
-    Mean tiny;  // P(u < 1e-7): the 24-bit grid would be 19 % off
+    Mean tiny; // P(u < 1e-7): the 24-bit grid would be 19 % off
     for (uint i = 0; i < 1u << 24; ++i) tiny.add(toFineUniform(hash1(i) & 0x3ffu, hash1(i ^ 0x80000000u)) < 1e-7f);
     EXPECT_TRUE(agrees(tiny, 1e-7 * 0x1p22, 1e-3));
 }
@@ -53,10 +52,10 @@ TEST(Uniform, StretchReusesTheRest) {
     EXPECT_EQ(stretch(0.2f, 0.25f, 0.75f), 0.0f);
 }
 
-// ---- hashes ----------------------------------------------------------------------------------------------------------
+// ---- hashes ---------------------------------------------------------------------------------------------------------
 
-// One flipped input bit changes half of the output bits that matter. Products carry upwards only, so the highest input bits
-// leave the lowest output bits alone; a uniform's upper half, its first 2^-16, must not notice.
+// One flipped input bit changes half of the output bits that matter. Products carry upwards only, so the highest input
+// bits leave the lowest output bits alone; a uniform's upper half, its first 2^-16, must not notice.
 TEST(Hash, Avalanche) {
     for (int word = 0; word < 3; ++word) {
         for (uint bit = 0; bit < 32; ++bit) {
@@ -122,7 +121,7 @@ TEST(Hash, SeedsPixelsAndReplicatesDiffer) {
     }
 }
 
-// ---- Sobol -----------------------------------------------------------------------------------------------------------
+// ---- Sobol ----------------------------------------------------------------------------------------------------------
 
 // Every elementary box 2^-j x 2^(j-m) holds exactly one of any 2^m consecutive, aligned points.
 void expectNet(const std::function<uvec2(uint)>& point, uint m, uint first, const std::string& what) {
@@ -162,8 +161,8 @@ TEST(Sobol, OnePointIsUniformOverScrambles) {
     EXPECT_GT(chiSquareP(counts), kSignificance);
 }
 
-// Scrambled digits: in each pair of cells of the finest level tested, which of the two points comes first is a fair coin, and
-// different coins are independent.
+// Scrambled digits: in each pair of cells of the finest level tested, which of the two points comes first is a fair
+// coin, and different coins are independent.
 TEST(Sobol, OwenScrambleFlipsEveryDigitFairly) {
     std::vector<std::uint64_t> counts(256);
     for (uint seed = 0; seed < 1u << 16; ++seed) ++counts[owenScramble(0x5a000000u, hash1(seed)) >> 24];
@@ -172,15 +171,16 @@ TEST(Sobol, OwenScrambleFlipsEveryDigitFairly) {
         std::vector<std::uint64_t> flips(4);
         for (uint seed = 0; seed < 1u << 14; ++seed) {
             const uint bit = 31 - digit;
-            const uint a = owenScramble(0x33333333u, hash1(seed)), b = owenScramble(0x33333333u ^ 1u << bit, hash1(seed));
-            ASSERT_EQ((a ^ b) >> bit, 1u);  // nested: higher digits agree, this one differs
+            const uint a = owenScramble(0x33333333u, hash1(seed)),
+                       b = owenScramble(0x33333333u ^ 1u << bit, hash1(seed));
+            ASSERT_EQ((a ^ b) >> bit, 1u); // nested: higher digits agree, this one differs
             ++flips[2 * (a >> bit & 1u) + ((digit < 31 ? a >> (bit - 1) ^ b >> (bit - 1) : 0u) & 1u)];
         }
         EXPECT_GT(chiSquareP(flips), kSignificance) << digit;
     }
 }
 
-// ---- strata ----------------------------------------------------------------------------------------------------------
+// ---- strata ---------------------------------------------------------------------------------------------------------
 
 TEST(Permute, IsABijection) {
     for (uint n = 1; n < 300; ++n) {
@@ -222,9 +222,10 @@ TEST(Stratified, CoversEveryCellOnce) {
     }
 }
 
-// ---- all kinds -------------------------------------------------------------------------------------------------------
+// ---- all kinds ------------------------------------------------------------------------------------------------------
 
-// Pairs of different dimensions and of neighbouring pixels must be independent whatever the stratification inside a pair.
+// Pairs of different dimensions and of neighbouring pixels must be independent whatever the stratification inside a
+// pair.
 TEST(Samplers, PairsAreIndependentOfEachOther) {
     for (const uint kind : kKinds) {
         std::vector<std::uint64_t> dimensions(32 * 32), pixels(32 * 32);
@@ -248,7 +249,7 @@ TEST(Samplers, CoverageOfAnEdge) {
     for (const uint kind : kKinds) {
         for (int step = 1; step < 16; ++step) {
             const float edge = static_cast<float>(step) / 16.0f + 0.01f;
-            Mean coverage;  // over replicates, whose means are independent
+            Mean coverage; // over replicates, whose means are independent
             for (uint replicate = 0; replicate < 32; ++replicate) {
                 double inside = 0;
                 for (uint i = 0; i < 256; ++i)
@@ -285,8 +286,8 @@ TEST(Samplers, DimensionsDoNotOverlap) {
     EXPECT_LT(kPairTime, kPairsCamera);
     EXPECT_LT(kPairMedium, kPairsPerVertex);
     EXPECT_EQ(vertexPair(4, 0), vertexPair(3, kPairsPerVertex));
-    EXPECT_LT(vertexPair(4096, kPairsPerVertex), 1u << 16);  // media use the upper half of the word
+    EXPECT_LT(vertexPair(4096, kPairsPerVertex), 1u << 16); // media use the upper half of the word
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

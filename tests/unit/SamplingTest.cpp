@@ -1,12 +1,11 @@
-#include "Common/Shared/Sampling.h"
-
 #include <array>
 #include <limits>
 #include <numbers>
 
-#include <glm/matrix.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
+#include "Common/Shared/Sampling.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -20,7 +19,7 @@ using test::Mean;
 using test::Uniforms;
 
 constexpr double kPiD = std::numbers::pi;
-constexpr float kLast = 0x0.ffffffp0f;  // the largest uniform
+constexpr float kLast = 0x0.ffffffp0f; // the largest uniform
 const std::array kCorners{vec2(0, 0), vec2(kLast, 0), vec2(0, kLast), vec2(kLast, kLast), vec2(0.5f, 0.5f)};
 
 dvec3 randomDirection(Uniforms& uniform) {
@@ -42,7 +41,7 @@ TEST(Sampling, FramesAreOrthonormalAndRightHanded) {
     double worst = 0;
     for (int i = 0; i < 1 << 19; ++i) {
         dvec3 n = randomDirection(uniform);
-        if (i & 1) n = glm::normalize(dvec3(n.x * 1e-4, n.y * 1e-4, n.z < 0 ? -1 : 1));  // the poles are the hard part
+        if (i & 1) n = glm::normalize(dvec3(n.x * 1e-4, n.y * 1e-4, n.z < 0 ? -1 : 1)); // the poles are the hard part
         if (i & 2) n = glm::normalize(dvec3(n.x, n.y, n.z * 1e-7));
         worst = std::max(worst, frameError(makeFrame(vec3(n))));
     }
@@ -62,10 +61,18 @@ glm::dvec2 invertDisk(double x, double y) {
     const double t = (phi - sector * kPiD / 2) / (kPiD / 4);
     double a = 0, b = 0;
     switch (sector) {
-    case 0: a = r, b = r * t; break;
-    case 1: b = r, a = -r * t; break;
-    case 2: a = -r, b = -r * t; break;
-    default: b = -r, a = r * t; break;
+        case 0:
+            a = r, b = r * t;
+            break;
+        case 1:
+            b = r, a = -r * t;
+            break;
+        case 2:
+            a = -r, b = -r * t;
+            break;
+        default:
+            b = -r, a = r * t;
+            break;
     }
     return {(a + 1) / 2, (b + 1) / 2};
 }
@@ -97,7 +104,7 @@ TEST(Sampling, CosineHemisphere) {
     double worstLength = 0;
     for (int i = 0; i < 1 << 20; ++i) {
         const vec3 w = sampleCosineHemisphere(uniform.pair());
-        const double r2 = 1 - double(w.z) * w.z;  // uniform under the cosine law
+        const double r2 = 1 - double(w.z) * w.z; // uniform under the cosine law
         const int sector = static_cast<int>((std::atan2(w.y, w.x) / (2 * kPiD) + 0.5) * 32);
         ++counts[std::clamp(static_cast<int>(r2 * 32), 0, 31) * 32 + std::min(sector, 31)];
         cosine.add(w.z);
@@ -134,7 +141,8 @@ TEST(Sampling, IrradianceOfAGradientSkyInAnyFrame) {
             const vec3 w = toWorld(frame, sampleCosineHemisphere(uniform.pair()));
             irradiance.add(kPiD * (a + b * w.y));
         }
-        EXPECT_TRUE(agrees(irradiance, kPiD * (a + b * 2 / 3 * glm::normalize(n).y))) << n.x << ' ' << n.y << ' ' << n.z;
+        EXPECT_TRUE(agrees(irradiance, kPiD * (a + b * 2 / 3 * glm::normalize(n).y)))
+            << n.x << ' ' << n.y << ' ' << n.z;
     }
 }
 
@@ -173,7 +181,8 @@ TEST(Sampling, HeuristicsSumToOneAndSurviveExtremes) {
     EXPECT_FLOAT_EQ(powerHeuristic(3, 1), 0.9f);
 }
 
-// The offset point must lie beyond every surface that the error admits, though it is rounded itself; and not much beyond.
+// The offset point must lie beyond every surface that the error admits, though it is rounded itself; and not much
+// beyond.
 TEST(Sampling, OffsetClearsTheErrorBox) {
     Uniforms uniform(7);
     for (int i = 0; i < 1 << 19; ++i) {
@@ -201,5 +210,5 @@ TEST(Sampling, OffsetScalesExactly) {
     }
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

@@ -1,7 +1,6 @@
-#include "Common/Shared/SphericalShapes.h"
-
 #include <string>
 
+#include "Common/Shared/SphericalShapes.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -22,7 +21,7 @@ dvec3 randomDirection(Uniforms& uniform) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// ---- sphere ----------------------------------------------------------------------------------------------------------
+// ---- sphere ---------------------------------------------------------------------------------------------------------
 
 TEST(SphereCone, SolidAngleAtEveryDistance) {
     Uniforms uniform(1);
@@ -60,15 +59,19 @@ TEST_P(SphereConeAt, IsUniformInTheCone) {
         const ConeSample s = sampleSphereCone(cone, radius, u);
         const dvec3 w = dvec3(s.direction);
         const dvec3 chord = w - exactAxis;
-        const double q = glm::dot(chord, chord) / (2 * whole);  // share of the solid angle inside
+        const double q = glm::dot(chord, chord) / (2 * whole); // share of the solid angle inside
         const int sector =
-            static_cast<int>((std::atan2(glm::dot(w, dvec3(frame.bitangent)), glm::dot(w, dvec3(frame.tangent))) / (2 * kPiD) + 1) * 32) % 32;
+            static_cast<int>(
+                (std::atan2(glm::dot(w, dvec3(frame.bitangent)), glm::dot(w, dvec3(frame.tangent))) / (2 * kPiD) + 1) *
+                32) %
+            32;
         ++counts[std::clamp(static_cast<int>(q * 32), 0, 31) * 32 + sector];
         worstBack = std::max(worstBack, std::abs(q - double(u.x)));
         const dvec3 point = w * double(s.distance);
         worstPoint = std::max(worstPoint, std::abs(glm::length(point - dvec3(center)) / radius - 1));
         worstNormal = std::max(worstNormal, std::abs(glm::length(dvec3(s.normal)) - 1));
-        worstTogether = std::max(worstTogether, glm::length(dvec3(center) + dvec3(s.normal) * double(radius) - point) / radius);
+        worstTogether =
+            std::max(worstTogether, glm::length(dvec3(center) + dvec3(s.normal) * double(radius) - point) / radius);
     }
     EXPECT_GT(chiSquareP(counts), kSignificance);
     // A float direction resolves 2^-24 of a radian: the bounds grow with distance / radius.
@@ -80,7 +83,7 @@ TEST_P(SphereConeAt, IsUniformInTheCone) {
 
 INSTANTIATE_TEST_SUITE_P(DistanceOverRadius, SphereConeAt, testing::Values(1.0001, 1.1, 2.0, 10.0, 1e3, 1e5));
 
-// ---- triangle --------------------------------------------------------------------------------------------------------
+// ---- triangle -------------------------------------------------------------------------------------------------------
 
 SphericalTriangle seen(const dvec3& a, const dvec3& b, const dvec3& c) {
     return makeSphericalTriangle(vec3(a), vec3(b), vec3(c), vec3(glm::cross(b - a, c - a)));
@@ -94,16 +97,17 @@ TEST(SphericalTriangle, SolidAngleOfSmallTriangles) {
             const dvec3 center = randomDirection(uniform);
             const dvec3 a(vec3(center + size * randomDirection(uniform)));
             const dvec3 u(vec3(size * randomDirection(uniform))), v(vec3(size * randomDirection(uniform)));
-            const double exact = 2 * std::atan2(std::abs(glm::dot(glm::cross(u, v), a)),
-                                                [&] {
-                                                    const dvec3 b = a + u, c = a + v;
-                                                    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-                                                    return la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
-                                                }());
+            const double exact =
+                2 * std::atan2(std::abs(glm::dot(glm::cross(u, v), a)), [&] {
+                    const dvec3 b = a + u, c = a + v;
+                    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+                    return la * lb * lc + glm::dot(a, b) * lc + glm::dot(a, c) * lb + glm::dot(b, c) * la;
+                }());
             // The normal of a light comes from the scene compiler's double precision.
-            const SphericalTriangle t = makeSphericalTriangle(vec3(a), vec3(a + u), vec3(a + v), vec3(glm::cross(u, v)));
+            const SphericalTriangle t =
+                makeSphericalTriangle(vec3(a), vec3(a + u), vec3(a + v), vec3(glm::cross(u, v)));
             const dvec3 n = glm::normalize(glm::cross(u, v));
-            if (std::abs(glm::dot(n, glm::normalize(a))) < 0.05 || exact > 5) continue;  // edge-on: N.a itself cancels
+            if (std::abs(glm::dot(n, glm::normalize(a))) < 0.05 || exact > 5) continue; // edge-on: N.a itself cancels
             squared.add(std::pow(t.solidAngle / exact - 1, 2));
         }
         EXPECT_LE(std::sqrt(squared.mean()), 5e-7) << size;
@@ -155,7 +159,8 @@ TEST_P(SphericalTriangleCase, IsUniformInSolidAngle) {
         for (int j = 0; i + j < rows; ++j) {
             weights[2 * (i * rows + j)] = test::triangleSolidAngle(at(i, j), at(i + 1, j), at(i, j + 1));
             if (i + j < rows - 1)
-                weights[2 * (i * rows + j) + 1] = test::triangleSolidAngle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
+                weights[2 * (i * rows + j) + 1] =
+                    test::triangleSolidAngle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
         }
     }
     Uniforms uniform(4);
@@ -165,7 +170,8 @@ TEST_P(SphericalTriangleCase, IsUniformInSolidAngle) {
         const dvec3 w(sampleSphericalTriangle(t, uniform.pair()));
         worstLength = std::max(worstLength, std::abs(glm::length(w) - 1));
         const dvec3 p = w * (glm::dot(a, n) / glm::dot(w, n)) - a;
-        const double x = glm::dot(glm::cross(p, e2), n) / glm::dot(n, n), y = glm::dot(glm::cross(e1, p), n) / glm::dot(n, n);
+        const double x = glm::dot(glm::cross(p, e2), n) / glm::dot(n, n),
+                     y = glm::dot(glm::cross(e1, p), n) / glm::dot(n, n);
         outside = std::max({outside, -x, -y, x + y - 1});
         const int column = std::clamp(static_cast<int>(x * rows), 0, rows - 1);
         const int row = std::clamp(static_cast<int>(y * rows), 0, rows - 1 - column);
@@ -203,7 +209,8 @@ TEST(SphericalTriangle, MapIsInvertible) {
             dvec3 split = glm::normalize(glm::cross(glm::cross(ub, w), glm::cross(uc, ua)));
             if (glm::dot(split, ua + uc) < 0) split = -split;
             const dvec3 whole = split - ub, part = w - ub;
-            worst0 = std::max(worst0, std::abs(test::triangleSolidAngle(ua, ub, split) / test::triangleSolidAngle(ua, ub, uc) - u.x));
+            worst0 = std::max(
+                worst0, std::abs(test::triangleSolidAngle(ua, ub, split) / test::triangleSolidAngle(ua, ub, uc) - u.x));
             worst1 = std::max(worst1, std::abs(glm::dot(part, part) / glm::dot(whole, whole) - u.y));
         }
         EXPECT_LE(std::max(worst0, worst1), size > 0.1 ? 2e-5 : 2e-4) << size;
@@ -217,11 +224,11 @@ TEST(SphericalTriangle, CornersOfTheUnitSquareAreHarmless) {
         for (const float y : {0.0f, last}) EXPECT_NEAR(length(sampleSphericalTriangle(t, vec2(x, y))), 1.0f, 1e-6f);
 }
 
-// ---- rectangle -------------------------------------------------------------------------------------------------------
+// ---- rectangle ------------------------------------------------------------------------------------------------------
 
 SphericalRectangle seen(double x0, double x1, double y0, double y1, double h) {
-    return makeSphericalRectangle(vec3(float(x0), float(y0), float(h)), vec3(float(x1 - x0), 0, 0), vec3(0, float(y1 - y0), 0),
-                                  vec3(0, 0, 1));
+    return makeSphericalRectangle(vec3(float(x0), float(y0), float(h)), vec3(float(x1 - x0), 0, 0),
+                                  vec3(0, float(y1 - y0), 0), vec3(0, 0, 1));
 }
 
 struct RectangleCase {
@@ -244,8 +251,10 @@ TEST_P(SphericalRectangleCase, IsUniformInSolidAngle) {
     const auto mixed = [](double a, double b, double t) { return a + (b - a) * t; };
     for (int i = 0; i < cells; ++i) {
         for (int j = 0; j < cells; ++j) {
-            const double t0 = double(i) / cells, t1 = double(i + 1) / cells, s0 = double(j) / cells, s1 = double(j + 1) / cells;
-            weights[i * cells + j] = test::rectangleSolidAngle(mixed(x0, x1, t0), mixed(x0, x1, t1), mixed(y0, y1, s0), mixed(y0, y1, s1), h);
+            const double t0 = double(i) / cells, t1 = double(i + 1) / cells, s0 = double(j) / cells,
+                         s1 = double(j + 1) / cells;
+            weights[i * cells + j] = test::rectangleSolidAngle(mixed(x0, x1, t0), mixed(x0, x1, t1), mixed(y0, y1, s0),
+                                                               mixed(y0, y1, s1), h);
         }
     }
     Uniforms uniform(6);
@@ -258,7 +267,8 @@ TEST_P(SphericalRectangleCase, IsUniformInSolidAngle) {
         const int column = std::min(static_cast<int>(double(p.x) / r.width * cells), cells - 1);
         const int row = std::min(static_cast<int>(double(p.y) / r.height * cells), cells - 1);
         ++counts[column * cells + row];
-        if (i < 10000) worst = std::max(worst, std::abs(test::rectangleSolidAngle(x0, x0 + double(p.x), y0, y1, h) / exact - u.x));
+        if (i < 10000)
+            worst = std::max(worst, std::abs(test::rectangleSolidAngle(x0, x0 + double(p.x), y0, y1, h) / exact - u.x));
     }
     EXPECT_GT(chiSquareP(counts, weights), kSignificance);
     EXPECT_LE(worst, 2e-4);
@@ -269,8 +279,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(RectangleCase{"cube face", -1, 1, -1, 1, 1}, RectangleCase{"corner", 0, 1, 0, 2, 1},
                     RectangleCase{"off axis", 3, 3.5, 1, 2, 5}, RectangleCase{"grazing", 1, 2, -0.5, 0.5, 0.002},
                     RectangleCase{"grazing far", 10, 20, -5, 5, 0.05}, RectangleCase{"far 1 %", 30, 31, 20, 21, 100},
-                    RectangleCase{"far 0.1 %", 300, 301, 200, 201, 1000}, RectangleCase{"thin in y", -2, 2, 0.3, 0.301, 0.5},
-                    RectangleCase{"thin in x", 0.3, 0.301, -2, 2, 0.5}, RectangleCase{"foot inside, near", -1, 1, -1, 1, 0.01},
+                    RectangleCase{"far 0.1 %", 300, 301, 200, 201, 1000},
+                    RectangleCase{"thin in y", -2, 2, 0.3, 0.301, 0.5},
+                    RectangleCase{"thin in x", 0.3, 0.301, -2, 2, 0.5},
+                    RectangleCase{"foot inside, near", -1, 1, -1, 1, 0.01},
                     RectangleCase{"foot inside, very near", -1, 1, -1, 1, 1e-4},
                     RectangleCase{"below the foot", -5, -2, -3, -1, 1}),
     [](const auto& info) { return "Case" + std::to_string(info.index); });
@@ -283,12 +295,15 @@ TEST(SphericalRectangle, ColumnsAreExact) {
         const float width = float(uniform.logBetween(1e-2, 1e2)), height = float(uniform.logBetween(1e-2, 1e2));
         const float x0 = float(uniform.between(-1.5, 0.5)) * width, y0 = float(uniform.between(-1.5, 0.5)) * height;
         const float h = float(uniform.logBetween(1e-2, 1e2));
-        const SphericalRectangle r = makeSphericalRectangle(vec3(x0, y0, h), vec3(width, 0, 0), vec3(0, height, 0), vec3(0, 0, 1));
+        const SphericalRectangle r =
+            makeSphericalRectangle(vec3(x0, y0, h), vec3(width, 0, 0), vec3(0, height, 0), vec3(0, 0, 1));
         const double left = r.x0, right = left + r.width, y1 = double(r.y0) + r.height;
         const double exact = test::rectangleSolidAngle(left, right, r.y0, y1, r.h);
         const float u = uniform();
         const auto error = [&](float w) {
-            return std::abs(test::rectangleSolidAngle(left, left + double(std::clamp(w, 0.0f, r.width)), r.y0, y1, r.h) / exact - u);
+            return std::abs(
+                test::rectangleSolidAngle(left, left + double(std::clamp(w, 0.0f, r.width)), r.y0, y1, r.h) / exact -
+                u);
         };
         worstOmega = std::max(worstOmega, std::abs(double(r.solidAngle) / exact - 1));
         if (r.solidAngle >= 0.05f) worstClosed = std::max(worstClosed, error(rectangleColumn(r, u)));
@@ -305,10 +320,10 @@ TEST(SphericalRectangle, FacesOfACube) {
     EXPECT_EQ(seen(1, 2, 1, 2, 0).solidAngle, 0.0f);
 }
 
-// ---- columns ---------------------------------------------------------------------------------------------------------
+// ---- columns --------------------------------------------------------------------------------------------------------
 
 struct ColumnsCase {
-    double start, distance;  // in units of the edge
+    double start, distance; // in units of the edge
 };
 
 class ColumnsOf : public testing::TestWithParam<ColumnsCase> {};
@@ -318,7 +333,9 @@ TEST_P(ColumnsOf, DensityIsThatOfTheSamples) {
     const vec3 middle(float(3 * start), 0, float(3 * distance));
     const Columns c = makeColumns(middle, vec3(3, 0, 0), 0);
     const double d = double(c.d);
-    const auto rest = [d](double p) { return p > 0 ? d / (p * p + d + p * std::sqrt(p * p + d)) : 1 - p / std::sqrt(p * p + d); };
+    const auto rest = [d](double p) {
+        return p > 0 ? d / (p * p + d + p * std::sqrt(p * p + d)) : 1 - p / std::sqrt(p * p + d);
+    };
     Uniforms uniform(8);
     const int cells = 64;
     std::vector<double> weights(cells);
@@ -344,12 +361,13 @@ TEST_P(ColumnsOf, DensityIsThatOfTheSamples) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Positions, ColumnsOf,
-                         testing::Values(ColumnsCase{-0.5, 1}, ColumnsCase{0, 0.3}, ColumnsCase{-1, 0.3}, ColumnsCase{-0.3, 0.05},
-                                         ColumnsCase{0.3, 0.01}, ColumnsCase{-1.3, 0.01}, ColumnsCase{5, 0.1}, ColumnsCase{-6, 3},
-                                         ColumnsCase{2, 1e-3}, ColumnsCase{-0.5, 10}),
+                         testing::Values(ColumnsCase{-0.5, 1}, ColumnsCase{0, 0.3}, ColumnsCase{-1, 0.3},
+                                         ColumnsCase{-0.3, 0.05}, ColumnsCase{0.3, 0.01}, ColumnsCase{-1.3, 0.01},
+                                         ColumnsCase{5, 0.1}, ColumnsCase{-6, 3}, ColumnsCase{2, 1e-3},
+                                         ColumnsCase{-0.5, 10}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-// ---- area ------------------------------------------------------------------------------------------------------------
+// ---- area -----------------------------------------------------------------------------------------------------------
 
 TEST(Area, TriangleIsUniform) {
     Uniforms uniform(9);
@@ -357,7 +375,8 @@ TEST(Area, TriangleIsUniform) {
     std::vector<std::uint64_t> counts(2 * rows * rows);
     std::vector<double> weights(counts.size());
     for (int i = 0; i < rows; ++i)
-        for (int j = 0; i + j < rows; ++j) weights[2 * (i * rows + j)] = 1, weights[2 * (i * rows + j) + 1] = i + j < rows - 1;
+        for (int j = 0; i + j < rows; ++j)
+            weights[2 * (i * rows + j)] = 1, weights[2 * (i * rows + j) + 1] = i + j < rows - 1;
     for (int i = 0; i < 1 << 19; ++i) {
         const vec2 p = sampleTriangleArea(uniform.pair());
         const int column = std::clamp(static_cast<int>(p.x * rows), 0, rows - 1);
@@ -370,5 +389,5 @@ TEST(Area, TriangleIsUniform) {
     EXPECT_EQ(areaPdf(2, 3, 0), 0.0f);
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared

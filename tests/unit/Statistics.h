@@ -56,8 +56,8 @@ class Mean {
 inline testing::AssertionResult agrees(const Mean& mean, double expected, double rounding = 1e-5) {
     const double allowed = 4 * mean.standardError() + rounding * std::abs(expected);
     if (std::abs(mean.mean() - expected) <= allowed) return testing::AssertionSuccess();
-    return testing::AssertionFailure() << mean.mean() << " is not within " << allowed << " of " << expected << " (z = "
-                                       << (mean.mean() - expected) / mean.standardError() << ")";
+    return testing::AssertionFailure() << mean.mean() << " is not within " << allowed << " of " << expected
+                                       << " (z = " << (mean.mean() - expected) / mean.standardError() << ")";
 }
 
 // Q(a, x) = Gamma(a, x) / Gamma(a): series below the bend, Lentz's continued fraction above.
@@ -66,8 +66,7 @@ inline double upperGamma(double a, double x) {
     const double front = std::exp(-x + a * std::log(x) - std::lgamma(a));
     if (x < a + 1) {
         double term = 1 / a, sum = term;
-        for (double n = a + 1; term > sum * 1e-15; ++n)
-            sum += term *= x / n;
+        for (double n = a + 1; term > sum * 1e-15; ++n) sum += term *= x / n;
         return 1 - front * sum;
     }
     double b = x + 1 - a, c = 1e300, d = 1 / b, h = d;
@@ -82,8 +81,8 @@ inline double upperGamma(double a, double x) {
     return front * h;
 }
 
-// Probability of counts that deviate as much as these from expectations in the same proportions. Cells that expect fewer
-// than 5 are pooled.
+// Probability of counts that deviate as much as these from expectations in the same proportions. Cells that expect
+// fewer than 5 are pooled.
 inline double chiSquareP(const std::vector<std::uint64_t>& counts, const std::vector<double>& weights) {
     const double total = static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
     const double whole = std::accumulate(weights.begin(), weights.end(), 0.0);
@@ -112,4 +111,4 @@ inline double chiSquareP(const std::vector<std::uint64_t>& counts) {
 
 constexpr double kSignificance = 1e-4;
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -37,8 +37,8 @@ uint loadPerlinPermutation(SceneRef scene, uint index) {
     return scene.permutations.at(index);
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared
 
 #include "Common/Shared/Textures.h"
 
@@ -94,7 +94,8 @@ double exactNoise(SceneRef scene, uint table, const dvec3& p) {
 
 double exactTurbulence(SceneRef scene, uint table, dvec3 p) {
     double sum = 0;
-    for (int octave = 0; octave < 7; ++octave) sum += std::ldexp(exactNoise(scene, table, std::ldexp(1.0, octave) * p), -octave);
+    for (int octave = 0; octave < 7; ++octave)
+        sum += std::ldexp(exactNoise(scene, table, std::ldexp(1.0, octave) * p), -octave);
     return std::abs(sum);
 }
 
@@ -102,7 +103,7 @@ vec3 evaluate(const TextureScene& scene, uint texture, const vec3& point, const 
     return evalTexture(kFeatureAll, scene, texture, point, uv);
 }
 
-// ---- coordinates -----------------------------------------------------------------------------------------------------
+// ---- coordinates ----------------------------------------------------------------------------------------------------
 
 TEST(Textures, SphereCoordinates) {
     EXPECT_NEAR(sphereUv(vec3(1, 0, 0)).x, 0.5f, 1e-6f);
@@ -121,7 +122,7 @@ TEST(Textures, SphereCoordinates) {
     }
 }
 
-// ---- checker ---------------------------------------------------------------------------------------------------------
+// ---- checker --------------------------------------------------------------------------------------------------------
 
 TextureScene checkerScene() {
     TextureScene scene;
@@ -129,7 +130,7 @@ TextureScene checkerScene() {
     scene.textures[0] = {kTextureChecker, vec3(1), 0.32f, 0, 1, 2};
     scene.textures[1] = {kTextureSolid, vec3(1, 0, 0), 1, 0, 0, 0};
     scene.textures[2] = {kTextureSolid, vec3(0, 1, 0), 1, 0, 0, 0};
-    scene.textures[3] = {kTextureChecker, vec3(1), 1, 0, 0, 4};  // even cells hold another checker
+    scene.textures[3] = {kTextureChecker, vec3(1), 1, 0, 0, 4}; // even cells hold another checker
     scene.textures[4] = {kTextureSolid, vec3(0, 0, 1), 1, 0, 0, 0};
     return scene;
 }
@@ -163,7 +164,7 @@ TEST(Textures, CheckersNestWithoutRecursion) {
     EXPECT_TRUE(isFinite(evalTexture(kFeatureChecker, cyclic, 0, vec3(0), vec2(0))));
 }
 
-// ---- noise -----------------------------------------------------------------------------------------------------------
+// ---- noise ----------------------------------------------------------------------------------------------------------
 
 TEST(Textures, NoiseMatchesTheBook) {
     const TextureScene scene = perlinScene(2);
@@ -184,7 +185,8 @@ TEST(Textures, NoiseMatchesTheBook) {
     EXPECT_GT(values.variance(), 0.02);
     // Zero on the lattice, continuous across it, of period 256, finite far out.
     for (int i = 0; i < 100; ++i) {
-        const vec3 p(floor(float(uniform.between(-300, 300))), float(uniform.between(-3, 3)), float(uniform.between(-3, 3)));
+        const vec3 p(floor(float(uniform.between(-300, 300))), float(uniform.between(-3, 3)),
+                     float(uniform.between(-3, 3)));
         EXPECT_EQ(perlinNoise(scene, 0, floor(p)), 0.0f);
         EXPECT_NEAR(perlinNoise(scene, 0, p - vec3(1e-4f, 0, 0)), perlinNoise(scene, 0, p + vec3(1e-4f, 0, 0)), 1e-3f);
         const vec3 q(0.25f, 0.5f, float(i) / 128.0f);
@@ -213,7 +215,7 @@ TEST(Textures, NoiseKinds) {
     }
 }
 
-// ---- images ----------------------------------------------------------------------------------------------------------
+// ---- images ---------------------------------------------------------------------------------------------------------
 
 TextureScene imageScene() {
     TextureScene scene;
@@ -230,7 +232,7 @@ TEST(Textures, ImageIsBilinearBetweenTexelCentres) {
     const auto at = [&](float u, float v) { return evaluate(scene, 0, vec3(0), vec2(u, v)); };
     for (uint y = 0; y < 3; ++y)
         for (uint x = 0; x < 4; ++x) {
-            const vec3 color = at((float(x) + 0.5f) / 4, 1 - (float(y) + 0.5f) / 3);  // v = 1 is the first row
+            const vec3 color = at((float(x) + 0.5f) / 4, 1 - (float(y) + 0.5f) / 3); // v = 1 is the first row
             EXPECT_NEAR(color.x, float(x), 1e-6f);
             EXPECT_NEAR(color.y, float(y), 1e-6f);
             EXPECT_EQ(color.z, 0.5f);
@@ -254,5 +256,5 @@ TEST(Textures, SolidNeedsNoFeature) {
     EXPECT_EQ(evalTexture(0, scene, 1, vec3(0), vec2(0)), vec3(1, 0, 0));
 }
 
-}  // namespace
-}  // namespace rt::shared
+} // namespace
+} // namespace rt::shared
