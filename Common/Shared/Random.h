@@ -8,8 +8,7 @@
 RT_SHARED_BEGIN
 
 // ---- dimensions -----------------------------------------------------------------------------------------------------
-// A dimension
-// names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
+// A dimension names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
 const uint kPairPixel = 0u;  // position in the pixel
 const uint kPairLens = 1u;   // position on the lens
 const uint kPairTime = 2u;   // x: time in the shutter interval

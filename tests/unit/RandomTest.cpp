@@ -280,6 +280,19 @@ TEST(Samplers, StratificationPays) {
     EXPECT_LT(errors[kSamplerSobol] * 2, errors[kSamplerStratified]);
 }
 
+// The numbers that a vertex draws at once are those of its pairs.
+TEST(Samplers, VertexNumbersAreItsPairs) {
+    for (const uint kind : kKinds) {
+        for (uint i = 0; i < 1000; ++i) {
+            const Sampler s = makeSampler(paramsOf(kind), hash1(i), 0, i);
+            const VertexNumbers numbers = vertexNumbers(s, i % 7);
+            ASSERT_EQ(numbers.light, randomPair(s, vertexPair(i % 7, kPairLight)));
+            ASSERT_EQ(numbers.bsdf, randomPair(s, vertexPair(i % 7, kPairBsdf)));
+            ASSERT_EQ(numbers.choice, randomPair(s, vertexPair(i % 7, kPairChoice)));
+        }
+    }
+}
+
 // Vertices never share a dimension, with each other or with the camera.
 TEST(Samplers, DimensionsDoNotOverlap) {
     EXPECT_GE(vertexPair(0, 0), kPairsCamera);
