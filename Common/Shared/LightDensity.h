@@ -56,6 +56,7 @@ RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         c = crossSphereLight(light, position, time, wi);
     } else {
+        if (!isLit(light, position)) return 0.0f;
         c = crossFlatLight(light, position, wi);
     }
     if (!(c.distance > 0.0f)) return 0.0f;
