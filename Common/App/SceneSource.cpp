@@ -1,6 +1,7 @@
 #include "Common/App/SceneSource.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <span>
 
@@ -8,7 +9,9 @@
 
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/ObjLoader.h"
 #include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/SceneJson.h"
 
 namespace rt::app {
 namespace {
@@ -37,6 +40,12 @@ scene::TexelData readTexels(const std::filesystem::path& path) {
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source) {
+    const std::filesystem::path path(source);
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".json") return scene::loadSceneFile(path);
+    if (extension == ".obj") return scene::loadObjScene(path);
     return scene::findBuiltinScene(source);
 }
 

@@ -18,6 +18,7 @@
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Log.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Scene/SceneJson.h"
 
 namespace rt::app {
 namespace {
@@ -200,7 +201,7 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine) {
             std::cout << listScenes(options.json);
             return ExitCode::Done;
         case Command::ExportScene:
-            throw UsageError("--export-scene: not available yet");
+            writeText(options.exportFile, scene::toJson(loadScene(options.scene)));
             return ExitCode::Done;
         case Command::ListDevices:
             throw std::logic_error("devices are listed by the program that knows them");

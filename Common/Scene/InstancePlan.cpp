@@ -9,7 +9,8 @@ namespace rt::scene {
 namespace {
 
 constexpr std::size_t kSharedPrimitives = 64;  // below it an instance costs more than copies of the primitives
-constexpr std::size_t kMaxOccurrences = std::size_t{1} << 24;
+constexpr double kMaxInstances = 1 << 24;
+constexpr std::size_t kMaxDepth = 64;
 constexpr double kMaxPrimitives = 1 << 28;
 
 }  // namespace
@@ -17,7 +18,9 @@ constexpr double kMaxPrimitives = 1 << 28;
 InstancePlan::InstancePlan(const SceneDesc& desc, const MaterialTable& materials, ModelCache& models,
                            const Affine& toWorld)
     : desc_(desc), materials_(materials), models_(models) {
-    find(desc.objects, toWorld, nullptr, "/objects");
+    if (instanceCount(desc.objects, "/objects") > kMaxInstances)
+        throw InputError(desc_.id + ": the scene comes to more than 2^24 instances");
+    find(desc.objects, toWorld, nullptr);
     double total = static_cast<double>(primitiveCount(desc.objects));
     for (auto& [name, prototype] : prototypes_) {
         prototype.objects = &desc.prototypes.at(name);
@@ -29,31 +32,46 @@ InstancePlan::InstancePlan(const SceneDesc& desc, const MaterialTable& materials
     if (total > kMaxPrimitives) throw InputError(desc_.id + ": the scene comes to more than 2^28 primitives");
 }
 
-void InstancePlan::find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
-                        const std::string& place) {
+double InstancePlan::instanceCount(const std::vector<ObjectDesc>& objects, const std::string& place) {
+    double sum = 0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        const auto at = [&] { return place + "/" + std::to_string(i); };
         if (const auto* group = std::get_if<GroupDesc>(&objects[i].shape))
-            find(group->objects, toWorld * toAffine(group->transform), material,
-                 place + "/" + std::to_string(i) + "/objects");
+            sum += instanceCount(group->objects, at() + "/objects");
         else if (const auto* instance = std::get_if<InstanceDesc>(&objects[i].shape))
-            enter(*instance, toWorld, material, place + "/" + std::to_string(i));
+            sum += 1 + instanceCount(*instance, at());
     }
+    return sum;
 }
 
-void InstancePlan::enter(const InstanceDesc& instance, const Affine& toWorld, const MaterialDesc* material,
-                         const std::string& place) {
+// Of each prototype once, however often it appears.
+double InstancePlan::instanceCount(const InstanceDesc& instance, const std::string& place) {
     const std::string& name = instance.prototype;
     const auto fail = [&](const std::string& message) { throw InputError(desc_.id + ": " + place + ": " + message); };
     const auto prototype = desc_.prototypes.find(name);
     if (prototype == desc_.prototypes.end()) fail("prototype \"" + name + "\" is not defined");
     if (std::find(open_.begin(), open_.end(), name) != open_.end()) fail("prototype \"" + name + "\" contains itself");
-    if (++count_ > kMaxOccurrences) fail("more than 2^24 instances");
-    if (!material && !instance.material.empty()) material = &materials_.find(instance.material);
-    const Affine placed = toWorld * toAffine(instance.transform);
-    prototypes_[name].occurrences.push_back({placed, material});
+    const auto known = instanceCounts_.find(name);
+    if (known != instanceCounts_.end()) return known->second;
+    if (open_.size() >= kMaxDepth) fail("prototypes are nested deeper than " + std::to_string(kMaxDepth));
     open_.push_back(name);
-    find(prototype->second, placed, material, "/prototypes/" + name);
+    const double count = instanceCount(prototype->second, "/prototypes/" + name);
     open_.pop_back();
+    return instanceCounts_[name] = count;
+}
+
+void InstancePlan::find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material) {
+    for (const ObjectDesc& object : objects) {
+        if (const auto* group = std::get_if<GroupDesc>(&object.shape)) {
+            find(group->objects, toWorld * toAffine(group->transform), material);
+        } else if (const auto* instance = std::get_if<InstanceDesc>(&object.shape)) {
+            const Affine placed = toWorld * toAffine(instance->transform);
+            const bool replaces = !material && !instance->material.empty();
+            const MaterialDesc* chosen = replaces ? &materials_.find(instance->material) : material;
+            prototypes_[instance->prototype].occurrences.push_back({placed, chosen});
+            find(desc_.prototypes.at(instance->prototype), placed, chosen);
+        }
+    }
 }
 
 std::size_t InstancePlan::primitiveCount(const std::vector<ObjectDesc>& objects) {

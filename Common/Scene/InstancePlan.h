@@ -30,25 +30,25 @@ class InstancePlan {
         bool isShared = false;  // one geometry for all occurrences, instead of copies
     };
 
-    // Throws InputError for unknown and cyclic prototypes and for more than 2^24 instances or 2^28 primitives.
+    // Throws InputError for unknown and cyclic prototypes, for prototypes nested deeper than 64, and for more than 2^24
+    // instances or 2^28 primitives.
     InstancePlan(const SceneDesc& desc, const MaterialTable& materials, ModelCache& models, const Affine& toWorld);
 
     // By name; without those that appear nowhere.
     const std::map<std::string, Prototype>& prototypes() const { return prototypes_; }
 
   private:
-    void find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material,
-              const std::string& place);
-    void enter(const InstanceDesc& instance, const Affine& toWorld, const MaterialDesc* material,
-               const std::string& place);
+    double instanceCount(const std::vector<ObjectDesc>& objects, const std::string& place);
+    double instanceCount(const InstanceDesc& instance, const std::string& place);
+    void find(const std::vector<ObjectDesc>& objects, const Affine& toWorld, const MaterialDesc* material);
     std::size_t primitiveCount(const std::vector<ObjectDesc>& objects);
 
     const SceneDesc& desc_;
     const MaterialTable& materials_;
     ModelCache& models_;
     std::map<std::string, Prototype> prototypes_;
-    std::vector<std::string> open_;  // being entered
-    std::size_t count_ = 0;          // of occurrences
+    std::map<std::string, double> instanceCounts_;  // in one appearance of a prototype
+    std::vector<std::string> open_;                 // prototypes being counted
 };
 
 }  // namespace rt::scene

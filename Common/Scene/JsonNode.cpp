@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 
 #include "Common/Core/Error.h"
 
@@ -46,13 +47,13 @@ std::string listed(std::initializer_list<const char*> names) {
     return text;
 }
 
-std::string shortNumber(double x) {
-    return Json(x).dump();
-}
-
 std::string rangeText(double low, double high) {
-    if (high == std::numeric_limits<double>::infinity()) return "at least " + shortNumber(low);
-    return "from " + shortNumber(low) + " to " + shortNumber(high);
+    std::ostringstream text;
+    if (high == std::numeric_limits<double>::infinity())
+        text << "at least " << low;
+    else
+        text << "from " << low << " to " << high;
+    return text.str();
 }
 
 }  // namespace

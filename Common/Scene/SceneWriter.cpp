@@ -16,8 +16,12 @@ constexpr std::size_t kLineWidth = 120;
 // ---- layout
 // ----------------------------------------------------------------------------------------------------------
 
+// Whole numbers without their fraction.
 std::string scalar(const Json& value) {
-    return value.dump();
+    std::string text = value.dump();
+    const bool isWhole = value.is_number_float() && text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0;
+    if (isWhole && text != "-0.0") text.resize(text.size() - 2);
+    return text;
 }
 
 // On one line with spaces after separators; gives up and returns false once it gets longer than a line.

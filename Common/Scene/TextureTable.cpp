@@ -12,6 +12,8 @@ namespace rt::scene {
 
 namespace {
 
+constexpr int kMaxDepth = 64;
+
 // IEC 61966-2-1, of every byte.
 const std::array<double, 256>& srgbTable() {
     static const auto table = [] {
@@ -78,7 +80,9 @@ std::uint32_t TextureTable::named(const std::string& name) {
         if (entry->second == shared::kNone) throw InputError(id_ + ": /textures/" + name + ": refers to itself");
         return entry->second;
     }
+    if (++depth_ > kMaxDepth) throw InputError(id_ + ": /textures/" + name + ": checkers are nested deeper than 64");
     const shared::Texture made = record(desc->second);
+    --depth_;
     out_.textures.push_back(made);
     return entry->second = static_cast<std::uint32_t>(out_.textures.size() - 1);
 }

@@ -39,6 +39,7 @@ class TextureTable {
     CompiledScene& out_;
     std::map<std::string, std::uint32_t> named_;  // kNone: being made
     std::map<std::string, std::uint32_t> images_;
+    int depth_ = 0;                                  // of checkers being made
     std::map<std::uint32_t, std::uint32_t> perlin_;  // by seed
 };
 

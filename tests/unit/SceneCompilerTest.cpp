@@ -1,21 +1,584 @@
+// The scene compiler against brute force: transforms, instances, lights, media, degenerate geometry, the world's origin.
+#include "Common/Scene/SceneCompiler.h"
+
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "Common/Core/Error.h"
 #include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/LightTable.h"
+#include "Common/Scene/SceneBuilder.h"
 
 namespace rt::scene {
 namespace {
 
-TEST(SceneCompiler, FindsEveryLightOfCornellBoxLights) {
-    const auto scene = compileScene(findBuiltinScene("cornell-box-lights"));
-    EXPECT_EQ(scene->globals.lightCount, 12u);
-    EXPECT_EQ(scene->lights.size(), 12u);
-    EXPECT_EQ(scene->quads.size(), 14u);
-    EXPECT_EQ(scene->spheres.size(), 5u);
-    EXPECT_EQ(scene->lights.back().cdf, 1.0f);
-    EXPECT_EQ(scene->features, shared::kFeatureSpheres | shared::kFeatureQuads | shared::kFeatureLambertian |
-                                   shared::kFeatureDielectric | shared::kFeatureEmissive | shared::kFeatureLights |
-                                   shared::kFeatureSphereLights | shared::kFeatureQuadLights);
+constexpr double kPi = 3.14159265358979323846;
+
+SceneDesc withMaterials() {
+    SceneDesc scene;
+    scene.id = "test";
+    scene.materials = {{"matte", lambertian(0.5, 0.5, 0.5)}, {"glass", glass(1.5)}, {"lamp", emitter({1, 2, 4})}};
+    return scene;
+}
+
+GroupDesc group(Transform transform, ObjectDesc::Shape object) {
+    GroupDesc group;
+    group.transform = std::move(transform);
+    group.objects.push_back({std::move(object)});
+    return group;
+}
+
+void addInstance(SceneDesc& scene, const std::string& prototype, Transform transform, const std::string& material = "") {
+    InstanceDesc instance;
+    instance.prototype = prototype;
+    instance.transform = std::move(transform);
+    instance.material = material;
+    add(scene, instance);
+}
+
+glm::dvec3 rotatedY(const glm::dvec3& p, double degrees) {
+    const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+    return {c * p.x + s * p.z, p.y, -s * p.x + c * p.z};
+}
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+    EXPECT_LE(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+}
+
+std::string errorOf(const SceneDesc& scene, const CompileOptions& options = {}) {
+    try {
+        compileScene(scene, options);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+// ---- transforms ------------------------------------------------------------------------------------------------------
+
+TEST(SceneCompiler, NestedTransformsActInsideOut) {
+    SceneDesc scene = withMaterials();
+    const Transform inner = {Rotate{{0, 2, 0}, 15}, Scale{glm::dvec3(2)}, Translate{{265, 0, 295}}};
+    const Transform outer = {Matrix{{0, 0, 1, 5, 0, 1, 0, 6, -1, 0, 0, 7}}}; // 90 degrees about +Y, then moved
+    const auto expected = [](const glm::dvec3& p) {
+        const glm::dvec3 q = 2.0 * rotatedY(p, 15) + glm::dvec3(265, 0, 295);
+        return glm::dvec3(q.z + 5, q.y + 6, -q.x + 7);
+    };
+    add(scene, group(outer, group(inner, sphere({1, 2, 3}, 0.5, "matte"))));
+    add(scene, group(outer, group(inner, quad({1, 2, 3}, {1, 0, 0.5}, {0, 1, 0}, "matte"))));
+    add(scene, group(outer, group(inner, mesh(icosphere(0), "matte"))));
+    const auto compiled = compileScene(scene);
+
+    expectNear(compiled->spheres[0].center, expected({1, 2, 3}), 1e-4);
+    EXPECT_NEAR(compiled->spheres[0].radius, 1.0, 1e-6);
+    const shared::Quad& q = compiled->quads[0];
+    expectNear(q.corner, expected({1, 2, 3}), 1e-4);
+    expectNear(glm::dvec3(q.corner) + glm::dvec3(q.edgeU), expected({2, 2, 3.5}), 1e-4);
+    expectNear(glm::dvec3(q.corner) + glm::dvec3(q.edgeV), expected({1, 3, 3}), 1e-4);
+    const glm::dvec3 center = expected({0, 0, 0});
+    for (const shared::vec3& position : compiled->positions)
+        EXPECT_NEAR(glm::length(glm::dvec3(position) - center), 2.0, 1e-4);
+}
+
+TEST(SceneCompiler, RightAnglesAreExact) {
+    SceneDesc scene = withMaterials();
+    for (const double degrees : {90.0, 180.0, 270.0, -90.0, 3600.0 * 1000 + 90})
+        add(scene, group({Rotate{{0, 0, 1}, degrees}}, quad({1, 1, 0}, {1, 0, 0}, {0, 1, 0}, "matte")));
+    const auto compiled = compileScene(scene);
+    EXPECT_EQ(compiled->quads[0].edgeU, shared::vec3(0, 1, 0));
+    EXPECT_EQ(compiled->quads[1].edgeU, shared::vec3(-1, 0, 0));
+    EXPECT_EQ(compiled->quads[2].edgeU, shared::vec3(0, -1, 0));
+    EXPECT_EQ(compiled->quads[3].edgeU, shared::vec3(0, -1, 0));
+    EXPECT_EQ(compiled->quads[4].edgeU, shared::vec3(0, 1, 0));
+}
+
+// The front of a mirrored surface is the image of its front.
+TEST(SceneCompiler, MirrorsKeepFronts) {
+    SceneDesc scene = withMaterials();
+    scene.textures["map"] = ImageTexture{"none.jpg", "mars", glm::dvec3(1)};
+    scene.materials["mapped"] = lambertian(std::string("map"));
+    const Transform mirror = {Scale{{-1, 2, 1}}};
+    const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(1, 0, 0.3), glm::dvec3(0, 1, 0.2)));
+    const glm::dvec3 mirrored = glm::normalize(normal / glm::dvec3(-1, 2, 1));
+    add(scene, group(mirror, quad({0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.2}, "matte")));
+    add(scene, group(mirror, quad({0, 0, 0}, {1, 0, 0.3}, {0, 1, 0.2}, "mapped")));
+    add(scene, group(mirror, mesh(icosphere(1), "matte")));
+    add(scene, group(mirror, box({1, 1, 1}, {2, 2, 2}, "matte")));
+    const auto compiled = compileScene(scene);
+
+    expectNear(compiled->quads[0].normal, mirrored, 1e-6);
+    ASSERT_EQ(compiled->quads.size(), 7u);
+    for (std::size_t i = 1; i < 7; ++i) {
+        const shared::Quad& face = compiled->quads[i];
+        const glm::dvec3 middle = face.corner + 0.5f * (face.edgeU + face.edgeV);
+        EXPECT_GT(glm::dot(glm::dvec3(face.normal), middle - glm::dvec3(-1.5, 3, 1.5)), 0);
+    }
+    for (std::size_t i = 0; i < compiled->triangles.size(); ++i) {
+        const shared::uvec3 t = compiled->triangles[i];
+        const glm::dvec3 a = compiled->positions[t.x], b = compiled->positions[t.y], c = compiled->positions[t.z];
+        const glm::dvec3 front = glm::cross(b - a, c - a);
+        if (compiled->triangleMesh[i] == 0) {
+            expectNear(glm::normalize(front), mirrored, 1e-6);
+            // Texture coordinates stay with the corners: u along edge_u.
+            const shared::Mesh& m = compiled->meshes[0];
+            for (const std::uint32_t v : {t.x, t.y, t.z})
+                EXPECT_NEAR(compiled->uvs[v - m.firstVertex + m.firstUv].x, -compiled->positions[v].x, 1e-6);
+        } else {
+            EXPECT_GT(glm::dot(front, a), 0);
+        }
+    }
+}
+
+TEST(SceneCompiler, NormalsFollowTheInverseTranspose) {
+    SceneDesc scene = withMaterials();
+    MeshData ball = icosphere(2);
+    ball.normals = ball.positions;
+    add(scene, group({Scale{{3, 1, 0.5}}, Rotate{{1, 2, 3}, 40}}, mesh(ball, "matte")));
+    const auto compiled = compileScene(scene);
+    // An ellipsoid's normal is the gradient of its quadric; turned back, x^2/9 + y^2 + 4 z^2.
+    const Affine back = toAffine({Rotate{{1, 2, 3}, -40}});
+    for (std::size_t i = 0; i < compiled->positions.size(); ++i) {
+        const glm::dvec3 p = back.vector(compiled->positions[i]);
+        expectNear(back.vector(compiled->normals[i]), glm::normalize(p * glm::dvec3(1.0 / 9, 1, 4)), 1e-5);
+    }
+}
+
+// ---- prototypes and instances ----------------------------------------------------------------------------------------
+
+glm::dvec3 placed(const shared::Instance& instance, const glm::dvec3& p) {
+    glm::dvec3 q;
+    for (int row = 0; row < 3; ++row)
+        q[row] = glm::dot(glm::dvec3(instance.toWorld[row]), p) + instance.toWorld[row].w;
+    return q;
+}
+
+glm::dvec3 placedBack(const shared::Instance& instance, const glm::dvec3& p) {
+    glm::dvec3 q;
+    for (int row = 0; row < 3; ++row)
+        q[row] = glm::dot(glm::dvec3(instance.toObject[row]), p) + instance.toObject[row].w;
+    return q;
+}
+
+TEST(SceneCompiler, LargePrototypesBecomeInstancesSmallOnesCopies) {
+    SceneDesc scene = withMaterials();
+    scene.prototypes["large"] = {{mesh(icosphere(1), "matte")}};
+    scene.prototypes["small"] = {{mesh(icosphere(0), "matte")}};
+    scene.prototypes["single"] = {{mesh(icosphere(1), "matte")}};
+    const Transform turn = {Scale{{1, 2, 3}}, Rotate{{1, 0, 0}, 30}, Translate{{5, 6, 7}}};
+    for (const char* name : {"large", "small"}) {
+        addInstance(scene, name, turn);
+        addInstance(scene, name, {}, "glass");
+    }
+    addInstance(scene, "single", turn);
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->geometries.size(), 2u);
+    EXPECT_EQ(compiled->geometries[0].triangleCount, 20u + 20u + 80u);
+    EXPECT_EQ(compiled->geometries[1].triangleCount, 80u);
+    ASSERT_EQ(compiled->instances.size(), 2u);
+    EXPECT_EQ(compiled->instances[0].material, shared::kNone);
+    EXPECT_EQ(compiled->materials[compiled->instances[1].material].kind, shared::kMaterialDielectric);
+    const Affine map = toAffine(turn);
+    for (const glm::dvec3& p : icosphere(1).positions) {
+        expectNear(placed(compiled->instances[0], p), map.point(p), 1e-5);
+        expectNear(placedBack(compiled->instances[0], map.point(p)), p, 1e-5);
+    }
+}
+
+TEST(SceneCompiler, NestedInstancesFlattenToOneLevel) {
+    SceneDesc scene = withMaterials();
+    scene.prototypes["ball"] = {{mesh(icosphere(1), "matte")}};
+    InstanceDesc inner;
+    inner.prototype = "ball";
+    for (int i = 0; i < 3; ++i) {
+        inner.transform = {Translate{{double(i), 0, 0}}};
+        scene.prototypes["row"].push_back({inner});
+    }
+    addInstance(scene, "row", {Translate{{0, 10, 0}}});
+    add(scene, group({Scale{glm::dvec3(2)}}, scene.objects[0].shape));
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->instances.size(), 6u);
+    for (int i = 0; i < 3; ++i) {
+        expectNear(placed(compiled->instances[static_cast<std::size_t>(i)], {0, 0, 0}), {i, 10, 0}, 0);
+        expectNear(placed(compiled->instances[static_cast<std::size_t>(i + 3)], {0, 0, 0}), {2 * i, 20, 0}, 0);
+    }
+}
+
+TEST(SceneCompiler, EmittersOfInstancesAreWorldPrimitives) {
+    SceneDesc scene = withMaterials();
+    SphereDesc moving = sphere({0, 4, 0}, 0.5, "matte");
+    moving.centerEnd = glm::dvec3(0, 5, 0);
+    scene.prototypes["lamp post"] = {{mesh(icosphere(1), "matte")}, {sphere({0, 2, 0}, 0.5, "lamp")}, {moving}};
+    addInstance(scene, "lamp post", {Translate{{10, 0, 0}}});
+    addInstance(scene, "lamp post", {Scale{glm::dvec3(2)}});
+    addInstance(scene, "lamp post", {}, "lamp");
+    const auto compiled = compileScene(scene);
+    EXPECT_EQ(compiled->instances.size(), 2u);
+    EXPECT_EQ(compiled->geometries[0].sphereCount, 6u);
+    EXPECT_EQ(compiled->geometries[0].triangleCount, 80u);
+    EXPECT_EQ(compiled->geometries[1].sphereCount, 0u);
+    ASSERT_EQ(compiled->globals.lightCount, 1u + 1u + 82u);
+    expectNear(compiled->lights[0].position, {10, 2, 0}, 0);
+    expectNear(compiled->lights[1].position, {0, 4, 0}, 0);
+    EXPECT_EQ(compiled->lights[1].radius, 1.0f);
+    // A moving light carries its displacement.
+    EXPECT_EQ(compiled->lights.back().kind, shared::kLightSphere);
+    expectNear(compiled->lights.back().edgeU, {0, 1, 0}, 0);
+}
+
+TEST(SceneCompiler, StretchedSpheresAreInstancesOfTheUnitSphere) {
+    SceneDesc scene = withMaterials();
+    add(scene, group({Scale{{1, 2, 3}}, Rotate{{0, 1, 0}, 20}}, sphere({1, 1, 1}, 0.5, "matte")));
+    add(scene, group({Scale{{2, 1, 1}}}, sphere({0, 0, 0}, 1, "glass")));
+    add(scene, group({Scale{{-2, 2, 2}}, Rotate{{1, 1, 0}, 70}}, sphere({0, 0, 0}, 1, "glass"))); // still a sphere
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->instances.size(), 2u);
+    ASSERT_EQ(compiled->geometries.size(), 2u);
+    EXPECT_EQ(compiled->geometries[0].sphereCount, 1u);
+    EXPECT_EQ(compiled->geometries[1].sphereCount, 1u);
+    expectNear(placed(compiled->instances[0], {0, 1, 0}), rotatedY({1, 3, 3}, 20), 1e-6);
+    EXPECT_EQ(compiled->materials[compiled->instances[1].material].kind, shared::kMaterialDielectric);
+
+    const auto errorFor = [](const SphereDesc& ball) {
+        SceneDesc bad = withMaterials();
+        add(bad, group({Scale{{1, 2, 1}}}, ball));
+        return errorOf(bad);
+    };
+    SphereDesc moving = sphere({0, 0, 0}, 1, "matte");
+    moving.centerEnd = glm::dvec3(1, 0, 0);
+    EXPECT_NE(errorFor(sphere({0, 0, 0}, 1, "lamp")).find("test: /objects/0/objects/0: an emissive sphere"), std::string::npos);
+    EXPECT_NE(errorFor(moving).find("a moving sphere"), std::string::npos);
+}
+
+TEST(SceneCompiler, TurnedMapsTurn) {
+    SceneDesc scene = withMaterials();
+    scene.textures["map"] = ImageTexture{"none.jpg", "mars", glm::dvec3(1)};
+    scene.materials["mapped"] = lambertian(std::string("map"));
+    add(scene, group({Rotate{{0, 1, 0}, 90}}, sphere({0, 0, 0}, 1, "mapped")));
+    add(scene, group({Scale{glm::dvec3(2)}}, sphere({0, 0, 0}, 1, "mapped")));
+    const auto compiled = compileScene(scene);
+    EXPECT_EQ(compiled->instances.size(), 1u);
+    EXPECT_EQ(compiled->geometries[0].sphereCount, 1u);
+    EXPECT_EQ(compiled->images.size(), 1u);
+}
+
+// ---- lights ----------------------------------------------------------------------------------------------------------
+
+TEST(SceneCompiler, LightsHaveTheirWorldGeometry) {
+    SceneDesc scene = withMaterials();
+    const Transform turn = {Scale{{2, 1, 1}}, Rotate{{1, 1, 1}, 50}, Translate{{1, 2, 3}}};
+    add(scene, group(turn, box({0, 0, 0}, {1, 2, 3}, "lamp")));
+    MeshData triangle;
+    triangle.positions = {{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+    triangle.triangles = {{0, 1, 2}};
+    add(scene, group(turn, mesh(triangle, "lamp")));
+    add(scene, group({Scale{glm::dvec3(3)}}, sphere({0, 0, 0}, 0.5, "lamp")));
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->globals.lightCount, 8u);
+    double area = 0;
+    for (std::size_t i = 0; i < 6; ++i) area += compiled->lights[i].area;
+    EXPECT_NEAR(area, 2 * (2.0 * 2 + 2.0 * 3 + 2 * 3), 1e-5); // of a box of 2 x 2 x 3
+    EXPECT_NEAR(compiled->lights[6].area, 0.5 * 6 * 4, 1e-5);
+    EXPECT_NEAR(compiled->lights[7].area, 9 * kPi, 1e-4);
+}
+
+TEST(SceneCompiler, SelectionIsInProportionToPower) {
+    SceneDesc scene = withMaterials();
+    scene.materials["two-sided"] = emitter(glm::dvec3(1), Sides::Both);
+    scene.materials["one-sided"] = emitter(glm::dvec3(1), Sides::Front);
+    scene.materials["by flag"] = emitter(glm::dvec3(1));
+    scene.materials["dark"] = emitter(glm::dvec3(0));
+    for (const char* name : {"two-sided", "one-sided", "by flag", "dark"})
+        add(scene, quad({0, 0, 0}, {1, 0, 0}, {0, 2, 0}, name));
+    QuadDesc unlisted = quad({0, 0, 0}, {1, 0, 0}, {0, 2, 0}, "two-sided");
+    unlisted.light = false;
+    add(scene, unlisted);
+    add(scene, sphere({0, 0, 0}, 0.5, "by flag"));
+
+    CompileOptions options;
+    for (const bool oneSided : {true, false}) {
+        options.oneSidedLights = oneSided;
+        const auto compiled = compileScene(scene, options);
+        ASSERT_EQ(compiled->lights.size(), 4u);
+        const double powers[] = {4, 2, oneSided ? 2.0 : 4.0, kPi};
+        double sum = 0;
+        for (const double power : powers) sum += power;
+        for (std::size_t i = 0; i < 4; ++i)
+            EXPECT_NEAR(compiled->lights[i].selection, powers[i] / sum, 2e-7) << i;
+        EXPECT_EQ(compiled->quads[4].light, shared::kNone);
+        EXPECT_GT(compiled->materials[compiled->quads[4].material].emission.x, 0);
+        EXPECT_EQ(compiled->lights[2].sides, oneSided ? shared::kSidesFront : shared::kSidesBoth);
+    }
+}
+
+TEST(SceneCompiler, BoundsHoldTheirLights) {
+    const auto compiled = compileScene(findBuiltinScene("many-lights:300"));
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (std::size_t i = 0; i < compiled->lights.size(); ++i) {
+        const shared::Light& light = compiled->lights[i];
+        const shared::LightBound& bound = compiled->lightBounds[i];
+        EXPECT_GT(bound.intensity, 0);
+        if (light.kind == shared::kLightSphere) {
+            EXPECT_EQ(bound.center, light.position);
+            EXPECT_EQ(bound.radius, light.radius);
+            EXPECT_EQ(bound.axis, shared::vec3(0));
+            continue;
+        }
+        EXPECT_EQ(bound.axis, light.normal);
+        for (int k = 0; k < 50; ++k) {
+            double u = uniform(random), v = uniform(random);
+            if (light.kind == shared::kLightTriangle && u + v > 1) u = 1 - u, v = 1 - v;
+            const glm::dvec3 p = glm::dvec3(light.position) + u * glm::dvec3(light.edgeU) + v * glm::dvec3(light.edgeV);
+            EXPECT_LE(glm::length(p - glm::dvec3(bound.center)), bound.radius);
+        }
+    }
+}
+
+TEST(SceneCompiler, TargetsFollowTheLights) {
+    const auto compiled = compileScene(findBuiltinScene("rest-of-life-cornell-box-glass"));
+    ASSERT_EQ(compiled->globals.lightCount, 1u);
+    ASSERT_EQ(compiled->globals.targetCount, 1u);
+    EXPECT_EQ(compiled->lights[1].emission, shared::vec3(0));
+    EXPECT_EQ(compiled->lights[1].selection, 0.0f);
+    EXPECT_EQ(compiled->lights[1].position, compiled->spheres[0].center);
+}
+
+TEST(SceneCompiler, SkyImagesAreSampledByBrightness) {
+    constexpr std::uint32_t width = 8, height = 4;
+    CompileOptions options;
+    options.loadTexels = [](const std::filesystem::path&) {
+        TexelData data{width, height, shared::kTexelLinearF32, std::vector<std::uint32_t>(width * height * 3, 0u)};
+        const auto set = [&](std::uint32_t x, std::uint32_t y, float value) {
+            for (std::uint32_t c = 0; c < 3; ++c)
+                data.words[3 * (y * width + x) + c] = shared::floatBitsToUint(value);
+        };
+        set(2, 1, 1), set(5, 1, 3), set(7, 2, 4);
+        return data;
+    };
+    SceneDesc scene = withMaterials();
+    scene.background = ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(2)}; // any file that exists
+    add(scene, sphere({0, 0, -5}, 1, "matte"));
+    add(scene, sphere({0, 0, -5}, 0.001, "lamp"));
+    const auto compiled = compileScene(scene, options);
+    EXPECT_EQ(compiled->globals.skyKind, shared::kSkyImage);
+    ASSERT_EQ(compiled->globals.skyLight, 1u);
+    EXPECT_GT(compiled->lights[1].selection, 0.99f);
+    EXPECT_EQ(compiled->lights[1].cdf, 1.0f);
+    const std::vector<float>& cdf = compiled->skyCdf;
+    ASSERT_EQ(cdf.size(), (height + 1) + height * (width + 1));
+    // Rows 1 and 2 lie symmetric to the equator and are equally bright; the others are black.
+    EXPECT_EQ(cdf[0], 0.0f);
+    EXPECT_EQ(cdf[1], 0.0f);
+    EXPECT_NEAR(cdf[2], 0.5f, 1e-6);
+    EXPECT_EQ(cdf[3], 1.0f);
+    EXPECT_EQ(cdf[4], 1.0f);
+    const float* row = &cdf[height + 1 + 1 * (width + 1)];
+    EXPECT_EQ(row[2], 0.0f);
+    EXPECT_NEAR(row[3], 0.25f, 1e-6);
+    EXPECT_EQ(row[5], row[3]);
+    EXPECT_EQ(row[6], 1.0f);
+    EXPECT_EQ(row[width], 1.0f);
+    const double meanSine = (std::sin(kPi * 1.5 / 4) * 8) / (2 * (std::sin(kPi * 0.5 / 4) + std::sin(kPi * 1.5 / 4)) * 8);
+    EXPECT_NEAR(compiled->lights[1].emission.x, 2 * meanSine, 1e-6);
+
+    scene.background = ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(0)};
+    EXPECT_EQ(compileScene(scene, options)->globals.skyKind, shared::kSkyBlack);
+    scene.background = ImageBackground{"none.hdr", glm::dvec3(1)};
+    EXPECT_NE(errorOf(scene, options).find("none.hdr: no such file"), std::string::npos);
+}
+
+// ---- media -----------------------------------------------------------------------------------------------------------
+
+TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
+    SceneDesc scene = withMaterials();
+    scene.camera.lookFrom = {100, 0, 0};
+    MediumDesc smoke;
+    smoke.boundary = BoxBoundary{{1, 2, 3}, {3, 6, 9}};
+    smoke.density = 0.25;
+    add(scene, group({Rotate{{0, 1, 0}, 30}, Translate{{0, 5, 0}}}, smoke));
+    smoke.boundary = SphereBoundary{{1, 0, 0}, 2};
+    add(scene, smoke);
+    smoke.density = 0;
+    add(scene, smoke);
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->media.size(), 2u);
+    const auto local = [&](std::size_t i, const glm::dvec3& world) {
+        glm::dvec3 q;
+        for (int row = 0; row < 3; ++row) {
+            const shared::vec4 r = compiled->media[i].toLocal[row];
+            q[row] = glm::dot(glm::dvec3(r), world - scene.camera.lookFrom) + r.w;
+        }
+        return q;
+    };
+    EXPECT_EQ(compiled->media[0].shape, shared::kMediumBox);
+    EXPECT_EQ(compiled->media[0].extinction, 0.25f);
+    expectNear(local(0, rotatedY({3, 6, 9}, 30) + glm::dvec3(0, 5, 0)), {1, 1, 1}, 1e-5);
+    expectNear(local(0, rotatedY({1, 2, 9}, 30) + glm::dvec3(0, 5, 0)), {-1, -1, 1}, 1e-5);
+    EXPECT_EQ(compiled->media[1].shape, shared::kMediumSphere);
+    expectNear(local(1, {3, 0, 0}), {1, 0, 0}, 1e-5);
+    ASSERT_EQ(compiled->notices.size(), 1u);
+    EXPECT_EQ(compiled->notices[0], "1 media without volume or density were dropped");
+}
+
+// ---- degenerate geometry (numerics.md N7) ----------------------------------------------------------------------------
+
+bool isFinite(const shared::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {
+    constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
+    const double bad[] = {kInf, -kInf, kNan, 1e300, -1e39};
+    std::mt19937 random(4);
+    SceneDesc clean = withMaterials(), fuzzed = withMaterials();
+    MeshData cleanMesh, fuzzedMesh;
+    std::uint64_t spheres = 0, quads = 0, triangles = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const auto number = [&] { return std::uniform_real_distribution<double>(-5, 5)(random); };
+        const auto point = [&] {
+            const double x = number(), y = number();
+            return glm::dvec3(x, y, number());
+        };
+        const bool isBad = random() % 2 == 0;
+        glm::dvec3 a = point(), b = point(), c = point();
+        double radius = 0.1 + std::abs(number());
+        const int kind = i % 3;
+        if (isBad) {
+            switch (random() % 4) {
+                case 0: a[static_cast<int>(random() % 3)] = bad[random() % 5]; break;
+                case 1: b = kind == 1 ? glm::dvec3(0) : a, radius = -radius; break;
+                case 2: c = kind == 1 ? 0.5 * b : b, radius = 0; break;
+                default: b = c = kind == 1 ? glm::dvec3(1e-300, 0, 0) : a, radius = 5e-324; break;
+            }
+        }
+        if (kind == 0) {
+            spheres += isBad;
+            add(fuzzed, sphere(a, radius, "lamp"));
+            if (!isBad) add(clean, sphere(a, radius, "lamp"));
+        } else if (kind == 1) {
+            quads += isBad;
+            add(fuzzed, quad(a, b, c, "lamp"));
+            if (!isBad) add(clean, quad(a, b, c, "lamp"));
+        } else {
+            triangles += isBad;
+            for (MeshData* mesh : {&fuzzedMesh, &cleanMesh}) {
+                if (isBad && mesh == &cleanMesh) continue;
+                const auto first = static_cast<std::uint32_t>(mesh->positions.size());
+                mesh->positions.insert(mesh->positions.end(), {a, b, c});
+                mesh->triangles.emplace_back(first, first + 1, first + 2);
+            }
+        }
+    }
+    add(fuzzed, mesh(fuzzedMesh, "lamp"));
+    add(clean, mesh(cleanMesh, "lamp"));
+    const auto with = compileScene(fuzzed), without = compileScene(clean);
+    EXPECT_EQ(with->hash, without->hash);
+    EXPECT_TRUE(without->notices.empty());
+    const std::vector<std::string> expected = {std::to_string(spheres) + " spheres without a usable centre or radius were dropped",
+                                               std::to_string(quads) + " quads without area were dropped",
+                                               std::to_string(triangles) + " triangles without area were dropped"};
+    EXPECT_EQ(with->notices, expected);
+    for (const shared::Light& light : with->lights) {
+        EXPECT_TRUE(isFinite(light.position) && isFinite(light.normal) && std::isfinite(light.area));
+    }
+}
+
+TEST(SceneCompiler, ExtremeButUsableGeometryStays) {
+    SceneDesc scene = withMaterials();
+    add(scene, quad({0, 0, 0}, {1e-15, 0, 0}, {0, 1e-15, 0}, "lamp"));
+    add(scene, quad({0, 0, 0}, {1e15, 0, 0}, {0, 1e15, 0}, "lamp"));
+    add(scene, quad({0, 0, 0}, {1, 0, 0}, {1, 1e-9, 0}, "lamp"));
+    add(scene, sphere({0, 0, 0}, 1e-15, "lamp"));
+    add(scene, sphere({0, 0, 0}, 1e15, "lamp"));
+    const auto compiled = compileScene(scene);
+    EXPECT_EQ(compiled->quads.size() + compiled->spheres.size(), 5u);
+    for (const shared::Quad& quad : compiled->quads) EXPECT_EQ(quad.normal, shared::vec3(0, 0, 1));
+    for (const shared::Light& light : compiled->lights) EXPECT_TRUE(light.area > 0 && std::isfinite(light.area));
+}
+
+TEST(SceneCompiler, WrongIndicesInCodeAreErrors) {
+    SceneDesc scene = withMaterials();
+    MeshData bad;
+    bad.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    bad.triangles = {{0, 1, 3}};
+    add(scene, mesh(bad, "matte"));
+    EXPECT_NE(errorOf(scene).find("test: /objects/0: a triangle refers to vertex 3 of 3"), std::string::npos);
+    scene.objects = {{sphere({0, 0, 0}, 1, "nothing")}};
+    EXPECT_NE(errorOf(scene).find("material \"nothing\" is not defined"), std::string::npos);
+    scene.objects = {{sphere({0, 0, 0}, 1, "matte")}};
+    scene.materials["matte"].albedo = std::string("a");
+    scene.textures["a"] = CheckerTexture{1, std::string("b"), glm::dvec3(1)};
+    scene.textures["b"] = CheckerTexture{1, std::string("a"), glm::dvec3(1)};
+    EXPECT_NE(errorOf(scene).find("refers to itself"), std::string::npos);
+}
+
+// ---- the world's origin ----------------------------------------------------------------------------------------------
+
+// numerics.md N20: the authored camera position is subtracted in double, so that distance costs nothing.
+TEST(SceneCompiler, TranslatedScenesAreTheSame) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "triangle-lights"}) {
+        SceneDesc scene = findBuiltinScene(id);
+        const auto near = compileScene(scene);
+        const glm::dvec3 offset(1048576, -131072, 1048576);
+        GroupDesc all;
+        all.transform = {Translate{offset}};
+        all.objects.swap(scene.objects);
+        add(scene, all);
+        scene.camera.lookFrom += offset;
+        scene.camera.lookAt += offset;
+        const auto far = compileScene(scene);
+        ASSERT_EQ(near->spheres.size(), far->spheres.size());
+        for (std::size_t i = 0; i < near->spheres.size(); ++i) EXPECT_EQ(near->spheres[i].center, far->spheres[i].center);
+        for (std::size_t i = 0; i < near->quads.size(); ++i) {
+            expectNear(near->quads[i].corner, far->quads[i].corner, 3e-5);
+            EXPECT_EQ(near->quads[i].edgeU, far->quads[i].edgeU);
+        }
+        for (std::size_t i = 0; i < near->positions.size(); ++i) expectNear(near->positions[i], far->positions[i], 1e-6);
+        for (std::size_t i = 0; i < near->media.size(); ++i)
+            for (int row = 0; row < 3; ++row)
+                expectNear(near->media[i].toLocal[row], far->media[i].toLocal[row], 1e-6);
+        EXPECT_EQ(near->lights.size(), far->lights.size());
+        EXPECT_NEAR(near->globals.sceneRadius, far->globals.sceneRadius, 1e-3);
+    }
+}
+
+TEST(SceneCompiler, CoordinatesAreRelativeToTheCamera) {
+    const auto compiled = compileScene(findBuiltinScene("cornell-box-lights"));
+    EXPECT_EQ(compiled->origin, glm::dvec3(278, 278, -800));
+    EXPECT_EQ(compiled->globals.origin, shared::vec3(278, 278, -800));
+    EXPECT_EQ(compiled->spheres[0].center, shared::vec3(530 - 278, 530 - 278, 277 + 800));
+}
+
+// ---- hash ------------------------------------------------------------------------------------------------------------
+
+TEST(SceneCompiler, TheHashTellsScenesApart) {
+    const SceneDesc scene = findBuiltinScene("rest-of-life-cornell-box-glass");
+    const std::uint64_t hash = compileScene(scene)->hash;
+    EXPECT_EQ(compileScene(scene)->hash, hash);
+    SceneDesc changed = scene;
+    changed.camera.verticalFov = 50;
+    changed.title = "Other";
+    EXPECT_EQ(compileScene(changed)->hash, hash) << "neither camera angle nor title affects the scene";
+    changed = scene;
+    changed.materials["glass"].ior = 1.5000002;
+    EXPECT_NE(compileScene(changed)->hash, hash);
+    changed = scene;
+    changed.importanceTargets.clear();
+    EXPECT_NE(compileScene(changed)->hash, hash);
+    changed = scene;
+    std::swap(changed.objects[0], changed.objects[1]);
+    EXPECT_NE(compileScene(changed)->hash, hash);
+    CompileOptions options;
+    options.oneSidedLights = false;
+    EXPECT_NE(compileScene(scene, options)->hash, hash);
 }
 
 }  // namespace

@@ -1,0 +1,169 @@
+// OBJ and MTL files: what is read, and errors that name file and line.
+#include "Common/Scene/ObjLoader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include <glm/geometric.hpp>
+
+#include "Common/Core/Error.h"
+#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/SceneJson.h"
+
+namespace rt::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ObjLoader : public testing::Test {
+  protected:
+    ObjLoader()
+        : folder_(fs::temp_directory_path() /
+                  ("rt-obj-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+        fs::create_directories(folder_);
+    }
+    ~ObjLoader() override { fs::remove_all(folder_); }
+
+    fs::path write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+        return folder_ / name;
+    }
+    ObjModel load(const std::string& text, bool withMaterials = true) const {
+        return loadObj(write("model.obj", text), withMaterials);
+    }
+    std::string errorOf(const std::string& text, bool withMaterials = true) const {
+        try {
+            load(text, withMaterials);
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            const std::size_t start = message.find("model.");
+            return start == std::string::npos ? message : message.substr(start);
+        }
+        return "no error";
+    }
+
+    fs::path folder_;
+};
+
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST_F(ObjLoader, ReadsTrianglesByPositiveAndNegativeIndices) {
+    const ObjModel model = load(kSquare + "f 1 2 3\nf -4 -2 -1\n");
+    ASSERT_EQ(model.parts.size(), 1u);
+    const MeshData& mesh = model.parts[0].mesh;
+    EXPECT_EQ(mesh.positions.size(), 4u);
+    EXPECT_EQ(mesh.triangles.size(), 2u);
+    EXPECT_EQ(mesh.positions[mesh.triangles[1].y], glm::dvec3(1, 1, 0));
+    EXPECT_EQ(mesh.positions[mesh.triangles[1].z], glm::dvec3(0, 1, 0));
+    EXPECT_TRUE(mesh.normals.empty() && mesh.uvs.empty());
+}
+
+TEST_F(ObjLoader, CutsPolygons) {
+    const MeshData mesh = load("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n").parts[0].mesh;
+    ASSERT_EQ(mesh.triangles.size(), 3u);
+    double area = 0;
+    for (const glm::uvec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[t.x];
+        const double z = glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a).z;
+        EXPECT_GT(z, 0);
+        area += 0.5 * z;
+    }
+    EXPECT_NEAR(area, 10, 1e-12);
+}
+
+TEST_F(ObjLoader, UnifiesVerticesByAllTheirIndices) {
+    const std::string attributes = "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 1 0\n";
+    const MeshData mesh = load(kSquare + attributes + "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/2/2\nf 1/2/1 2/2/1 3/3/2\n").parts[0].mesh;
+    EXPECT_EQ(mesh.triangles.size(), 3u);
+    EXPECT_EQ(mesh.positions.size(), 6u); // corners 1 and 3 come in two kinds
+    EXPECT_EQ(mesh.normals.size(), 6u);
+    EXPECT_EQ(mesh.uvs.size(), 6u);
+    // Normals only where every corner of the part has one.
+    EXPECT_TRUE(load(kSquare + attributes + "f 1//1 2//1 3//1\nf 1 3 4\n").parts[0].mesh.normals.empty());
+}
+
+TEST_F(ObjLoader, SplitsByMaterialAndUnderstandsThem) {
+    write("model.mtl",
+          "newmtl red\nKd 0.8 0.1 0.1\nillum 2\n\nnewmtl lamp\nKd 0 0 0\nKe 5 6 7\n\nnewmtl mirror\nillum 3\nKs 0.9 0.8 0.7\nPr 0.25\n\n"
+          "newmtl glass\nillum 7\nNi 1.33\nTf 1 0.9 0.9\n\nnewmtl mapped\nKd 0.5 0.5 0.5\nmap_Kd tex\\map.png\nmap_Ke tex/map.png\n");
+    fs::create_directories(folder_ / "tex");
+    write("tex/map.png", "not read here");
+    const ObjModel model = load("mtllib model.mtl\n" + kSquare +
+                                "usemtl red\nf 1 2 3\nusemtl lamp\nf 1 3 4\no other\nusemtl red \nf 2 3 4\nusemtl mirror\nf 1 2 4\n"
+                                "g x y\nusemtl glass\nf 1 2 3\nusemtl mapped\nf 1 2 3\n");
+    ASSERT_EQ(model.parts.size(), 5u);
+    for (const ObjPart& part : model.parts) EXPECT_EQ(part.mesh.triangles.size(), part.material == "red" ? 2u : 1u);
+    EXPECT_EQ(model.materials.at("red").kind, MaterialKind::Lambertian);
+    EXPECT_NEAR(std::get<glm::dvec3>(model.materials.at("red").albedo).x, 0.8, 1e-6);
+    EXPECT_EQ(model.materials.at("lamp").emission, glm::dvec3(5, 6, 7));
+    EXPECT_EQ(model.materials.at("mirror").kind, MaterialKind::Metal);
+    EXPECT_EQ(model.materials.at("mirror").fuzz, 0.25);
+    EXPECT_NEAR(std::get<glm::dvec3>(model.materials.at("mirror").albedo).z, 0.7, 1e-6);
+    EXPECT_EQ(model.materials.at("glass").kind, MaterialKind::Dielectric);
+    EXPECT_NEAR(model.materials.at("glass").ior, 1.33, 1e-6);
+    const auto& texture = std::get<ImageTexture>(model.textures.at(std::get<std::string>(model.materials.at("mapped").albedo)));
+    EXPECT_EQ(fs::path(texture.file), folder_ / "tex" / "map.png");
+    EXPECT_EQ(texture.tint, glm::dvec3(0.5));
+    EXPECT_EQ(model.materials.at("mapped").emission, glm::dvec3(1));
+
+    const ObjModel plain = load("mtllib gone.mtl\n" + kSquare + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 3 4\n", false);
+    EXPECT_EQ(plain.parts.size(), 1u);
+    EXPECT_TRUE(plain.materials.empty());
+}
+
+TEST_F(ObjLoader, ErrorsNameFileAndLine) {
+    write("model.mtl", "newmtl red\nKd 1 0 0\nnewmtl mapped\nmap_Kd gone.png\n");
+    EXPECT_EQ(errorOf(kSquare + "f 1 2 9\n").rfind("model.obj:5: vertex index 9: there are 4 so far", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "\n# comment\nf 1 2 -5\n").rfind("model.obj:7: vertex index -5", 0), 0u);
+    EXPECT_EQ(errorOf("f 1 2 3\n" + kSquare).rfind("model.obj:1: vertex index 1: there are 0 so far", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "f 1 2 0").rfind("model.obj:5: a vertex index must be", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "f 1 2 x\n").rfind("model.obj:5: a vertex index must be", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "f 1/2 2/1 3/1\n").rfind("model.obj:5: texture coordinate index 2", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "f 1//1 2//1 3//1\n").rfind("model.obj:5: normal index 1", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "f 1 2\n").rfind("model.obj:5: a face of 2 corners", 0), 0u);
+    EXPECT_EQ(errorOf("v 1e999 0 0\n").rfind("model.obj:1: a coordinate is too large", 0), 0u);
+    EXPECT_EQ(errorOf(kSquare + "usemtl red\nf 1 2 3\n").rfind("model.obj:5: material \"red\" is in none", 0), 0u);
+    EXPECT_EQ(errorOf("mtllib gone.mtl\n" + kSquare).rfind("model.obj:1: no such material file", 0), 0u);
+    EXPECT_NE(errorOf("mtllib model.mtl\n" + kSquare + "usemtl red\nf 1 2 3\n").find("no such image file"), std::string::npos);
+    for (const char* empty : {"", "\n", "# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "garbage\n\x01\x02"})
+        EXPECT_NE(errorOf(empty).find("there is no face in it"), std::string::npos) << empty;
+    EXPECT_THROW(loadObj(folder_ / "gone.obj", true), InputError);
+    EXPECT_THROW(loadObj(folder_, true), InputError);
+}
+
+TEST_F(ObjLoader, AFileAloneIsAScene) {
+    const fs::path file = write("model.obj", "v 10 0 0\nv 14 0 0\nv 14 2 0\nv 10 2 1\nf 1 2 3\nf 1 3 4\n");
+    const SceneDesc scene = loadObjScene(file);
+    EXPECT_EQ(scene.id, "model.obj");
+    const auto compiled = compileScene(scene);
+    EXPECT_EQ(compiled->triangles.size(), 2u);
+    EXPECT_TRUE(compiled->features & shared::kFeatureSky);
+    // All of it is in view: inside the cone around the view that fits a square picture.
+    const CameraDesc& camera = scene.camera;
+    const glm::dvec3 view = glm::normalize(camera.lookAt - camera.lookFrom);
+    for (const shared::vec3& p : compiled->positions) {
+        const double cosine = glm::dot(glm::normalize(glm::dvec3(p)), view);
+        EXPECT_GT(cosine, std::cos(camera.verticalFov / 2 * 3.14159265358979 / 180));
+    }
+    SceneDesc again = parseScene(toJson(scene), "again.json", {});
+    again.id = scene.id;
+    EXPECT_EQ(again, scene);
+}
+
+TEST_F(ObjLoader, MaterialsOfAFileServeAMeshWithoutOne) {
+    write("model.mtl", "newmtl red\nKd 0.8 0.1 0.1\n");
+    write("model.obj", "mtllib model.mtl\n" + kSquare + "f 1 2 3\nusemtl red\nf 1 3 4\n");
+    write("scene.json", R"({"materials": {"own": {"type": "dielectric", "ior": 1.5}},
+        "objects": [{"type": "mesh", "file": "model.obj"}, {"type": "mesh", "file": "model.obj", "material": "own"}]})");
+    const auto compiled = compileScene(loadSceneFile(folder_ / "scene.json"));
+    ASSERT_EQ(compiled->meshes.size(), 3u);
+    EXPECT_NEAR(compiled->materials[compiled->meshes[0].material].albedo.x, 0.7, 1e-6);
+    EXPECT_NEAR(compiled->materials[compiled->meshes[1].material].albedo.x, 0.8, 1e-6);
+    EXPECT_EQ(compiled->materials[compiled->meshes[2].material].kind, shared::kMaterialDielectric);
+    EXPECT_EQ(compiled->meshes[2].triangleCount, 2u);
+}
+
+}  // namespace
+}  // namespace rt::scene
