@@ -39,8 +39,7 @@ struct Channel {
     std::size_t bytes() const { return type == kHalf ? 2 : 4; }
 };
 
-// ---- reading
-// ---------------------------------------------------------------------------------------------------------
+// ---- reading --------------------------------------------------------------------------------------------------------
 
 // Reads numbers and strings in order, never beyond the end.
 class Cursor {
@@ -120,9 +119,12 @@ Header readHeader(Cursor& in) {
     }
     if (header.channels.empty() || !header.window || !header.compression)
         in.fail("EXR header lacks channels, compression or dataWindow");
-    if (*header.compression > kZip)
-        in.fail("EXR compression " + std::to_string(*header.compression) +
-                " is not supported (none, RLE, ZIPS, ZIP are)");
+    if (const std::size_t compression = *header.compression; compression > kZip) {
+        constexpr const char* kOthers[] = {"PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+        const std::size_t other = compression - kZip - 1;
+        const std::string which = other < std::size(kOthers) ? kOthers[other] : std::to_string(compression);
+        in.fail("EXR compression " + which + " is not supported (none, RLE, ZIPS, ZIP are)");
+    }
     return header;
 }
 
@@ -198,6 +200,18 @@ std::vector<std::optional<std::size_t>> chooseChannels(const Header& header, con
     return targets;
 }
 
+// Writes the values of a block, whose first row is `row` of the image, to where they belong.
+void storeBlock(const std::vector<std::byte>& data, const Header& header,
+                const std::vector<std::optional<std::size_t>>& targets, std::uint32_t row, Image& image) {
+    for (const std::byte* from = data.data(); from != data.data() + data.size(); ++row) {
+        for (std::size_t c = 0; c < header.channels.size(); ++c) {
+            const Channel& channel = header.channels[c];
+            for (std::uint32_t x = 0; x < image.width; ++x, from += channel.bytes())
+                if (targets[c]) image.pixel(x, row)[*targets[c]] = readValue(from, channel.type);
+        }
+    }
+}
+
 } // namespace
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
@@ -219,22 +233,12 @@ Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
             in.fail("damaged EXR block");
         const std::size_t rows = std::min(header.blockRows(), image.height - static_cast<std::size_t>(first));
         const auto data = decodeBlock(in, *header.compression, rows * header.rowBytes());
-        const std::byte* from = data.data();
-        for (std::size_t row = 0; row < rows; ++row) {
-            for (std::size_t c = 0; c < header.channels.size(); ++c) {
-                const Channel& channel = header.channels[c];
-                for (std::uint32_t x = 0; x < image.width; ++x, from += channel.bytes())
-                    if (targets[c])
-                        image.pixel(x, static_cast<std::uint32_t>(first + row))[*targets[c]] =
-                            readValue(from, channel.type);
-            }
-        }
+        storeBlock(data, header, targets, static_cast<std::uint32_t>(first), image);
     }
     return image;
 }
 
-// ---- writing
-// ---------------------------------------------------------------------------------------------------------
+// ---- writing --------------------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -86,7 +86,7 @@ TEST(ImageIoHostile, ClaimsBeyondTheFileAreNotBelieved) {
 }
 
 TEST(ImageIoHostile, SaysWhatIsNotSupported) {
-    EXPECT_NE(errorOf("piz.exr", dataFile("piz-half.exr")).find("compression 4"), std::string::npos);
+    EXPECT_NE(errorOf("piz.exr", dataFile("piz-half.exr")).find("compression PIZ is not"), std::string::npos);
     std::string tiled = dataFile("none-float.exr");
     tiled[5] = 2;
     EXPECT_NE(errorOf("tiled.exr", tiled).find("tiled"), std::string::npos);
