@@ -201,6 +201,7 @@ class CpuEngine final : public app::Engine {
         report.device = processorName();
         report.threads = threads_;
         report.features = features_;
+        report.lightSampling = app::describeLightShapes(settings_, features_);
         if (kernel_ != nullptr) report.kernel = std::string(kernel_->name) + "/" + name(set_);
         report.rays = {counters_.camera, counters_.scattered, counters_.shadow};
         report.nonfiniteSamples = counters_.nonfinite;

@@ -287,6 +287,7 @@ app::EngineReport GpuEngine::report() const {
     report.engine = "pipeline";
     report.device = context_.info().name;
     report.features = features_;
+    report.lightSampling = app::describeLightShapes(settings_, features_);
     if (pipeline_) report.kernel = pipeline_->name();
     if (scene_) report.accelBuildSeconds = scene_->accel().buildSeconds();
     report.deviceBytes = context_.deviceBytes();

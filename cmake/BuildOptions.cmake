@@ -31,6 +31,8 @@ else()
     add_compile_options(-Wall -Wextra -Wpedantic -ffp-contract=off $<$<BOOL:${RT_WARNINGS_AS_ERRORS}>:-Werror>)
     # GCC 12 takes the alternatives that a std::variant does not hold for uninitialised variables.
     add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+    # GCC 12's vectoriser of straight-line code drops the rounding to float in double(float(x)) of neighbouring components.
+    add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
     if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
         add_compile_options(-Wno-restrict) # false alarms for std::string's operator+, GCC bug 105329
     endif()

@@ -45,4 +45,21 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     return features | settings.features.value_or(0u);
 }
 
+std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features) {
+    std::string text;
+    const auto describe = [&](std::uint32_t feature, ShapeSampling method, const char* shape, const char* solidAngle,
+                              const char* regimes) {
+        if (!shared::has(features, feature)) return;
+        const char* used = method == ShapeSampling::Area ? "area" : method == ShapeSampling::Auto ? regimes : solidAngle;
+        text += (text.empty() ? "" : ", ") + std::string(shape) + ": " + used;
+    };
+    if (settings.lightSampling == LightSampling::Bsdf) return "none";
+    describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone", "cone");
+    describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
+             "auto (area when far, columns when thin, else solid-angle)");
+    describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
+             "auto (area when far, else solid-angle)");
+    return text.empty() ? "none" : text;
+}
+
 }  // namespace rt::app

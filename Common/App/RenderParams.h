@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 
 #include "Common/App/Settings.h"
 #include "Common/Scene/CompiledScene.h"
@@ -13,5 +14,8 @@ shared::RenderParams makeRenderParams(const RenderSettings& settings);
 // What a kernel needs for this scene, camera and settings, and whatever else the settings force on it.
 std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                              const RenderSettings& settings);
+
+// How each shape of light that exists is sampled, regimes of `auto` named: "sphere: cone, quad: auto (area, columns, ...)".
+std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features);
 
 }  // namespace rt::app
