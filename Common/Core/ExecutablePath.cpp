@@ -28,4 +28,4 @@ std::filesystem::path executablePath() {
 #endif
 }
 
-}  // namespace rt
+} // namespace rt

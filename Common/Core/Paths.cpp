@@ -42,4 +42,4 @@ std::optional<fs::path> findAsset(const fs::path& name) {
     return std::nullopt;
 }
 
-}  // namespace rt
+} // namespace rt

@@ -9,7 +9,8 @@ namespace rt {
 // Absolute path of the running program; empty where the platform does not tell.
 std::filesystem::path executablePath();
 
-// $XDG_CACHE_HOME/ray-tracing or the platform's place for what can be made again; empty when the environment names none.
+// $XDG_CACHE_HOME/ray-tracing or the platform's place for what can be made again; empty when the environment names
+// none.
 std::filesystem::path userCacheFolder();
 
 // Folders searched for assets, in order: $RT_ASSETS, the Assets folder of the source tree that the program was built
@@ -19,4 +20,4 @@ std::vector<std::filesystem::path> assetFolders();
 // An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.
 std::optional<std::filesystem::path> findAsset(const std::filesystem::path& name);
 
-}  // namespace rt
+} // namespace rt

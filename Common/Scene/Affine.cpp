@@ -42,12 +42,11 @@ Affine toAffine(const Matrix& step) {
     return {glm::dmat3(m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]), {m[3], m[7], m[11]}};
 }
 
-}  // namespace
+} // namespace
 
 Affine toAffine(const Transform& transform) {
     Affine all;
-    for (const auto& step : transform)
-        all = std::visit([](const auto& s) { return toAffine(s); }, step) * all;
+    for (const auto& step : transform) all = std::visit([](const auto& s) { return toAffine(s); }, step) * all;
     return all;
 }
 
@@ -70,4 +69,4 @@ std::optional<double> uniformScale(const Affine& map) {
     return std::sqrt(s2);
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -43,4 +43,4 @@ std::optional<double> uniformScale(const Affine& map);
 // Of the steps one after the other. A rotation about a zero axis is the identity.
 Affine toAffine(const Transform& transform);
 
-}  // namespace rt::scene
+} // namespace rt::scene

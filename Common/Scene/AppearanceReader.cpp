@@ -53,7 +53,7 @@ MaterialDesc readKind(const JsonNode& node) {
     return material;
 }
 
-}  // namespace
+} // namespace
 
 TextureDesc readTexture(const JsonNode& node, const SceneReferences& references) {
     const std::string type = node.at("type").oneOf({"solid", "checker", "noise", "image"});
@@ -81,4 +81,4 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
     return material;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -34,4 +34,4 @@ struct Bounds {
     }
 };
 
-}  // namespace rt::scene
+} // namespace rt::scene

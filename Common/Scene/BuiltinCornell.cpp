@@ -42,7 +42,7 @@ void addShortBox(SceneDesc& scene) {
     add(scene, placed(box({0, 0, 0}, {165, 165, 165}, "white"), -18, {130, 0, 65}));
 }
 
-}  // namespace
+} // namespace
 
 SceneDesc restOfLifeCornellBox() {
     SceneDesc scene = litBox();
@@ -78,8 +78,7 @@ SceneDesc whiteSpheres(std::uint32_t count) {
     spheres.material = "white";
     spheres.centers.reserve(count);
     SceneRandom random(5);
-    for (std::uint32_t i = 0; i < count; ++i)
-        spheres.centers.push_back(random.vector(0, 500));
+    for (std::uint32_t i = 0; i < count; ++i) spheres.centers.push_back(random.vector(0, 500));
     add(scene, placed(std::move(spheres), 15, {0, 0, 300}));
     return scene;
 }
@@ -125,4 +124,4 @@ SceneDesc cornellBoxLucy() {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

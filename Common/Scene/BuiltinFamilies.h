@@ -46,4 +46,4 @@ SceneDesc triangleLights();
 SceneDesc furnace();
 SceneDesc furnaceMixed();
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -54,7 +54,7 @@ SceneDesc field(double aperture) {
     return scene;
 }
 
-}  // namespace
+} // namespace
 
 SceneDesc cubeAndSpheres() {
     SceneDesc scene;
@@ -110,4 +110,4 @@ SceneDesc lucyInOneWeekend() {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -56,7 +56,7 @@ MediumDesc ballOf(const SphereBoundary& boundary, double density, const glm::dve
     return medium;
 }
 
-}  // namespace
+} // namespace
 
 // The predecessor's own: a sphere that moves sideways.
 SceneDesc nextWeekDefault() {
@@ -181,18 +181,17 @@ SceneDesc nextWeekFinal() {
     add(scene, moving);
     addSphere(scene, {260, 150, 45}, 50, "glass");
     addSphere(scene, {0, 150, 145}, 50, "metal");
-    addSphere(scene, {360, 150, 145}, 70, "glass");  // filled with a dense medium: subsurface scattering
+    addSphere(scene, {360, 150, 145}, 70, "glass"); // filled with a dense medium: subsurface scattering
     add(scene, ballOf({{360, 150, 145}, 70}, 0.2, {0.2, 0.4, 0.9}));
-    add(scene, ballOf({{0, 0, 0}, 5000}, 0.0001, glm::dvec3(1)));  // mist over everything
+    add(scene, ballOf({{0, 0, 0}, 5000}, 0.0001, glm::dvec3(1))); // mist over everything
     addSphere(scene, {400, 200, 400}, 100, "earth");
     addSphere(scene, {220, 280, 300}, 80, "marble");
     SphereSetDesc cube;
     cube.radius = 10;
     cube.material = "white";
-    for (int i = 0; i < 1000; ++i)
-        cube.centers.push_back(random.vector(0, 165));
+    for (int i = 0; i < 1000; ++i) cube.centers.push_back(random.vector(0, 165));
     add(scene, placed(std::move(cube), 15, {-100, 270, 395}));
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -15,7 +15,7 @@ SceneDesc underSky() {
     return scene;
 }
 
-}  // namespace
+} // namespace
 
 SceneDesc oneWeekendDefault() {
     SceneDesc scene = underSky();
@@ -69,4 +69,4 @@ SceneDesc oneWeekendFinal() {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

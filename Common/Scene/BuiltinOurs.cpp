@@ -14,7 +14,7 @@ namespace rt::scene {
 SceneDesc veachMis() {
     SceneDesc scene;
     const glm::dvec3 eye(0, 2.5, 15), middleOfLights(0, 4, -2);
-    scene.camera = camera(eye, {0, 0.6, 0}, 29);
+    scene.camera = camera(eye, {0, 0.35, 0}, 33);
     scene.render.aspect = 4.0 / 3.0;
     scene.materials["wall"] = lambertian(0.4, 0.4, 0.4);
     addQuad(scene, {-20, -3, 20}, {40, 0, 0}, {0, 0, -28}, "wall");
@@ -24,7 +24,7 @@ SceneDesc veachMis() {
     for (std::size_t i = 0; i < 4; ++i) {
         const std::string light = "light " + std::to_string(i + 1);
         scene.materials[light] = emitter(glm::dvec3(2.5 / (radii[i] * radii[i])));
-        addSphere(scene, middleOfLights + glm::dvec3(-5.2 + 3.4 * static_cast<double>(i), 0, 0), radii[i], light);
+        addSphere(scene, middleOfLights + glm::dvec3(-5 + 3.3 * static_cast<double>(i), 0, 0), radii[i], light);
     }
     for (std::size_t i = 0; i < 4; ++i) {
         const std::string plate = "plate " + std::to_string(i + 1);
@@ -43,7 +43,7 @@ SceneDesc veachMis() {
 
 namespace {
 
-constexpr int kPowerClasses = 8;  // of many-lights, each twice as bright as the one before
+constexpr int kPowerClasses = 8; // of many-lights, each twice as bright as the one before
 
 // Lights of one class: a colour from warm to cool.
 MaterialDesc classMaterial(int power, double scale) {
@@ -69,33 +69,34 @@ void addOccluders(SceneDesc& scene) {
     addSphere(scene, {0, 7, 6}, 7, "white");
 }
 
-}  // namespace
+} // namespace
 
 // A room of 100 x 40 x 100 with columns. As many spheres as quads as triangles, which shrink as they become more and
 // keep their total power; brightness spans 128 to 1.
 SceneDesc manyLights(std::uint32_t count) {
     SceneDesc scene;
-    scene.camera = camera({0, 17, -48}, {0, 11, 0}, 65);
+    scene.camera = camera({6, 13, -47}, {0, 9, 0}, 62);
     scene.render.aspect = 16.0 / 9.0;
     scene.materials = {
         {"white", lambertian(0.73, 0.73, 0.73)}, {"glass", glass(1.5)}, {"metal", metal({0.8, 0.7, 0.5}, 0.15)}};
-    addRoom(scene, {-50, 0, -50}, {50, 40, 50}, "white");
+    scene.materials["wall"] = lambertian(0.5, 0.42, 0.36);
+    addRoom(scene, {-50, 0, -50}, {50, 40, 50}, "wall");
     addOccluders(scene);
 
-    const double size = 4 / std::cbrt(double(count));  // edge or diameter
+    const double size = 4 / std::cbrt(double(count)); // edge or diameter
     std::array<SphereSetDesc, kPowerClasses> spheres;
     std::array<MeshData, kPowerClasses> triangles;
     SceneRandom random(6);
     for (int power = 0; power < kPowerClasses; ++power) {
         const std::string material = "light " + std::to_string(power);
-        scene.materials[material] = classMaterial(power, 30 / (size * size * count));
+        scene.materials[material] = classMaterial(power, 250 / (size * size * count));
         spheres[static_cast<std::size_t>(power)].radius = 0.5 * size;
         spheres[static_cast<std::size_t>(power)].material = material;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto power = static_cast<std::size_t>(random.next() * kPowerClasses);
-        const double x = random.next(-46, 46), y = random.next(4, 38);
-        const glm::dvec3 center(x, y, random.next(-46, 46));
+        const double x = random.next(-46, 46), y = random.next(12, 38);
+        const glm::dvec3 center(x, y, random.next(-26, 46)); // none close to the camera
         const glm::dvec3 normal = randomDirection(random);
         const glm::dvec3 u =
             glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -142,7 +143,7 @@ MeshData letters(const std::vector<std::array<const char*, 7>>& glyphs) {
 const std::array<const char*, 7> kLetterR = {"####.", "#...#", "#...#", "####.", "#.#..", "#..#.", "#...#"};
 const std::array<const char*, 7> kLetterT = {"#####", "..#..", "..#..", "..#..", "..#..", "..#..", "..#.."};
 
-}  // namespace
+} // namespace
 
 SceneDesc triangleLights() {
     SceneDesc scene;
@@ -215,4 +216,4 @@ SceneDesc furnaceMixed() {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

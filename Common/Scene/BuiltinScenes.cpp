@@ -105,7 +105,7 @@ std::optional<std::uint32_t> parseCount(std::string_view text) {
     return isValid ? std::optional(count) : std::nullopt;
 }
 
-}  // namespace
+} // namespace
 
 std::span<const BuiltinScene> builtinScenes() {
     return kScenes;
@@ -134,4 +134,4 @@ SceneDesc findBuiltinScene(const std::string& id) {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

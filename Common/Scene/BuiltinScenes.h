@@ -12,8 +12,8 @@ namespace rt::scene {
 struct BuiltinScene {
     std::string_view id;
     std::string_view title;
-    std::string_view description;  // one line
-    std::uint32_t defaultCount;    // id:N chooses another; 0: the scene has no count
+    std::string_view description; // one line
+    std::uint32_t defaultCount;   // id:N chooses another; 0: the scene has no count
     SceneDesc (*make)(std::uint32_t count);
 };
 
@@ -26,4 +26,4 @@ std::span<const BuiltinScene> builtinScenes();
 // allowed.
 SceneDesc findBuiltinScene(const std::string& id);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -54,7 +54,7 @@ std::uint32_t ofSky(const shared::SceneGlobals& globals) {
     return shared::kFeatureSky | (globals.skyKind == shared::kSkyImage ? shared::kFeatureSkyImage : 0u);
 }
 
-}  // namespace
+} // namespace
 
 std::uint32_t featureMask(const CompiledScene& scene) {
     std::uint32_t mask = ofSky(scene.globals);
@@ -70,13 +70,10 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     need(scene.globals.lightCount > shared::kContributionLights, shared::kFeatureManyLights);
     need(scene.globals.targetCount > 0, shared::kFeatureTargets);
     need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
-    for (const shared::Material& material : scene.materials)
-        mask |= ofMaterial(material);
-    for (const shared::Texture& texture : scene.textures)
-        mask |= ofTexture(texture);
-    for (const shared::Light& light : scene.lights)
-        mask |= ofLight(light);
+    for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
+    for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
+    for (const shared::Light& light : scene.lights) mask |= ofLight(light);
     return mask;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -8,4 +8,4 @@ namespace rt::scene {
 // What the arrays of a finished scene need of a kernel.
 std::uint32_t featureMask(const CompiledScene& scene);
 
-}  // namespace rt::scene
+} // namespace rt::scene

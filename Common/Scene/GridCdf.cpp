@@ -30,4 +30,4 @@ std::vector<float> gridCdf(std::span<const double> weights) {
     return cdf;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

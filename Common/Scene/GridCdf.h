@@ -5,7 +5,7 @@
 
 namespace rt::scene {
 
-inline constexpr double kCdfCells = 16777216;  // 2^24, the grid of uniform numbers
+inline constexpr double kCdfCells = 16777216; // 2^24, the grid of uniform numbers
 
 // n + 1 values from 0 to exactly 1, all multiples of 2^-24: bin i is [cdf[i], cdf[i+1]). Its width is its probability
 // to the last bit for a u on that grid; it is in proportion to the weight (>= 0) up to the grid, at least 2^-24 where
@@ -13,4 +13,4 @@ inline constexpr double kCdfCells = 16777216;  // 2^24, the grid of uniform numb
 // everything.
 std::vector<float> gridCdf(std::span<const double> weights);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -8,12 +8,12 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::size_t kSharedPrimitives = 64;  // below it an instance costs more than copies of the primitives
+constexpr std::size_t kSharedPrimitives = 64; // below it an instance costs more than copies of the primitives
 constexpr double kMaxInstances = 1 << 24;
 constexpr std::size_t kMaxDepth = 64;
 constexpr double kMaxPrimitives = 1 << 28;
 
-}  // namespace
+} // namespace
 
 InstancePlan::InstancePlan(const SceneDesc& desc, const MaterialTable& materials, ModelCache& models,
                            const Affine& toWorld)
@@ -92,4 +92,4 @@ std::size_t InstancePlan::primitiveCount(const std::vector<ObjectDesc>& objects)
     return sum;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -16,7 +16,7 @@ namespace rt::scene {
 // One appearance of a prototype.
 struct Occurrence {
     Affine toWorld;
-    const MaterialDesc* material;  // replaces those of the surfaces unless null
+    const MaterialDesc* material; // replaces those of the surfaces unless null
 
     // All surfaces emit, and emitters are world primitives.
     bool isBaked() const { return material && emits(*material); }
@@ -27,7 +27,7 @@ class InstancePlan {
     struct Prototype {
         const std::vector<ObjectDesc>* objects = nullptr;
         std::vector<Occurrence> occurrences;
-        bool isShared = false;  // one geometry for all occurrences, instead of copies
+        bool isShared = false; // one geometry for all occurrences, instead of copies
     };
 
     // Throws InputError for unknown and cyclic prototypes, for prototypes nested deeper than 64, and for more than 2^24
@@ -47,8 +47,8 @@ class InstancePlan {
     const MaterialTable& materials_;
     ModelCache& models_;
     std::map<std::string, Prototype> prototypes_;
-    std::map<std::string, double> instanceCounts_;  // in one appearance of a prototype
-    std::vector<std::string> open_;                 // prototypes being counted
+    std::map<std::string, double> instanceCounts_; // in one appearance of a prototype
+    std::vector<std::string> open_;                // prototypes being counted
 };
 
-}  // namespace rt::scene
+} // namespace rt::scene

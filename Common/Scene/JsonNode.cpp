@@ -42,8 +42,7 @@ std::string excerpt(const Json& value) {
 
 std::string listed(std::initializer_list<const char*> names) {
     std::string text;
-    for (const char* name : names)
-        text.append(text.empty() ? "" : ", ").append(name);
+    for (const char* name : names) text.append(text.empty() ? "" : ", ").append(name);
     return text;
 }
 
@@ -56,10 +55,10 @@ std::string rangeText(double low, double high) {
     return text.str();
 }
 
-}  // namespace
+} // namespace
 
 Json parseJson(const std::string& text, const std::string& file) {
-    std::vector<std::set<std::string>> keys;  // of the objects being read
+    std::vector<std::set<std::string>> keys; // of the objects being read
     const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
         if (depth > kMaxDepth) throw InputError(file + ": values are nested deeper than " + std::to_string(kMaxDepth));
         if (event == Json::parse_event_t::object_start) keys.emplace_back();
@@ -73,7 +72,7 @@ Json parseJson(const std::string& text, const std::string& file) {
     } catch (const Json::parse_error& error) {
         throw InputError(file + ":" + lineAndColumn(text, error.byte > 0 ? error.byte - 1 : 0) + ": " +
                          reason(error.what()));
-    } catch (const Json::exception& error) {  // a number that no double can hold
+    } catch (const Json::exception& error) { // a number that no double can hold
         throw InputError(file + ": " + reason(error.what()));
     }
 }
@@ -182,9 +181,8 @@ std::vector<double> JsonNode::numbers(std::size_t width) const {
     std::vector<double> numbers(arraySize());
     if (numbers.empty() || numbers.size() % width != 0)
         failValue("an array whose length is a multiple of " + std::to_string(width) + " and not 0");
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-        numbers[i] = element(i).number();
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = element(i).number();
     return numbers;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -22,31 +22,31 @@ class JsonNode {
     JsonNode(const nlohmann::json& document, const std::string& file) : value_(&document), file_(&file) {}
 
     const nlohmann::json& value() const { return *value_; }
-    std::string path() const;  // "/objects/3/radius"
+    std::string path() const; // "/objects/3/radius"
 
     // ---- structure
     // An object with none but these keys.
     void expectKeys(std::initializer_list<const char*> allowed) const;
-    JsonNode at(const char* key) const;  // must exist
+    JsonNode at(const char* key) const; // must exist
     std::optional<JsonNode> find(const char* key) const;
     bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
-    std::size_t arraySize() const;  // must be an array
+    std::size_t arraySize() const; // must be an array
     JsonNode element(std::size_t index) const;
-    template <typename Function>  // (const std::string& key, const JsonNode& member), in the order of the keys
+    template <typename Function> // (const std::string& key, const JsonNode& member), in the order of the keys
     void forEachMember(Function function) const;
-    template <typename Function>  // (const JsonNode& element)
+    template <typename Function> // (const JsonNode& element)
     void forEachElement(Function function) const;
 
     // ---- values
     bool boolean() const;
     std::string string() const;
     std::string oneOf(std::initializer_list<const char*> allowed) const;
-    double number() const;  // finite
+    double number() const; // finite
     double positive() const;
     double within(double low, double high) const;
     std::uint32_t unsignedInteger() const;
     glm::dvec3 vector() const;
-    glm::dvec3 vectorWithin(double low, double high) const;  // each component
+    glm::dvec3 vectorWithin(double low, double high) const; // each component
     // A flat array of numbers, a multiple of `width` of them.
     std::vector<double> numbers(std::size_t width) const;
 
@@ -62,22 +62,20 @@ class JsonNode {
     const nlohmann::json* value_;
     const std::string* file_;
     const JsonNode* parent_ = nullptr;
-    const char* key_ = nullptr;  // null: an element of an array
+    const char* key_ = nullptr; // null: an element of an array
     std::size_t index_ = 0;
 };
 
 template <typename Function>
 void JsonNode::forEachMember(Function function) const {
     if (!value_->is_object()) failValue("an object");
-    for (const auto& [key, member] : value_->items())
-        function(key, JsonNode(member, *this, key.c_str(), 0));
+    for (const auto& [key, member] : value_->items()) function(key, JsonNode(member, *this, key.c_str(), 0));
 }
 
 template <typename Function>
 void JsonNode::forEachElement(Function function) const {
     const std::size_t count = arraySize();
-    for (std::size_t i = 0; i < count; ++i)
-        function(element(i));
+    for (std::size_t i = 0; i < count; ++i) function(element(i));
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -35,7 +35,7 @@ shared::LightBound boundOf(const shared::Light& light) {
     shared::LightBound bound{};
     const double luminous = luminance(light.emission);
     if (!isFlat(light)) {
-        bound.center = light.position + 0.5f * light.edgeU;  // the middle of a moving sphere's way
+        bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
         bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
         bound.intensity = static_cast<float>(luminous * kPi * light.radius * light.radius);
         return bound;
@@ -46,11 +46,9 @@ shared::LightBound boundOf(const shared::Light& light) {
     const shared::vec3 vertices[4] = {shared::vec3(0), light.edgeU, light.edgeV,
                                       isQuad ? light.edgeU + light.edgeV : shared::vec3(0)};
     shared::vec3 lower(0), upper(0);
-    for (const shared::vec3& v : vertices)
-        lower = glm::min(lower, v), upper = glm::max(upper, v);
+    for (const shared::vec3& v : vertices) lower = glm::min(lower, v), upper = glm::max(upper, v);
     const shared::vec3 middle = isQuad ? 0.5f * vertices[3] : 0.5f * (lower + upper);
-    for (const shared::vec3& v : vertices)
-        bound.radius = std::max(bound.radius, glm::length(v - middle));
+    for (const shared::vec3& v : vertices) bound.radius = std::max(bound.radius, glm::length(v - middle));
     bound.center = light.position + middle;
     bound.radius *= 1 + 4 * shared::kEpsilon;
     bound.axis = light.normal;
@@ -59,7 +57,7 @@ shared::LightBound boundOf(const shared::Light& light) {
     return bound;
 }
 
-}  // namespace
+} // namespace
 
 double luminance(const glm::dvec3& color) {
     return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
@@ -155,4 +153,4 @@ void appendTarget(const shared::Light& target, CompiledScene& out) {
     ++out.globals.targetCount;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -7,7 +7,7 @@
 
 namespace rt::scene {
 
-double luminance(const glm::dvec3& color);  // Rec. 709
+double luminance(const glm::dvec3& color); // Rec. 709
 
 // Lights of primitives as kernels see them; `emission` is the mean radiance, `material` an index into the scene's.
 shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& motion);
@@ -22,4 +22,4 @@ bool appendSkyLight(const Bounds& bounds, CompiledScene& out);
 void finishLights(CompiledScene& out);
 void appendTarget(const shared::Light& target, CompiledScene& out);
 
-}  // namespace rt::scene
+} // namespace rt::scene

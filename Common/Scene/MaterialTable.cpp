@@ -20,7 +20,7 @@ std::uint32_t materialKind(MaterialKind kind) {
     return shared::kMaterialEmitter;
 }
 
-}  // namespace
+} // namespace
 
 MaterialTable::MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out,
                              TextureTable& textures)
@@ -63,4 +63,4 @@ bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {
     return (albedo && textures_.mayShowImage(*albedo)) || textures_.mayShowImage(desc.emissionTexture);
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -38,4 +38,4 @@ inline bool emits(const MaterialDesc& material) {
     return material.emission.x > 0 || material.emission.y > 0 || material.emission.z > 0;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

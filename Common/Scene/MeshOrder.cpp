@@ -9,7 +9,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::uint32_t kBits = 10;  // per axis
+constexpr std::uint32_t kBits = 10; // per axis
 
 // Two zero bits between the lowest ten.
 std::uint32_t spread(std::uint32_t x) {
@@ -30,21 +30,19 @@ void radixSort(std::vector<Keyed>& items) {
     for (std::uint32_t shift = 0; shift < 3 * kBits; shift += kBits) {
         std::array<std::size_t, 1u << kBits> starts{};
         const auto digit = [shift](const Keyed& item) { return item.code >> shift & ((1u << kBits) - 1); };
-        for (const Keyed& item : items)
-            ++starts[digit(item)];
+        for (const Keyed& item : items) ++starts[digit(item)];
         std::size_t sum = 0;
         for (std::size_t& start : starts) {
             const std::size_t count = start;
             start = sum;
             sum += count;
         }
-        for (const Keyed& item : items)
-            other[starts[digit(item)]++] = item;
+        for (const Keyed& item : items) other[starts[digit(item)]++] = item;
         items.swap(other);
     }
 }
 
-}  // namespace
+} // namespace
 
 void orderAlongCurve(const std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles) {
     if (triangles.size() < 2) return;
@@ -68,9 +66,8 @@ void orderAlongCurve(const std::vector<glm::vec3>& positions, std::vector<glm::u
     }
     radixSort(keys);
     std::vector<glm::uvec3> ordered(triangles.size());
-    for (std::size_t i = 0; i < keys.size(); ++i)
-        ordered[i] = triangles[keys[i].index];
+    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = triangles[keys[i].index];
     triangles.swap(ordered);
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

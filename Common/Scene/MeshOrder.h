@@ -9,4 +9,4 @@ namespace rt::scene {
 // neighbours in memory become neighbours in space.
 void orderAlongCurve(const std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles);
 
-}  // namespace rt::scene
+} // namespace rt::scene

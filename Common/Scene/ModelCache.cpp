@@ -47,4 +47,4 @@ std::size_t ModelCache::triangleCount(const MeshDesc& object) {
     return count;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -36,4 +36,4 @@ class ModelCache {
     std::map<std::string, ObjModel> models_;
 };
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -71,7 +71,7 @@ MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& ke
     material.albedo = diffuse;
     if (!source.diffuse_texname.empty())
         material.albedo = addImage(source.diffuse_texname, diffuse, key + "/map_Kd", folder, model, place);
-    switch (source.illum) {  // the reflection models of the format's specification
+    switch (source.illum) { // the reflection models of the format's specification
         case 3:
         case 5:
         case 8:
@@ -85,7 +85,7 @@ MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& ke
         case 9: {
             const glm::dvec3 filter = color(source.transmittance, 1);
             material.kind = MaterialKind::Dielectric;
-            material.albedo = filter == glm::dvec3(0) ? glm::dvec3(1) : filter;  // the format's default is 0 here
+            material.albedo = filter == glm::dvec3(0) ? glm::dvec3(1) : filter; // the format's default is 0 here
             material.ior = source.ior > 1 ? source.ior : 1.5;
             break;
         }
@@ -139,8 +139,7 @@ class Builder : public tinyobj::MaterialReader {
         if (count == 3)
             triangles.emplace_back(face_[0], face_[1], face_[2]);
         else
-            for (const glm::uvec3& t : cutPolygon(outline_))
-                triangles.emplace_back(face_[t.x], face_[t.y], face_[t.z]);
+            for (const glm::uvec3& t : cutPolygon(outline_)) triangles.emplace_back(face_[t.x], face_[t.y], face_[t.z]);
     }
 
     // MaterialReader: one file of materials.
@@ -184,7 +183,7 @@ class Builder : public tinyobj::MaterialReader {
         std::uint32_t next;
     };
     struct Part {
-        std::vector<glm::uvec3> triangles;  // indices into vertices_
+        std::vector<glm::uvec3> triangles; // indices into vertices_
     };
 
     Part& current() {
@@ -253,10 +252,10 @@ class Builder : public tinyobj::MaterialReader {
     std::vector<glm::vec3> positions_, normals_;
     std::vector<glm::vec2> uvs_;
     std::vector<Vertex> vertices_;
-    std::vector<std::uint32_t> firstVertex_;  // of each position
-    std::map<std::string, Part> parts_;       // by material
+    std::vector<std::uint32_t> firstVertex_; // of each position
+    std::map<std::string, Part> parts_;      // by material
     Part* part_ = nullptr;
-    std::vector<std::uint32_t> face_;  // scratch
+    std::vector<std::uint32_t> face_; // scratch
     std::vector<glm::dvec3> outline_;
     std::vector<std::uint32_t> renamed_;
 };
@@ -265,7 +264,7 @@ Builder& builder(void* user) {
     return *static_cast<Builder*>(user);
 }
 
-}  // namespace
+} // namespace
 
 MaterialDesc plainMaterial() {
     MaterialDesc material;
@@ -300,12 +299,10 @@ SceneDesc loadObjScene(const fs::path& path) {
     scene.textures = std::move(model.textures);
     Bounds bounds;
     for (ObjPart& part : model.parts) {
-        for (const glm::dvec3& position : part.mesh.positions)
-            bounds.add(position);
+        for (const glm::dvec3& position : part.mesh.positions) bounds.add(position);
         if (part.material.empty()) {
             part.material = "plain";
-            while (scene.materials.count(part.material) > 0)
-                part.material += '\'';
+            while (scene.materials.count(part.material) > 0) part.material += '\'';
             scene.materials[part.material] = plainMaterial();
         }
         MeshDesc mesh;
@@ -322,4 +319,4 @@ SceneDesc loadObjScene(const fs::path& path) {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

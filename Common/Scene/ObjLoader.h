@@ -11,12 +11,12 @@ namespace rt::scene {
 
 // The triangles of one material.
 struct ObjPart {
-    std::string material;  // key of ObjModel::materials; empty: the file names none
+    std::string material; // key of ObjModel::materials; empty: the file names none
     MeshData mesh;
 };
 
 struct ObjModel {
-    std::vector<ObjPart> parts;  // none is empty
+    std::vector<ObjPart> parts; // none is empty
     std::map<std::string, MaterialDesc> materials;
     std::map<std::string, TextureDesc> textures;
 };
@@ -33,4 +33,4 @@ ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const st
 // A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.
 SceneDesc loadObjScene(const std::filesystem::path& path);
 
-}  // namespace rt::scene
+} // namespace rt::scene

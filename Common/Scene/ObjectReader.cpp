@@ -64,8 +64,7 @@ Surface readSurface(Surface surface, const JsonNode& node, const SceneReferences
 std::vector<glm::dvec3> readVectors(const JsonNode& node) {
     const std::vector<double> values = node.numbers(3);
     std::vector<glm::dvec3> vectors(values.size() / 3);
-    for (std::size_t i = 0; i < vectors.size(); ++i)
-        vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
     return vectors;
 }
 
@@ -146,8 +145,7 @@ MeshData readMeshData(const JsonNode& node) {
     if (const auto uvs = node.find("uvs")) {
         const std::vector<double> values = uvs->numbers(2);
         expectOneEach(*uvs, values.size() / 2);
-        for (std::size_t i = 0; i < values.size(); i += 2)
-            data.uvs.emplace_back(values[i], values[i + 1]);
+        for (std::size_t i = 0; i < values.size(); i += 2) data.uvs.emplace_back(values[i], values[i + 1]);
     }
     data.triangles = readTriangles(node.at("triangles"), data.positions.size());
     return data;
@@ -221,7 +219,7 @@ ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
     return {readSurface(readQuadShape(node), node, references)};
 }
 
-}  // namespace
+} // namespace
 
 std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references) {
     std::vector<ObjectDesc> objects;
@@ -239,4 +237,4 @@ TargetDesc readTarget(const JsonNode& node) {
     return {readQuadShape(node)};
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

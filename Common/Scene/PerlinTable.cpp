@@ -17,7 +17,7 @@ double uniform(std::uint32_t word) {
     return word * 0x1p-32;
 }
 
-}  // namespace
+} // namespace
 
 std::uint32_t appendPerlinTable(std::uint32_t seed, CompiledScene& out) {
     const auto table = static_cast<std::uint32_t>(out.perlinGradients.size() / shared::kPerlinSize);
@@ -34,10 +34,10 @@ std::uint32_t appendPerlinTable(std::uint32_t seed, CompiledScene& out) {
         std::iota(begin, out.perlinPermutations.end(), 0u);
         for (std::uint32_t i = shared::kPerlinSize - 1; i > 0; --i) {
             const std::uint64_t word = shared::hash3({i, seed, kShuffleStream + axis}).x;
-            std::swap(begin[i], begin[static_cast<std::uint32_t>(word * (i + 1) >> 32)]);  // Fisher-Yates
+            std::swap(begin[i], begin[static_cast<std::uint32_t>(word * (i + 1) >> 32)]); // Fisher-Yates
         }
     }
     return table;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

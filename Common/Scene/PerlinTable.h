@@ -9,4 +9,4 @@ namespace rt::scene {
 // index of the table. The same on every machine.
 std::uint32_t appendPerlinTable(std::uint32_t seed, CompiledScene& out);
 
-}  // namespace rt::scene
+} // namespace rt::scene

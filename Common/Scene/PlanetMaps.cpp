@@ -111,13 +111,12 @@ struct PlanetMap {
 constexpr std::array<PlanetMap, 4> kMaps = {
     {{"earth", earth}, {"earth-night", earthNight}, {"mars", mars}, {"venus", venus}}};
 
-}  // namespace
+} // namespace
 
 const std::vector<std::string>& planetMapNames() {
     static const std::vector<std::string> names = [] {
         std::vector<std::string> all;
-        for (const PlanetMap& map : kMaps)
-            all.emplace_back(map.name);
+        for (const PlanetMap& map : kMaps) all.emplace_back(map.name);
         return all;
     }();
     return names;
@@ -141,4 +140,4 @@ TexelData makePlanetMap(const std::string& name) {
     return data;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

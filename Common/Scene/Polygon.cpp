@@ -38,7 +38,7 @@ bool isEar(const Corners& corners, const std::vector<std::uint32_t>& left, std::
     return true;
 }
 
-}  // namespace
+} // namespace
 
 std::vector<glm::uvec3> cutPolygon(const Corners& corners) {
     std::vector<glm::uvec3> triangles;
@@ -64,4 +64,4 @@ std::vector<glm::uvec3> cutPolygon(const Corners& corners) {
     return triangles;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -12,4 +12,4 @@ inline constexpr std::size_t kMaxPolygonCorners = 4096;
 // into `corners`. It may be concave and slightly bent; one that intersects itself or has no area is cut into a fan.
 std::vector<glm::uvec3> cutPolygon(const std::vector<glm::dvec3>& corners);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -39,15 +39,15 @@ std::optional<double> sphereScale(const Affine& map, bool isOriented) {
     return map.linear == glm::dmat3(map.linear[0][0]) && map.linear[0][0] > 0 ? scale : std::nullopt;
 }
 
-}  // namespace
+} // namespace
 
 // What all spheres of one object have in common.
 struct PrimitiveSink::SphereFrame {
     Affine map;
-    std::optional<double> scale;  // of the map, when it leaves spheres spheres
+    std::optional<double> scale; // of the map, when it leaves spheres spheres
     const MaterialDesc& material;
     bool light;
-    bool isShareable;  // unless they move
+    bool isShareable; // unless they move
     const Placement& at;
 };
 
@@ -87,8 +87,7 @@ void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
 
 void PrimitiveSink::add(const SphereSetDesc& object, const Placement& at) {
     const SphereFrame frame = frameOf(object, at);
-    for (const glm::dvec3& center : object.centers)
-        sphere(center, glm::dvec3(0), object.radius, frame);
+    for (const glm::dvec3& center : object.centers) sphere(center, glm::dvec3(0), object.radius, frame);
 }
 
 void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius,
@@ -184,8 +183,7 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
     record.light = isLight(record.material, light) ? appendLight(quadLight(record), record.material) : shared::kNone;
     out_.quads.push_back(record);
     const glm::dvec3 c = record.corner, e = record.edgeU, f = record.edgeV;
-    for (const glm::dvec3& vertex : {c, c + e, c + f, c + e + f})
-        bounds_.add(vertex);
+    for (const glm::dvec3& vertex : {c, c + e, c + f, c + e + f}) bounds_.add(vertex);
 }
 
 // ---- meshes
@@ -195,8 +193,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     if (isExcluded(at.part, !emits(own))) return;
     const Affine map = at.outer * at.local;
     std::vector<shared::vec3> positions(data.positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i)
-        positions[i] = shared::vec3(map.point(data.positions[i]));
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
 
     std::vector<glm::uvec3> triangles;
     triangles.reserve(data.triangles.size());
@@ -278,4 +275,4 @@ void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
     note(dropped_.tinySpheres, " spheres are smaller than the spacing of single-precision numbers at their place");
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -19,11 +19,11 @@ enum class Part { All, Shared, Rest };
 
 // How an object stands in what is being filled.
 struct Placement {
-    Affine outer;                            // prototype to target space
-    Affine local;                            // object to prototype
-    Part part = Part::All;                   // emit only these
-    const MaterialDesc* material = nullptr;  // replaces the object's own unless null
-    std::string place;                       // JSON path, for errors
+    Affine outer;                           // prototype to target space
+    Affine local;                           // object to prototype
+    Part part = Part::All;                  // emit only these
+    const MaterialDesc* material = nullptr; // replaces the object's own unless null
+    std::string place;                      // JSON path, for errors
 };
 
 // What is no sphere in the world, or one whose texture is turned: the unit sphere under an affine map.
@@ -70,4 +70,4 @@ class PrimitiveSink {
     } dropped_;
 };
 
-}  // namespace rt::scene
+} // namespace rt::scene

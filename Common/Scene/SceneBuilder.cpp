@@ -38,15 +38,14 @@ void addRoom(SceneDesc& scene, const glm::dvec3& min, const glm::dvec3& max, con
 }
 
 MeshData icosphere(int levels) {
-    const double g = 0.5 * (1 + std::sqrt(5.0));  // the golden ratio
+    const double g = 0.5 * (1 + std::sqrt(5.0)); // the golden ratio
     MeshData mesh;
     mesh.positions = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                       {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
                       {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
                       {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
-    for (glm::dvec3& p : mesh.positions)
-        p = glm::normalize(p);
+    for (glm::dvec3& p : mesh.positions) p = glm::normalize(p);
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
         const auto middle = [&](std::uint32_t a, std::uint32_t b) {
@@ -65,4 +64,4 @@ MeshData icosphere(int levels) {
     return mesh;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -15,7 +15,7 @@ namespace rt::scene {
 class SceneRandom {
   public:
     explicit SceneRandom(std::uint32_t seed) : seed_(seed) {}
-    double next() { return shared::hash3({count_++, seed_, 0x7363656eu}).x * 0x1p-32; }  // [0,1)
+    double next() { return shared::hash3({count_++, seed_, 0x7363656eu}).x * 0x1p-32; } // [0,1)
     double next(double low, double high) { return low + (high - low) * next(); }
     // Components in order.
     glm::dvec3 vector(double low = 0, double high = 1) {
@@ -121,4 +121,4 @@ void addRoom(SceneDesc& scene, const glm::dvec3& min, const glm::dvec3& max, con
 // A sphere of 20 * 4^levels triangles with vertices on the unit sphere, facing outwards.
 MeshData icosphere(int levels);
 
-}  // namespace rt::scene
+} // namespace rt::scene

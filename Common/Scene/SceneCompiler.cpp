@@ -43,8 +43,7 @@ class Compiler {
         emitEllipsoids();
         emitSky();
         finishLights(*out_);
-        for (const TargetDesc& target : desc_.importanceTargets)
-            addTarget(target, toWorld);
+        for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);
         finish();
         return out_;
     }
@@ -73,7 +72,7 @@ class Compiler {
         at.place += "/objects";
         emit(group.objects, at);
     }
-    void emitOne(const InstanceDesc&, const Placement&) {}  // the plan has them
+    void emitOne(const InstanceDesc&, const Placement&) {} // the plan has them
 
     void emitOne(const MediumDesc& desc, const Placement& at) {
         if (at.part == Part::Shared) return;
@@ -140,8 +139,7 @@ class Compiler {
         sink_.finishGeometry();
         Bounds cube;
         cube.add(glm::dvec3(0), 1);
-        for (const Ellipsoid& ellipsoid : sink_.ellipsoids())
-            addInstance(ellipsoid.toWorld, cube, ellipsoid.material);
+        for (const Ellipsoid& ellipsoid : sink_.ellipsoids()) addInstance(ellipsoid.toWorld, cube, ellipsoid.material);
     }
 
     // Of the latest geometry.
@@ -215,15 +213,15 @@ class Compiler {
     MaterialTable materials_;
     ModelCache models_;
     PrimitiveSink sink_;
-    Bounds bounds_;  // of everything, in world space
+    Bounds bounds_; // of everything, in world space
     std::uint64_t droppedMedia_ = 0;
     std::uint64_t droppedInstances_ = 0;
 };
 
-}  // namespace
+} // namespace
 
 std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options) {
     return Compiler(desc, options).run();
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -20,8 +20,8 @@ struct TexelData {
 };
 
 struct CompileOptions {
-    bool oneSidedLights = true;    // what emitters do that do not say it themselves
-    bool generatedAssets = false;  // take stand-ins even where the file exists, so that figures compare across machines
+    bool oneSidedLights = true;   // what emitters do that do not say it themselves
+    bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
     // Reads an image file; throws InputError. A scene with image files needs it.
     std::function<TexelData(const std::filesystem::path&)> loadTexels;
 };
@@ -31,4 +31,4 @@ struct CompileOptions {
 // naming the scene and the place.
 std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options = {});
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -19,15 +19,15 @@ struct CameraDesc {
     glm::dvec3 lookFrom{0, 0, 0};
     glm::dvec3 lookAt{0, 0, -1};
     glm::dvec3 up{0, 1, 0};
-    double verticalFov = 90;    // degrees, (0, 180)
-    double defocusAngle = 0;    // degrees, full apex angle of the cone of the lens; 0: pinhole
-    double focusDistance = 10;  // world units, > 0
+    double verticalFov = 90;   // degrees, (0, 180)
+    double defocusAngle = 0;   // degrees, full apex angle of the cone of the lens; 0: pinhole
+    double focusDistance = 10; // world units, > 0
     bool operator==(const CameraDesc&) const = default;
 };
 
 // What a scene suggests; flags override it.
 struct RenderDefaults {
-    double aspect = 1.0;  // width / height
+    double aspect = 1.0; // width / height
     bool operator==(const RenderDefaults&) const = default;
 };
 
@@ -55,7 +55,7 @@ using Background = std::variant<ConstantBackground, GradientBackground, ImageBac
 // ---- appearance
 // ------------------------------------------------------------------------------------------------------
 
-using ColorOrTexture = std::variant<glm::dvec3, std::string>;  // a constant, or the name of a texture
+using ColorOrTexture = std::variant<glm::dvec3, std::string>; // a constant, or the name of a texture
 
 struct SolidTexture {
     glm::dvec3 color{1, 1, 1};
@@ -63,7 +63,7 @@ struct SolidTexture {
 };
 // Cubes of two textures alternating in world space.
 struct CheckerTexture {
-    double scale = 1;  // edge of a cube
+    double scale = 1; // edge of a cube
     ColorOrTexture even{glm::dvec3(1)};
     ColorOrTexture odd{glm::dvec3(0)};
     bool operator==(const CheckerTexture&) const = default;
@@ -72,15 +72,15 @@ enum class NoiseKind { Marble, Turbulence, Smooth };
 // Perlin noise in world space; formulas stand beside the kinds in Shared/Types.h.
 struct NoiseTexture {
     NoiseKind kind = NoiseKind::Marble;
-    double scale = 1;      // multiplies the point
-    double frequency = 1;  // marble: of the stripes along z
+    double scale = 1;     // multiplies the point
+    double frequency = 1; // marble: of the stripes along z
     glm::dvec3 tint{1, 1, 1};
-    std::uint32_t seed = 0;  // textures of one seed share their tables
+    std::uint32_t seed = 0; // textures of one seed share their tables
     bool operator==(const NoiseTexture&) const = default;
 };
 struct ImageTexture {
     std::string file;
-    std::string standIn;  // name of a generated map that takes over where the file is missing; empty: that is an error
+    std::string standIn; // name of a generated map that takes over where the file is missing; empty: that is an error
     glm::dvec3 tint{1, 1, 1};
     bool operator==(const ImageTexture&) const = default;
 };
@@ -91,12 +91,12 @@ enum class Sides { Front, Both };
 
 struct MaterialDesc {
     MaterialKind kind = MaterialKind::Lambertian;
-    ColorOrTexture albedo{glm::dvec3(1)};  // components in [0,1]; of a dielectric the tint; unused by an emitter
-    double fuzz = 0;                       // metal, [0,1]
-    double ior = 1.5;                      // dielectric, > 0
-    glm::dvec3 emission{0, 0, 0};          // radiance; any kind may emit
-    std::string emissionTexture;           // multiplies emission; empty: none
-    std::optional<Sides> sides;            // which emit; unset: as CompileOptions::oneSidedLights says
+    ColorOrTexture albedo{glm::dvec3(1)}; // components in [0,1]; of a dielectric the tint; unused by an emitter
+    double fuzz = 0;                      // metal, [0,1]
+    double ior = 1.5;                     // dielectric, > 0
+    glm::dvec3 emission{0, 0, 0};         // radiance; any kind may emit
+    std::string emissionTexture;          // multiplies emission; empty: none
+    std::optional<Sides> sides;           // which emit; unset: as CompileOptions::oneSidedLights says
     bool operator==(const MaterialDesc&) const = default;
 };
 
@@ -128,9 +128,9 @@ using Transform = std::vector<std::variant<Translate, Rotate, Scale, Matrix>>;
 struct SphereDesc {
     glm::dvec3 center{0, 0, 0};
     double radius = 1;
-    std::optional<glm::dvec3> centerEnd;  // a moving sphere is here at time 1
+    std::optional<glm::dvec3> centerEnd; // a moving sphere is here at time 1
     std::string material;
-    bool light = true;  // false: an emitter that is not in the light table
+    bool light = true; // false: an emitter that is not in the light table
     bool operator==(const SphereDesc&) const = default;
 };
 // Many spheres of one radius and material.
@@ -160,19 +160,19 @@ struct BoxDesc {
 };
 struct MeshData {
     std::vector<glm::dvec3> positions;
-    std::vector<glm::dvec3> normals;    // one per position, or none: flat
-    std::vector<glm::dvec2> uvs;        // one per position, or none
-    std::vector<glm::uvec3> triangles;  // indices into positions, counter-clockwise seen from the front
+    std::vector<glm::dvec3> normals;   // one per position, or none: flat
+    std::vector<glm::dvec2> uvs;       // one per position, or none
+    std::vector<glm::uvec3> triangles; // indices into positions, counter-clockwise seen from the front
     bool operator==(const MeshData&) const = default;
 };
 struct MeshFile {
-    std::string file;     // OBJ
-    std::string standIn;  // name of a generated mesh that takes over where the file is missing; empty: that is an error
+    std::string file;    // OBJ
+    std::string standIn; // name of a generated mesh that takes over where the file is missing; empty: that is an error
     bool operator==(const MeshFile&) const = default;
 };
 struct MeshDesc {
     std::variant<MeshFile, MeshData> source;
-    std::string material;  // empty: those of the file
+    std::string material; // empty: those of the file
     bool light = true;
     bool operator==(const MeshDesc&) const = default;
 };
@@ -189,7 +189,7 @@ struct BoxBoundary {
 // Homogeneous and isotropic; its boundary is no surface.
 struct MediumDesc {
     std::variant<SphereBoundary, BoxBoundary> boundary;
-    double density = 1;  // extinction per unit of world length, whatever transforms stand above
+    double density = 1; // extinction per unit of world length, whatever transforms stand above
     ColorOrTexture albedo{glm::dvec3(1)};
     bool operator==(const MediumDesc&) const = default;
 };
@@ -197,12 +197,12 @@ struct ObjectDesc;
 struct GroupDesc {
     Transform transform;
     std::vector<ObjectDesc> objects;
-    bool operator==(const GroupDesc&) const;  // of an incomplete type no comparison can be defaulted
+    bool operator==(const GroupDesc&) const; // of an incomplete type no comparison can be defaulted
 };
 struct InstanceDesc {
     std::string prototype;
     Transform transform;
-    std::string material;  // replaces that of every surface in the prototype; empty: keeps them
+    std::string material; // replaces that of every surface in the prototype; empty: keeps them
     bool operator==(const InstanceDesc&) const = default;
 };
 struct ObjectDesc {
@@ -222,17 +222,17 @@ struct TargetDesc {
 };
 
 struct SceneDesc {
-    std::string id;  // of a built-in scene, or the name of the file; not part of a scene file
+    std::string id; // of a built-in scene, or the name of the file; not part of a scene file
     std::string title;
     CameraDesc camera;
     Background background;
     std::map<std::string, TextureDesc> textures;
     std::map<std::string, MaterialDesc> materials;
-    std::map<std::string, std::vector<ObjectDesc>> prototypes;  // what instances refer to
+    std::map<std::string, std::vector<ObjectDesc>> prototypes; // what instances refer to
     std::vector<ObjectDesc> objects;
     std::vector<TargetDesc> importanceTargets;
     RenderDefaults render;
     bool operator==(const SceneDesc&) const = default;
 };
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -37,7 +37,7 @@ class Hasher {
     std::uint64_t state_ = 0x243f6a8885a308d3u;
 };
 
-}  // namespace
+} // namespace
 
 std::uint64_t sceneHash(const CompiledScene& scene) {
     Hasher hash;
@@ -64,4 +64,4 @@ std::uint64_t sceneHash(const CompiledScene& scene) {
     return hash.result();
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

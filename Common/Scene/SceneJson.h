@@ -17,4 +17,4 @@ SceneDesc parseScene(const std::string& text, const std::string& file, const std
 // The text of a scene file. parseScene gives back an equal description, but for its id, and numbers to the last bit.
 std::string toJson(const SceneDesc& scene);
 
-}  // namespace rt::scene
+} // namespace rt::scene

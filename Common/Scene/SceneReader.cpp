@@ -91,7 +91,7 @@ SceneDesc readScene(const JsonNode& root, const SceneReferences& references) {
     return scene;
 }
 
-}  // namespace
+} // namespace
 
 // ---- references
 // ------------------------------------------------------------------------------------------------------
@@ -156,4 +156,4 @@ SceneDesc loadSceneFile(const std::filesystem::path& path) {
     return scene;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

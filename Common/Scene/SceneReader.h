@@ -36,4 +36,4 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
 std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references);
 TargetDesc readTarget(const JsonNode& node);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -100,8 +100,7 @@ template <typename Vector>
 Json flat(const std::vector<Vector>& vectors) {
     Json numbers = Json::array();
     for (const Vector& v : vectors)
-        for (int i = 0; i < v.length(); ++i)
-            numbers.push_back(v[i]);
+        for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
     return numbers;
 }
 
@@ -208,8 +207,7 @@ Json json(const Transform& transform) {
         Json operator()(const Matrix& step) const { return {{"matrix", step.rows}}; }
     };
     Json steps = Json::array();
-    for (const auto& step : transform)
-        steps.push_back(std::visit(Step{}, step));
+    for (const auto& step : transform) steps.push_back(std::visit(Step{}, step));
     return steps;
 }
 
@@ -290,11 +288,10 @@ Json json(const std::vector<ObjectDesc>& objects) {
 
 template <typename Value>
 void setSection(Json& target, const char* key, const std::map<std::string, Value>& section) {
-    for (const auto& [name, value] : section)
-        target[key][name] = json(value);
+    for (const auto& [name, value] : section) target[key][name] = json(value);
 }
 
-}  // namespace
+} // namespace
 
 std::string toJson(const SceneDesc& scene) {
     Json out = {{"version", 1}};
@@ -313,4 +310,4 @@ std::string toJson(const SceneDesc& scene) {
     return text + '\n';
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -20,4 +20,4 @@ std::optional<std::filesystem::path> locateAsset(const std::string& file, const 
     return std::nullopt;
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

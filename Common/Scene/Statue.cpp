@@ -13,7 +13,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kCell = 1.88;  // gives about 450 000 triangles
+constexpr double kCell = 1.88; // gives about 450 000 triangles
 
 // Distances to solids, negative inside; of ellipsoids approximate.
 
@@ -82,7 +82,7 @@ double figure(const glm::dvec3& p) {
     return blend(d, torch(p), 5);
 }
 
-}  // namespace
+} // namespace
 
 const std::vector<std::string>& meshStandInNames() {
     static const std::vector<std::string> names = {"statue"};
@@ -94,4 +94,4 @@ MeshData makeMeshStandIn(const std::string& name) {
     return surfaceNet(figure, {-140, 5, -260}, {120, 895, 260}, kCell);
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

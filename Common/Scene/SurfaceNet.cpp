@@ -13,7 +13,7 @@ namespace rt::scene {
 namespace {
 
 constexpr std::uint32_t kNoVertex = 0xffffffffu;
-constexpr int kBlock = 4;  // cubes along an edge of what is skipped together
+constexpr int kBlock = 4; // cubes along an edge of what is skipped together
 
 // Goes through the grid slice by slice (constant y) and keeps the two latest of samples and of vertices.
 class Net {
@@ -24,10 +24,8 @@ class Net {
 
     MeshData build() {
         const auto area = static_cast<std::size_t>(count_.x) * static_cast<std::size_t>(count_.z);
-        for (auto& slice : samples_)
-            slice.resize(area);
-        for (auto& slice : vertices_)
-            slice.assign(area, kNoVertex);
+        for (auto& slice : samples_) slice.resize(area);
+        for (auto& slice : vertices_) slice.assign(area, kNoVertex);
         for (int y = 0; y < count_.y; ++y) {
             if (y % kBlock == 0) chooseBlocks(y);
             sampleSlice(y);
@@ -72,7 +70,7 @@ class Net {
     void placeVertices(int y) {
         for (int x = 0; x + 1 < count_.x; ++x)
             for (int z = 0; z + 1 < count_.z; ++z) {
-                std::array<double, 8> corner;  // bit 0: x, bit 1: y, bit 2: z
+                std::array<double, 8> corner; // bit 0: x, bit 1: y, bit 2: z
                 int inside = 0;
                 for (int c = 0; c < 8; ++c) {
                     corner[static_cast<std::size_t>(c)] = sample(x + (c & 1), y + (c >> 1 & 1), z + (c >> 2));
@@ -139,34 +137,32 @@ class Net {
         for (const glm::uvec3& t : mesh_.triangles) {
             const glm::dvec3 a = mesh_.positions[t.x], b = mesh_.positions[t.y], c = mesh_.positions[t.z];
             const glm::dvec3 normal = glm::cross(b - a, c - a);
-            for (int i = 0; i < 3; ++i)
-                mesh_.normals[t[i]] += normal;
+            for (int i = 0; i < 3; ++i) mesh_.normals[t[i]] += normal;
         }
-        for (glm::dvec3& normal : mesh_.normals)
-            normal = glm::normalize(normal);
+        for (glm::dvec3& normal : mesh_.normals) normal = glm::normalize(normal);
     }
 
     struct Block {
-        double value;  // at its middle
+        double value; // at its middle
         bool isNear;
     };
 
     const std::function<double(const glm::dvec3&)>& field_;
     const glm::dvec3 lower_;
     const double cell_;
-    const glm::ivec3 count_;  // samples along each axis
+    const glm::ivec3 count_; // samples along each axis
     std::array<std::vector<double>, 2> samples_;
-    std::array<std::vector<std::uint32_t>, 2> vertices_;  // of cubes, by their lowest corner
+    std::array<std::vector<std::uint32_t>, 2> vertices_; // of cubes, by their lowest corner
     std::vector<Block> blocks_;
     int blocksZ_ = 0;
     MeshData mesh_;
 };
 
-}  // namespace
+} // namespace
 
 MeshData surfaceNet(const std::function<double(const glm::dvec3&)>& field, const glm::dvec3& lower,
                     const glm::dvec3& upper, double cell) {
     return Net(field, lower, upper, cell).build();
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -14,4 +14,4 @@ namespace rt::scene {
 MeshData surfaceNet(const std::function<double(const glm::dvec3&)>& field, const glm::dvec3& lower,
                     const glm::dvec3& upper, double cell);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -39,7 +39,7 @@ std::uint32_t noiseKind(NoiseKind kind) {
     return shared::kTextureNoise;
 }
 
-}  // namespace
+} // namespace
 
 glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, std::uint32_t x, std::uint32_t y) {
     const std::size_t texel = std::size_t{y} * image.width + x;
@@ -177,8 +177,7 @@ glm::dvec3 TextureTable::mean(std::uint32_t index) const {
             const shared::Image& image = out_.images[texture.first];
             glm::dvec3 sum(0);
             for (std::uint32_t y = 0; y < image.height; ++y)
-                for (std::uint32_t x = 0; x < image.width; ++x)
-                    sum += texelColor(out_, image, x, y);
+                for (std::uint32_t x = 0; x < image.width; ++x) sum += texelColor(out_, image, x, y);
             return sum / (double(image.width) * image.height) * glm::dvec3(texture.color);
         }
         default:
@@ -186,4 +185,4 @@ glm::dvec3 TextureTable::mean(std::uint32_t index) const {
     }
 }
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -33,17 +33,17 @@ class TextureTable {
     shared::Texture record(const TextureDesc& desc);
     TexelData load(const std::string& file, const std::string& standIn);
 
-    const std::string id_;  // of the scene, for errors
+    const std::string id_; // of the scene, for errors
     std::map<std::string, TextureDesc> library_;
     const CompileOptions& options_;
     CompiledScene& out_;
-    std::map<std::string, std::uint32_t> named_;  // kNone: being made
+    std::map<std::string, std::uint32_t> named_; // kNone: being made
     std::map<std::string, std::uint32_t> images_;
-    int depth_ = 0;                                  // of checkers being made
-    std::map<std::uint32_t, std::uint32_t> perlin_;  // by seed
+    int depth_ = 0;                                 // of checkers being made
+    std::map<std::uint32_t, std::uint32_t> perlin_; // by seed
 };
 
 // Linear colour of a texel of a compiled image.
 glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, std::uint32_t x, std::uint32_t y);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -107,10 +107,8 @@ void expectValid(const CompiledScene& s) {
             ASSERT_EQ(s.lights.at(mesh.firstLight + i - mesh.firstTriangle).position, s.positions[s.triangles[i].x]);
         }
     }
-    for (const shared::Mesh& mesh : s.meshes)
-        EXPECT_LT(mesh.material, s.materials.size());
-    for (const shared::vec3& normal : s.normals)
-        ASSERT_NEAR(glm::dot(normal, normal), 1, 1e-5);
+    for (const shared::Mesh& mesh : s.meshes) EXPECT_LT(mesh.material, s.materials.size());
+    for (const shared::vec3& normal : s.normals) ASSERT_NEAR(glm::dot(normal, normal), 1, 1e-5);
     for (const shared::Material& m : s.materials) {
         EXPECT_TRUE(isIndex(m.texture, s.textures.size()) && isIndex(m.emissionTexture, s.textures.size()));
     }
@@ -149,8 +147,7 @@ TEST_P(BuiltinScenes, IsValidAndSurvivesAFile) {
 
 std::vector<std::string> allIds() {
     std::vector<std::string> ids;
-    for (const BuiltinScene& scene : builtinScenes())
-        ids.emplace_back(scene.id);
+    for (const BuiltinScene& scene : builtinScenes()) ids.emplace_back(scene.id);
     return ids;
 }
 
@@ -244,5 +241,5 @@ TEST(BuiltinScenesTable, FeatureMasks) {
         EXPECT_EQ(compileScene(findBuiltinScene(id), generated())->features, mask) << id;
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene

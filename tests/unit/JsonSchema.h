@@ -82,4 +82,4 @@ class JsonSchema {
     Json root_;
 };
 
-}  // namespace rt::test
+} // namespace rt::test

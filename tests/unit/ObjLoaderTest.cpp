@@ -1,14 +1,12 @@
 // OBJ and MTL files: what is read, and errors that name file and line.
-#include "Common/Scene/ObjLoader.h"
-
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <fstream>
 
 #include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
+#include "Common/Scene/ObjLoader.h"
 #include "Common/Scene/SceneCompiler.h"
 #include "Common/Scene/SceneJson.h"
 
@@ -75,7 +73,8 @@ TEST_F(ObjLoader, CutsPolygons) {
 
 TEST_F(ObjLoader, UnifiesVerticesByAllTheirIndices) {
     const std::string attributes = "vt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 1 0\n";
-    const MeshData mesh = load(kSquare + attributes + "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/2/2\nf 1/2/1 2/2/1 3/3/2\n").parts[0].mesh;
+    const MeshData mesh =
+        load(kSquare + attributes + "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/2/2\nf 1/2/1 2/2/1 3/3/2\n").parts[0].mesh;
     EXPECT_EQ(mesh.triangles.size(), 3u);
     EXPECT_EQ(mesh.positions.size(), 6u); // corners 1 and 3 come in two kinds
     EXPECT_EQ(mesh.normals.size(), 6u);
@@ -86,13 +85,16 @@ TEST_F(ObjLoader, UnifiesVerticesByAllTheirIndices) {
 
 TEST_F(ObjLoader, SplitsByMaterialAndUnderstandsThem) {
     write("model.mtl",
-          "newmtl red\nKd 0.8 0.1 0.1\nillum 2\n\nnewmtl lamp\nKd 0 0 0\nKe 5 6 7\n\nnewmtl mirror\nillum 3\nKs 0.9 0.8 0.7\nPr 0.25\n\n"
-          "newmtl glass\nillum 7\nNi 1.33\nTf 1 0.9 0.9\n\nnewmtl mapped\nKd 0.5 0.5 0.5\nmap_Kd tex\\map.png\nmap_Ke tex/map.png\n");
+          "newmtl red\nKd 0.8 0.1 0.1\nillum 2\n\nnewmtl lamp\nKd 0 0 0\nKe 5 6 7\n\nnewmtl mirror\nillum 3\nKs 0.9 "
+          "0.8 0.7\nPr 0.25\n\n"
+          "newmtl glass\nillum 7\nNi 1.33\nTf 1 0.9 0.9\n\nnewmtl mapped\nKd 0.5 0.5 0.5\nmap_Kd tex\\map.png\nmap_Ke "
+          "tex/map.png\n");
     fs::create_directories(folder_ / "tex");
     write("tex/map.png", "not read here");
-    const ObjModel model = load("mtllib model.mtl\n" + kSquare +
-                                "usemtl red\nf 1 2 3\nusemtl lamp\nf 1 3 4\no other\nusemtl red \nf 2 3 4\nusemtl mirror\nf 1 2 4\n"
-                                "g x y\nusemtl glass\nf 1 2 3\nusemtl mapped\nf 1 2 3\n");
+    const ObjModel model =
+        load("mtllib model.mtl\n" + kSquare +
+             "usemtl red\nf 1 2 3\nusemtl lamp\nf 1 3 4\no other\nusemtl red \nf 2 3 4\nusemtl mirror\nf 1 2 4\n"
+             "g x y\nusemtl glass\nf 1 2 3\nusemtl mapped\nf 1 2 3\n");
     ASSERT_EQ(model.parts.size(), 5u);
     for (const ObjPart& part : model.parts) EXPECT_EQ(part.mesh.triangles.size(), part.material == "red" ? 2u : 1u);
     EXPECT_EQ(model.materials.at("red").kind, MaterialKind::Lambertian);
@@ -103,7 +105,8 @@ TEST_F(ObjLoader, SplitsByMaterialAndUnderstandsThem) {
     EXPECT_NEAR(std::get<glm::dvec3>(model.materials.at("mirror").albedo).z, 0.7, 1e-6);
     EXPECT_EQ(model.materials.at("glass").kind, MaterialKind::Dielectric);
     EXPECT_NEAR(model.materials.at("glass").ior, 1.33, 1e-6);
-    const auto& texture = std::get<ImageTexture>(model.textures.at(std::get<std::string>(model.materials.at("mapped").albedo)));
+    const auto& texture =
+        std::get<ImageTexture>(model.textures.at(std::get<std::string>(model.materials.at("mapped").albedo)));
     EXPECT_EQ(fs::path(texture.file), folder_ / "tex" / "map.png");
     EXPECT_EQ(texture.tint, glm::dvec3(0.5));
     EXPECT_EQ(model.materials.at("mapped").emission, glm::dvec3(1));
@@ -126,7 +129,8 @@ TEST_F(ObjLoader, ErrorsNameFileAndLine) {
     EXPECT_EQ(errorOf("v 1e999 0 0\n").rfind("model.obj:1: a coordinate is too large", 0), 0u);
     EXPECT_EQ(errorOf(kSquare + "usemtl red\nf 1 2 3\n").rfind("model.obj:5: material \"red\" is in none", 0), 0u);
     EXPECT_EQ(errorOf("mtllib gone.mtl\n" + kSquare).rfind("model.obj:1: no such material file", 0), 0u);
-    EXPECT_NE(errorOf("mtllib model.mtl\n" + kSquare + "usemtl red\nf 1 2 3\n").find("no such image file"), std::string::npos);
+    EXPECT_NE(errorOf("mtllib model.mtl\n" + kSquare + "usemtl red\nf 1 2 3\n").find("no such image file"),
+              std::string::npos);
     for (const char* empty : {"", "\n", "# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "garbage\n\x01\x02"})
         EXPECT_NE(errorOf(empty).find("there is no face in it"), std::string::npos) << empty;
     EXPECT_THROW(loadObj(folder_ / "gone.obj", true), InputError);
@@ -165,5 +169,5 @@ TEST_F(ObjLoader, MaterialsOfAFileServeAMeshWithoutOne) {
     EXPECT_EQ(compiled->meshes[2].triangleCount, 2u);
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene

@@ -1,10 +1,11 @@
-// Assets/scenes/predecessor: where the predecessor departs from the books, so that its pictures and timings can be matched.
+// Assets/scenes/predecessor: where the predecessor departs from the books, so that its pictures and timings can be
+// matched.
 // Each file is the built-in scene of its name with the changes below.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+
+#include <gtest/gtest.h>
 
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/SceneBuilder.h"
@@ -18,7 +19,8 @@ namespace fs = std::filesystem;
 
 SphereDesc& sphereOf(SceneDesc& scene, const std::string& material) {
     for (ObjectDesc& object : scene.objects)
-        if (auto* sphere = std::get_if<SphereDesc>(&object.shape); sphere && sphere->material == material) return *sphere;
+        if (auto* sphere = std::get_if<SphereDesc>(&object.shape); sphere && sphere->material == material)
+            return *sphere;
     throw std::invalid_argument(material);
 }
 
@@ -111,5 +113,5 @@ TEST(PredecessorScenesTable, OnlyTheBallsAreLights) {
     EXPECT_EQ(scene->quads.size(), 14u);
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene

@@ -1,8 +1,5 @@
-// The scene compiler against brute force: transforms, instances, lights, media, degenerate geometry, the world's origin.
-#include "Common/Scene/SceneCompiler.h"
-
-#include <gtest/gtest.h>
-
+// The scene compiler against brute force: transforms, instances, lights, media, degenerate geometry, the world's
+// origin.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -11,11 +8,13 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/LightTable.h"
 #include "Common/Scene/SceneBuilder.h"
+#include "Common/Scene/SceneCompiler.h"
 
 namespace rt::scene {
 namespace {
@@ -36,7 +35,8 @@ GroupDesc group(Transform transform, ObjectDesc::Shape object) {
     return group;
 }
 
-void addInstance(SceneDesc& scene, const std::string& prototype, Transform transform, const std::string& material = "") {
+void addInstance(SceneDesc& scene, const std::string& prototype, Transform transform,
+                 const std::string& material = "") {
     InstanceDesc instance;
     instance.prototype = prototype;
     instance.transform = std::move(transform);
@@ -50,7 +50,8 @@ glm::dvec3 rotatedY(const glm::dvec3& p, double degrees) {
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
-    EXPECT_LE(glm::length(a - b), tolerance) << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
+    EXPECT_LE(glm::length(a - b), tolerance)
+        << a.x << ' ' << a.y << ' ' << a.z << " and " << b.x << ' ' << b.y << ' ' << b.z;
 }
 
 std::string errorOf(const SceneDesc& scene, const CompileOptions& options = {}) {
@@ -62,7 +63,7 @@ std::string errorOf(const SceneDesc& scene, const CompileOptions& options = {}) 
     return "no error";
 }
 
-// ---- transforms ------------------------------------------------------------------------------------------------------
+// ---- transforms -----------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, NestedTransformsActInsideOut) {
     SceneDesc scene = withMaterials();
@@ -151,12 +152,11 @@ TEST(SceneCompiler, NormalsFollowTheInverseTranspose) {
     }
 }
 
-// ---- prototypes and instances ----------------------------------------------------------------------------------------
+// ---- prototypes and instances ---------------------------------------------------------------------------------------
 
 glm::dvec3 placed(const shared::Instance& instance, const glm::dvec3& p) {
     glm::dvec3 q;
-    for (int row = 0; row < 3; ++row)
-        q[row] = glm::dot(glm::dvec3(instance.toWorld[row]), p) + instance.toWorld[row].w;
+    for (int row = 0; row < 3; ++row) q[row] = glm::dot(glm::dvec3(instance.toWorld[row]), p) + instance.toWorld[row].w;
     return q;
 }
 
@@ -253,7 +253,8 @@ TEST(SceneCompiler, StretchedSpheresAreInstancesOfTheUnitSphere) {
     };
     SphereDesc moving = sphere({0, 0, 0}, 1, "matte");
     moving.centerEnd = glm::dvec3(1, 0, 0);
-    EXPECT_NE(errorFor(sphere({0, 0, 0}, 1, "lamp")).find("test: /objects/0/objects/0: an emissive sphere"), std::string::npos);
+    EXPECT_NE(errorFor(sphere({0, 0, 0}, 1, "lamp")).find("test: /objects/0/objects/0: an emissive sphere"),
+              std::string::npos);
     EXPECT_NE(errorFor(moving).find("a moving sphere"), std::string::npos);
 }
 
@@ -269,7 +270,7 @@ TEST(SceneCompiler, TurnedMapsTurn) {
     EXPECT_EQ(compiled->images.size(), 1u);
 }
 
-// ---- lights ----------------------------------------------------------------------------------------------------------
+// ---- lights ---------------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, LightsHaveTheirWorldGeometry) {
     SceneDesc scene = withMaterials();
@@ -310,8 +311,7 @@ TEST(SceneCompiler, SelectionIsInProportionToPower) {
         const double powers[] = {4, 2, oneSided ? 2.0 : 4.0, kPi};
         double sum = 0;
         for (const double power : powers) sum += power;
-        for (std::size_t i = 0; i < 4; ++i)
-            EXPECT_NEAR(compiled->lights[i].selection, powers[i] / sum, 2e-7) << i;
+        for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(compiled->lights[i].selection, powers[i] / sum, 2e-7) << i;
         EXPECT_EQ(compiled->quads[4].light, shared::kNone);
         EXPECT_GT(compiled->materials[compiled->quads[4].material].emission.x, 0);
         EXPECT_EQ(compiled->lights[2].sides, oneSided ? shared::kSidesFront : shared::kSidesBoth);
@@ -357,14 +357,14 @@ TEST(SceneCompiler, SkyImagesAreSampledByBrightness) {
     options.loadTexels = [](const std::filesystem::path&) {
         TexelData data{width, height, shared::kTexelLinearF32, std::vector<std::uint32_t>(width * height * 3, 0u)};
         const auto set = [&](std::uint32_t x, std::uint32_t y, float value) {
-            for (std::uint32_t c = 0; c < 3; ++c)
-                data.words[3 * (y * width + x) + c] = shared::floatBitsToUint(value);
+            for (std::uint32_t c = 0; c < 3; ++c) data.words[3 * (y * width + x) + c] = shared::floatBitsToUint(value);
         };
         set(2, 1, 1), set(5, 1, 3), set(7, 2, 4);
         return data;
     };
     SceneDesc scene = withMaterials();
-    scene.background = ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(2)}; // any file that exists
+    scene.background =
+        ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(2)}; // any file that exists
     add(scene, sphere({0, 0, -5}, 1, "matte"));
     add(scene, sphere({0, 0, -5}, 0.001, "lamp"));
     const auto compiled = compileScene(scene, options);
@@ -386,7 +386,8 @@ TEST(SceneCompiler, SkyImagesAreSampledByBrightness) {
     EXPECT_EQ(row[5], row[3]);
     EXPECT_EQ(row[6], 1.0f);
     EXPECT_EQ(row[width], 1.0f);
-    const double meanSine = (std::sin(kPi * 1.5 / 4) * 8) / (2 * (std::sin(kPi * 0.5 / 4) + std::sin(kPi * 1.5 / 4)) * 8);
+    const double meanSine =
+        (std::sin(kPi * 1.5 / 4) * 8) / (2 * (std::sin(kPi * 0.5 / 4) + std::sin(kPi * 1.5 / 4)) * 8);
     EXPECT_NEAR(compiled->lights[1].emission.x, 2 * meanSine, 1e-6);
 
     scene.background = ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(0)};
@@ -395,7 +396,7 @@ TEST(SceneCompiler, SkyImagesAreSampledByBrightness) {
     EXPECT_NE(errorOf(scene, options).find("none.hdr: no such file"), std::string::npos);
 }
 
-// ---- media -----------------------------------------------------------------------------------------------------------
+// ---- media ----------------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
     SceneDesc scene = withMaterials();
@@ -428,7 +429,7 @@ TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
     EXPECT_EQ(compiled->notices[0], "1 media without volume or density were dropped");
 }
 
-// ---- degenerate geometry (numerics.md N7) ----------------------------------------------------------------------------
+// ---- degenerate geometry (numerics.md N7) ---------------------------------------------------------------------------
 
 bool isFinite(const shared::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -453,10 +454,18 @@ TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {
         const int kind = i % 3;
         if (isBad) {
             switch (random() % 4) {
-                case 0: a[static_cast<int>(random() % 3)] = bad[random() % 5]; break;
-                case 1: b = kind == 1 ? glm::dvec3(0) : a, radius = -radius; break;
-                case 2: c = kind == 1 ? 0.5 * b : b, radius = 0; break;
-                default: b = c = kind == 1 ? glm::dvec3(1e-300, 0, 0) : a, radius = 5e-324; break;
+                case 0:
+                    a[static_cast<int>(random() % 3)] = bad[random() % 5];
+                    break;
+                case 1:
+                    b = kind == 1 ? glm::dvec3(0) : a, radius = -radius;
+                    break;
+                case 2:
+                    c = kind == 1 ? 0.5 * b : b, radius = 0;
+                    break;
+                default:
+                    b = c = kind == 1 ? glm::dvec3(1e-300, 0, 0) : a, radius = 5e-324;
+                    break;
             }
         }
         if (kind == 0) {
@@ -482,9 +491,10 @@ TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {
     const auto with = compileScene(fuzzed), without = compileScene(clean);
     EXPECT_EQ(with->hash, without->hash);
     EXPECT_TRUE(without->notices.empty());
-    const std::vector<std::string> expected = {std::to_string(spheres) + " spheres without a usable centre or radius were dropped",
-                                               std::to_string(quads) + " quads without area were dropped",
-                                               std::to_string(triangles) + " triangles without area were dropped"};
+    const std::vector<std::string> expected = {
+        std::to_string(spheres) + " spheres without a usable centre or radius were dropped",
+        std::to_string(quads) + " quads without area were dropped",
+        std::to_string(triangles) + " triangles without area were dropped"};
     EXPECT_EQ(with->notices, expected);
     for (const shared::Light& light : with->lights) {
         EXPECT_TRUE(isFinite(light.position) && isFinite(light.normal) && std::isfinite(light.area));
@@ -520,7 +530,7 @@ TEST(SceneCompiler, WrongIndicesInCodeAreErrors) {
     EXPECT_NE(errorOf(scene).find("refers to itself"), std::string::npos);
 }
 
-// ---- the world's origin ----------------------------------------------------------------------------------------------
+// ---- the world's origin ---------------------------------------------------------------------------------------------
 
 // numerics.md N20: the authored camera position is subtracted in double, so that distance costs nothing.
 TEST(SceneCompiler, TranslatedScenesAreTheSame) {
@@ -536,15 +546,16 @@ TEST(SceneCompiler, TranslatedScenesAreTheSame) {
         scene.camera.lookAt += offset;
         const auto far = compileScene(scene);
         ASSERT_EQ(near->spheres.size(), far->spheres.size());
-        for (std::size_t i = 0; i < near->spheres.size(); ++i) EXPECT_EQ(near->spheres[i].center, far->spheres[i].center);
+        for (std::size_t i = 0; i < near->spheres.size(); ++i)
+            EXPECT_EQ(near->spheres[i].center, far->spheres[i].center);
         for (std::size_t i = 0; i < near->quads.size(); ++i) {
             expectNear(near->quads[i].corner, far->quads[i].corner, 3e-5);
             EXPECT_EQ(near->quads[i].edgeU, far->quads[i].edgeU);
         }
-        for (std::size_t i = 0; i < near->positions.size(); ++i) expectNear(near->positions[i], far->positions[i], 1e-6);
+        for (std::size_t i = 0; i < near->positions.size(); ++i)
+            expectNear(near->positions[i], far->positions[i], 1e-6);
         for (std::size_t i = 0; i < near->media.size(); ++i)
-            for (int row = 0; row < 3; ++row)
-                expectNear(near->media[i].toLocal[row], far->media[i].toLocal[row], 1e-6);
+            for (int row = 0; row < 3; ++row) expectNear(near->media[i].toLocal[row], far->media[i].toLocal[row], 1e-6);
         EXPECT_EQ(near->lights.size(), far->lights.size());
         EXPECT_NEAR(near->globals.sceneRadius, far->globals.sceneRadius, 1e-3);
     }
@@ -557,7 +568,7 @@ TEST(SceneCompiler, CoordinatesAreRelativeToTheCamera) {
     EXPECT_EQ(compiled->spheres[0].center, shared::vec3(530 - 278, 530 - 278, 277 + 800));
 }
 
-// ---- hash ------------------------------------------------------------------------------------------------------------
+// ---- hash -----------------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, TheHashTellsScenesApart) {
     const SceneDesc scene = findBuiltinScene("rest-of-life-cornell-box-glass");
@@ -581,5 +592,5 @@ TEST(SceneCompiler, TheHashTellsScenesApart) {
     EXPECT_NE(compileScene(scene, options)->hash, hash);
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene

@@ -1,17 +1,17 @@
-// Scene files: exact round trips, agreement with the published schema, and an error for every kind of mistake that says where
+// Scene files: exact round trips, agreement with the published schema, and an error for every kind of mistake that says
+// where
 // it is and what is allowed.
-#include "Common/Scene/SceneJson.h"
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <random>
 
+#include <gtest/gtest.h>
+
 #include "Common/Core/Error.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/SceneJson.h"
 #include "tests/unit/JsonSchema.h"
 
 namespace rt::scene {
@@ -119,9 +119,9 @@ TEST(SceneJson, BuiltinScenesObeyTheSchema) {
 }
 
 struct Mistake {
-    const char* place;    // of the value to set, a JSON pointer
-    const char* value;    // JSON
-    const char* message;  // what the error must contain
+    const char* place;        // of the value to set, a JSON pointer
+    const char* value;        // JSON
+    const char* message;      // what the error must contain
     bool isStructural = true; // the schema finds it too
 };
 
@@ -145,7 +145,8 @@ const Mistake kMistakes[] = {
     {"/objects/0/radios", "1", "/objects/0: unknown key \"radios\"; allowed: type, center"},
     {"/materials/shiny/ior", "1.5", "/materials/shiny: unknown key \"ior\"; allowed: type, albedo, fuzz"},
     {"/objects/0/type", "\"cone\"", "/objects/0/type: \"cone\": must be one of sphere, spheres, quad"},
-    {"/objects/0", R"({"type": "sphere", "center": [0, 0, 0], "material": "matte"})", "/objects/0: \"radius\" is missing"},
+    {"/objects/0", R"({"type": "sphere", "center": [0, 0, 0], "material": "matte"})",
+     "/objects/0: \"radius\" is missing"},
     {"/objects/0", R"({"radius": 1})", "/objects/0: \"type\" is missing"},
     {"/materials/lamp", R"({"type": "emitter"})", "\"emission\" is missing"},
     {"/materials/lamp/sides", "\"back\"", "/materials/lamp/sides: \"back\": must be one of front, both"},
@@ -176,21 +177,26 @@ const Mistake kMistakes[] = {
     {"/camera/look_at", "[0, 1, 5]", "/camera: look_from and look_at must differ", false},
     {"/camera/up", "[0, -2, -10]", "parallel", false},
     // names, indices and files
-    {"/objects/0/material", "\"wood\"", "/objects/0/material: \"wood\": must be a name from materials: clear, lamp, matte", false},
-    {"/materials/matte/albedo", "\"none\"", "/materials/matte/albedo: \"none\": must be a name from textures: check", false},
+    {"/objects/0/material", "\"wood\"",
+     "/objects/0/material: \"wood\": must be a name from materials: clear, lamp, matte", false},
+    {"/materials/matte/albedo", "\"none\"", "/materials/matte/albedo: \"none\": must be a name from textures: check",
+     false},
     {"/textures/check/odd", "\"none\"", "/textures/check/odd: \"none\": must be a name from textures", false},
     {"/objects/8/objects/0/prototype", "\"none\"", "must be a name from prototypes: pair", false},
     {"/objects/5/triangles/1", "3", "/objects/5/triangles/1: 3: must be the index of a position, 0 to 2", false},
     {"/objects/5/triangles/1", "-1", "the index of a position, 0 to 2"},
     {"/objects/5/triangles", "[]", "multiple of 3 and not 0"},
     {"/objects/5/triangles", "[0, 1, 2, 0]", "multiple of 3 and not 0", false},
-    {"/objects/5/positions", "[]", "/objects/5/positions: an array of 0: must be an array whose length is a multiple of 3"},
-    {"/objects/5/normals", "[0, 0, 1]", "/objects/5/normals: an array of 3: must be one for each of the 3 positions", false},
+    {"/objects/5/positions", "[]",
+     "/objects/5/positions: an array of 0: must be an array whose length is a multiple of 3"},
+    {"/objects/5/normals", "[0, 0, 1]", "/objects/5/normals: an array of 3: must be one for each of the 3 positions",
+     false},
     {"/objects/5/uvs", "[0, 0]", "one for each of the 3 positions", false},
     {"/objects/1/centers", "[1, 2]", "multiple of 3 and not 0"},
     {"/objects/4", R"({"type": "mesh", "file": "gone.obj", "material": "shiny"})",
      "/objects/4/file: \"gone.obj\": must be an existing file", false},
-    {"/textures/map", R"({"type": "image", "file": "gone.png"})", "/textures/map/file: \"gone.png\": must be an existing file", false},
+    {"/textures/map", R"({"type": "image", "file": "gone.png"})",
+     "/textures/map/file: \"gone.png\": must be an existing file", false},
     {"/background", R"({"type": "image", "file": ""})", "/background/file: \"\": must be an existing file", false},
 };
 
@@ -205,7 +211,8 @@ TEST(SceneJson, EveryMistakeIsNamed) {
 }
 
 TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
-    EXPECT_EQ(errorOf("{\n  \"objects\": [,]\n}").rfind("test.json:2:15: ", 0), 0u) << errorOf("{\n  \"objects\": [,]\n}");
+    EXPECT_EQ(errorOf("{\n  \"objects\": [,]\n}").rfind("test.json:2:15: ", 0), 0u)
+        << errorOf("{\n  \"objects\": [,]\n}");
     EXPECT_EQ(errorOf("").rfind("test.json:1:1: ", 0), 0u) << errorOf("");
     EXPECT_EQ(errorOf("{\"objects\": [NaN]}").rfind("test.json:1:14: ", 0), 0u) << errorOf("{\"objects\": [NaN]}");
     EXPECT_NE(errorOf("{\"objects\": [1e999]}").find("1e999"), std::string::npos);
@@ -242,8 +249,9 @@ TEST(SceneJson, DeepNestingIsAnErrorNotACrash) {
 TEST(SceneJson, GroupsMayNestButPrototypesMustNotContainThemselves) {
     const auto compiled = [](const std::string& prototypes) {
         try {
-            compileScene(parse("{\"materials\": {\"m\": {\"type\": \"lambertian\", \"albedo\": [1, 1, 1]}}, \"prototypes\": " +
-                               prototypes + ", \"objects\": [{\"type\": \"instance\", \"prototype\": \"a\"}]}"));
+            compileScene(
+                parse("{\"materials\": {\"m\": {\"type\": \"lambertian\", \"albedo\": [1, 1, 1]}}, \"prototypes\": " +
+                      prototypes + ", \"objects\": [{\"type\": \"instance\", \"prototype\": \"a\"}]}"));
         } catch (const InputError& error) {
             return std::string(error.what());
         }
@@ -253,8 +261,9 @@ TEST(SceneJson, GroupsMayNestButPrototypesMustNotContainThemselves) {
         return "[{\"type\": \"group\", \"objects\": [{\"type\": \"instance\", \"prototype\": \"" + name + "\"}]}]";
     };
     EXPECT_EQ(compiled("{\"a\": " + instance("b") + ", \"b\": []}"), "no error");
-    EXPECT_NE(compiled("{\"a\": " + instance("a") + "}").find("/prototypes/a/0/objects/0: prototype \"a\" contains itself"),
-              std::string::npos);
+    EXPECT_NE(
+        compiled("{\"a\": " + instance("a") + "}").find("/prototypes/a/0/objects/0: prototype \"a\" contains itself"),
+        std::string::npos);
     EXPECT_NE(compiled("{\"a\": " + instance("b") + ", \"b\": " + instance("a") + "}").find("contains itself"),
               std::string::npos);
 }
@@ -267,7 +276,8 @@ TEST(SceneJson, ExplodingInstancesAreAnError) {
         for (int i = 0; i < 10; ++i)
             document["prototypes"]["p" + std::to_string(level)].push_back(
                 {{"type", "instance"}, {"prototype", "p" + std::to_string(level + 1)}});
-    document["prototypes"]["p10"] = Json::parse(R"([{"type": "sphere", "center": [0,0,0], "radius": 1, "material": "m"}])");
+    document["prototypes"]["p10"] =
+        Json::parse(R"([{"type": "sphere", "center": [0,0,0], "radius": 1, "material": "m"}])");
     const SceneDesc scene = parse(document.dump());
     EXPECT_THROW(compileScene(scene), InputError);
 }
@@ -287,5 +297,5 @@ TEST(SceneJson, FilesAreFoundBesideTheScene) {
     EXPECT_THROW(compileScene(scene), InputError);
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene

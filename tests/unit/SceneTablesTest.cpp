@@ -1,13 +1,13 @@
-// The small parts that the scene compiler is made of: distributions on a grid, orders along a curve, Perlin tables, polygons,
+// The small parts that the scene compiler is made of: distributions on a grid, orders along a curve, Perlin tables,
+// polygons,
 // generated assets.
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 
 #include <glm/geometric.hpp>
+#include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/GridCdf.h"
@@ -163,5 +163,5 @@ TEST(StandIns, PlanetMapsDiffer) {
     EXPECT_THROW(makePlanetMap("pluto"), InputError);
 }
 
-}  // namespace
-}  // namespace rt::scene
+} // namespace
+} // namespace rt::scene
