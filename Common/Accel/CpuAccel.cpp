@@ -24,20 +24,20 @@ struct BuiltTree {
 };
 
 template <class Block>
-FlatList<Block> fillFlat(Array<Block>& blocks, const AccelInput& input, std::uint32_t first, std::uint32_t count) {
-    blocks.allocate((count + kFlatWidth - 1) / kFlatWidth);
+FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t first, std::uint32_t count) {
+    blocks = LargeArray<Block>((count + kFlatWidth - 1) / kFlatWidth);
     for (std::uint32_t i = 0; i < count; ++i) {
-        Block& block = blocks.data[i / kFlatWidth];
+        Block& block = blocks[i / kFlatWidth];
         if (i % kFlatWidth == 0) block = emptyBlock<Block>();
         fillLane(block, i % kFlatWidth, input, first + i);
     }
-    return {blocks.data.get(), count};
+    return {blocks.data(), count};
 }
 
 template <class Block>
-void fillLeaf(const Array<Block>& blocks, const WideLeaf& leaf, const BuiltTree& tree, const AccelInput& input) {
+void fillLeaf(const LargeArray<Block>& blocks, const WideLeaf& leaf, const BuiltTree& tree, const AccelInput& input) {
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
-        Block& block = blocks.data[leaf.firstBlock + i / kWidth];
+        Block& block = blocks[leaf.firstBlock + i / kWidth];
         if (i % kWidth == 0) block = emptyBlock<Block>();
         fillLane(block, i % kWidth, input, tree.items.index(tree.order[leaf.firstItem + i]));
     }
@@ -132,7 +132,7 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
                 case LeafKind::Instance: {
                     const std::uint32_t index = tree.items.index(tree.order[leaf.firstItem]);
                     const shared::Instance& instance = input_.instances[index];
-                    PlacedGeometry& placed = storage.instances.data[leaf.firstBlock];
+                    PlacedGeometry& placed = storage.instances[leaf.firstBlock];
                     std::copy(std::begin(instance.toObject), std::end(instance.toObject), placed.toObject);
                     placed.root = roots_[instance.geometry];
                     placed.instance = index;
@@ -145,12 +145,13 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
 
 void Assembly::fill(AccelStorage& storage) {
     const auto blocks = [&](LeafKind kind) { return wide_.blocks[static_cast<std::uint32_t>(kind)]; };
-    storage.nodes = std::move(wide_.nodes);
-    storage.spheres.allocate(blocks(LeafKind::Sphere));
-    storage.movingSpheres.allocate(blocks(LeafKind::MovingSphere));
-    storage.quads.allocate(blocks(LeafKind::Quad));
-    storage.triangles.allocate(blocks(LeafKind::Triangle));
-    storage.instances.allocate(blocks(LeafKind::Instance));
+    storage.nodes = LargeArray<WideNode>(wide_.nodes.size());
+    std::copy(wide_.nodes.begin(), wide_.nodes.end(), storage.nodes.data());
+    storage.spheres = LargeArray<SphereBlock<kWidth>>(blocks(LeafKind::Sphere));
+    storage.movingSpheres = LargeArray<MovingSphereBlock<kWidth>>(blocks(LeafKind::MovingSphere));
+    storage.quads = LargeArray<QuadBlock<kWidth>>(blocks(LeafKind::Quad));
+    storage.triangles = LargeArray<TriangleBlock<kWidth>>(blocks(LeafKind::Triangle));
+    storage.instances = LargeArray<PlacedGeometry>(blocks(LeafKind::Instance));
     for (const BuiltTree& tree : trees_) {
         fillLeaves(tree, storage);
     }
@@ -200,19 +201,19 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.flat = !assembly.hasWorld();
     view.root = assembly.root();
     view.nodes = storage.nodes.data();
-    view.spheres = storage.spheres.data.get();
-    view.movingSpheres = storage.movingSpheres.data.get();
-    view.quads = storage.quads.data.get();
-    view.triangles = storage.triangles.data.get();
-    view.instances = storage.instances.data.get();
+    view.spheres = storage.spheres.data();
+    view.movingSpheres = storage.movingSpheres.data();
+    view.quads = storage.quads.data();
+    view.triangles = storage.triangles.data();
+    view.instances = storage.instances.data();
     return accel;
 }
 
 std::size_t CpuAccel::bytes() const {
     const AccelStorage& s = *storage_;
-    return sizeof(*this) + sizeof(s) + s.nodes.capacity() * sizeof(WideNode) + s.spheres.bytes() +
-           s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.instances.bytes() +
-           s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() + s.flatQuads.bytes() + s.flatTriangles.bytes();
+    return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.spheres.bytes() + s.movingSpheres.bytes() + s.quads.bytes() +
+           s.triangles.bytes() + s.instances.bytes() + s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() +
+           s.flatQuads.bytes() + s.flatTriangles.bytes();
 }
 
 }  // namespace rt::accel

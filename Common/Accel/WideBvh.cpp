@@ -35,6 +35,16 @@ Children gatherChildren(const Bvh& bvh, std::uint32_t root) {
     return children;
 }
 
+// Items below each node; a child's index is greater than its parent's.
+std::vector<std::uint32_t> countItems(const Bvh& bvh) {
+    std::vector<std::uint32_t> items(bvh.nodes.size());
+    for (std::size_t i = bvh.nodes.size(); i-- > 0;) {
+        const BvhNode& node = bvh.nodes[i];
+        items[i] = node.isLeaf() ? node.count : items[node.first] + items[node.first + 1];
+    }
+    return items;
+}
+
 void setSlabs(WideNode& node, std::uint32_t child, const Box& box) {
     for (int a = 0; a < 3; ++a) {
         node.planes[2 * a][child] = box.lower[a];
@@ -58,6 +68,7 @@ Reference WideBvh::append(const Bvh& bvh, std::span<const std::uint8_t> kinds, s
     };
 
     if (bvh.nodes[0].isLeaf()) return addLeaf(bvh.nodes[0]);
+    const std::vector<std::uint32_t> items = countItems(bvh);
     const Reference root = static_cast<Reference>(nodes.size());
     struct Open {
         std::uint32_t binary, parent, child;
@@ -69,7 +80,11 @@ Reference WideBvh::append(const Bvh& bvh, std::span<const std::uint8_t> kinds, s
         const std::uint32_t index = static_cast<std::uint32_t>(nodes.size());
         nodes.emplace_back();
         if (index != root) nodes[next.parent].child[next.child] = index;
-        const Children children = gatherChildren(bvh, next.binary);
+        Children children = gatherChildren(bvh, next.binary);
+        // The largest subtree first: a search for any hit looks into children from the last to the first, cheap ones
+        // before.
+        std::stable_sort(children.node, children.node + children.count,
+                         [&](std::uint32_t a, std::uint32_t b) { return items[a] > items[b]; });
         for (std::uint32_t i = kWidth; i-- > 0;) {
             setSlabs(nodes[index], i, i < children.count ? bvh.nodes[children.node[i]].box : Box{});
             nodes[index].child[i] = 0;
