@@ -13,8 +13,7 @@ inline constexpr std::uint32_t kFlatWidth = 16;  // lanes of the blocks of a fla
 // Bounds of the depth of a tree, and so of the stack of a traversal.
 inline constexpr std::uint32_t kMaxTreeDepth = 64;
 
-// ---- references
-// ------------------------------------------------------------------------------------------------------
+// ---- references -----------------------------------------------------------------------------------------------------
 
 // What a child of a node is: another node (its index), or a run of leaf blocks of one kind.
 //   bit 31: leaf    30..28: kind    27..25: blocks - 1    24..0: index of the first block
@@ -29,8 +28,7 @@ inline constexpr std::uint32_t kCountShift = 25;
 inline constexpr std::uint32_t kMaxLeafBlocks = 8;
 inline constexpr std::uint32_t kMaxBlocks = 1u << kCountShift;  // of one kind
 
-// ---- records
-// ---------------------------------------------------------------------------------------------------------
+// ---- records --------------------------------------------------------------------------------------------------------
 
 // Slabs of the children: planes[2 a] are the lower bounds along axis a, planes[2 a + 1] the upper ones. The slab of a
 // child that does not exist is inverted, so no ray enters it.
@@ -78,15 +76,21 @@ struct PlacedGeometry {
     std::uint32_t instance;
 };
 
-// All primitives of a scene that is too small to gain from a tree: blocks of one kind after another.
+// All primitives of one kind in a scene that is too small to gain from a tree. Their lanes hold flatName() in place of
+// the index of the primitive.
 template <class Block>
 struct FlatList {
     const Block* blocks = nullptr;
     std::uint32_t primitives = 0;  // in all blocks; the last block may have empty lanes
 };
 
-// ---- the whole
-// -------------------------------------------------------------------------------------------------------
+inline constexpr std::uint32_t kFlatKindShift = 30;
+
+constexpr std::uint32_t flatName(std::uint32_t kind, std::uint32_t primitive) {
+    return kind << kFlatKindShift | primitive;
+}
+
+// ---- the whole ------------------------------------------------------------------------------------------------------
 
 struct AccelView {
     std::uint32_t kinds = 0;  // feature bits of the primitives that exist

@@ -38,7 +38,12 @@ class Builder {
   public:
     Builder(const BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
             std::atomic<std::uint64_t>* itemsDone)
-        : input_(input), settings_(settings), cancel_(cancel), itemsDone_(itemsDone), grouped_(!input.groups.empty()) {}
+        : input_(input),
+          settings_(settings),
+          cancel_(cancel),
+          itemsDone_(itemsDone),
+          grouped_(input.groups.size() > 1),
+          firstGroup_(input.groups.empty() ? 0u : input.groups[0]) {}
 
     std::optional<Bvh> build();
 
@@ -61,6 +66,7 @@ class Builder {
     const std::atomic<bool>* cancel_;
     std::atomic<std::uint64_t>* itemsDone_;
     const bool grouped_;
+    const std::uint32_t firstGroup_;
     std::vector<ItemBox> buffers_[2];  // a range lies in one of them and uses the same part of the other as scratch
     std::vector<std::uint32_t> items_;
 };
@@ -76,7 +82,7 @@ Range Builder::prepareItems() {
             item = {{b.lower.x, b.lower.y, b.lower.z},
                     static_cast<std::uint32_t>(i),
                     {b.upper.x, b.upper.y, b.upper.z},
-                    grouped_ ? input_.groups[i] : 0u};
+                    grouped_ ? input_.groups[i] : firstGroup_};
             part.box.add(item.bounds());
             part.centers.add(item.center());
         }

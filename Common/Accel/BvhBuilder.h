@@ -21,7 +21,8 @@ struct BvhSettings {
     std::size_t threads = 0;      // 0: as many as the machine has
 };
 
-// A box of each item. Items of different groups never share a leaf; `groups` is empty (all alike) or one for each box.
+// A box of each item. Items of different groups never share a leaf; `groups` has one element for each box, or one for
+// all alike, or none (group 0).
 struct BvhInput {
     std::span<const Box> boxes;  // finite, lower <= upper
     std::span<const std::uint8_t> groups;

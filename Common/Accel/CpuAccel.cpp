@@ -24,12 +24,14 @@ struct BuiltTree {
 };
 
 template <class Block>
-FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t first, std::uint32_t count) {
+FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
+                         std::uint32_t count) {
     blocks = LargeArray<Block>((count + kFlatWidth - 1) / kFlatWidth);
     for (std::uint32_t i = 0; i < count; ++i) {
         Block& block = blocks[i / kFlatWidth];
         if (i % kFlatWidth == 0) block = emptyBlock<Block>();
         fillLane(block, i % kFlatWidth, input, first + i);
+        block.primitive[i % kFlatWidth] = flatName(kind, first + i);
     }
     return {blocks.data(), count};
 }
@@ -83,8 +85,7 @@ bool Assembly::buildTree(std::uint32_t geometry, std::vector<std::uint32_t> inst
     const std::vector<std::uint8_t> kinds = tree.items.kinds();
     BvhSettings settings = settings_.tree;
     settings.singleGroup = static_cast<std::uint32_t>(LeafKind::Instance);
-    const std::span<const std::uint8_t> groups = kinds.size() == boxes.size() ? kinds : std::span<const std::uint8_t>{};
-    std::optional<Bvh> bvh = buildBvh({boxes, groups}, settings, cancel_, primitivesDone_);
+    std::optional<Bvh> bvh = buildBvh({boxes, kinds}, settings, cancel_, primitivesDone_);
     if (!bvh) return false;
     boxes_[geometry] = bvh->nodes[0].box;
     roots_[geometry] = wide_.append(*bvh, kinds, tree.leaves);
@@ -185,12 +186,15 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.flat = input.instances.empty() && (primitives == 0 || primitives <= settings.flatPrimitives);
     if (view.flat) {
         if (input.motions.empty()) {
-            view.flatSpheres = fillFlat(storage.flatSpheres, input, world.firstSphere, world.sphereCount);
+            view.flatSpheres =
+                fillFlat(storage.flatSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
         } else {
-            view.flatMovingSpheres = fillFlat(storage.flatMovingSpheres, input, world.firstSphere, world.sphereCount);
+            view.flatMovingSpheres =
+                fillFlat(storage.flatMovingSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
         }
-        view.flatQuads = fillFlat(storage.flatQuads, input, world.firstQuad, world.quadCount);
-        view.flatTriangles = fillFlat(storage.flatTriangles, input, world.firstTriangle, world.triangleCount);
+        view.flatQuads = fillFlat(storage.flatQuads, input, shared::kQuad, world.firstQuad, world.quadCount);
+        view.flatTriangles =
+            fillFlat(storage.flatTriangles, input, shared::kTriangle, world.firstTriangle, world.triangleCount);
         if (primitivesDone != nullptr) primitivesDone->fetch_add(primitives);
         return accel;
     }

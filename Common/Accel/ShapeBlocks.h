@@ -21,7 +21,7 @@ struct ShapeRay {
     float shear[3];    // direction[axis[0]] / direction[axis[2]], likewise axis[1]; 1 / direction[axis[2]]
 };
 
-RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray) {
+RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray, bool isUnit) {
     const shared::vec3 d = ray.direction;
     ShapeRay r{};
     for (int a = 0; a < 3; ++a) {
@@ -30,10 +30,10 @@ RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray) {
     }
     r.time = ray.time;
     if (shared::has(features, shared::kFeatureSpheres | shared::kFeatureMovingSpheres | shared::kFeatureQuads)) {
-        r.squaredLength = shared::dot(d, d);
+        r.squaredLength = isUnit ? 1.0f : shared::dot(d, d);
         r.inverseSquaredLength = 1.0f / r.squaredLength;
+        r.length = shared::sqrt(r.squaredLength);
     }
-    if (shared::has(features, shared::kFeatureQuads)) r.length = shared::sqrt(r.squaredLength);
     if (shared::has(features, shared::kFeatureTriangles)) {
         r.axis[2] = shared::largestAxis(d);
         r.axis[0] = r.axis[2] == 2 ? 0 : r.axis[2] + 1;
@@ -90,20 +90,16 @@ RT_FN LaneHits<N> intersectSpheres(const ShapeRay& ray, Vector<N> center, Float<
     const Vector<N> d = broadcast3<N>(ray.direction);
     const Vector<N> f = center - broadcast3<N>(ray.origin);
     const Float<N> b = dot(f, d);
-    const Float<N> back = zero - b * inverseA;
-    const Vector<N> l = multiplyAdd(d, back, f);
-    const Float<N> squaredRadius = radius * radius;
-    const Float<N> discriminant =
-        negateMultiplyAdd(l.z, l.z, negateMultiplyAdd(l.y, l.y, negateMultiplyAdd(l.x, l.x, squaredRadius)));
-    const Mask<N> meets = zero <= discriminant;
-    if (bits(meets) == 0) return {meets, zero, zero, zero};
-
-    const Float<N> root = squareRoot(broadcast<N>(ray.squaredLength) * discriminant);
-    const Float<N> q = b + withSign(root, b);
-    const Float<N> c = multiplySubtract(radius, radius, dot(f, f));  // minus the product of the roots, times a
-    const Float<N> near = (zero - c) / q;
-    const Float<N> t = select(zero < near, near, q * inverseA);
-    return {meets & (zero < t), t, zero, zero};
+    const Float<N> along = b * inverseA;
+    const Float<N> x = negateMultiplyAdd(along, d.x, f.x);
+    const Float<N> y = negateMultiplyAdd(along, d.y, f.y);
+    const Float<N> z = negateMultiplyAdd(along, d.z, f.z);
+    const Float<N> discriminant = negateMultiplyAdd(x, x, radius * radius) -
+                                  multiplyAdd(y, y, z * z);     // of the chord; negative beside the sphere
+    const Float<N> half = squareRoot(discriminant * inverseA);  // not a number there
+    const Float<N> near = along - half;
+    const Float<N> t = select(zero < near, near, along + half);
+    return {zero < t, t, zero, zero};
 }
 
 template <int N, std::uint32_t B>
@@ -127,23 +123,33 @@ RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const QuadBlock<B>& block,
     const Vector<N> dualU = load3<N>(block.dualU, first);
     const Vector<N> dualV = load3<N>(block.dualV, first);
     const Float<N> t = dot(normal, f) / dot(normal, d);
-    const Float<N> u = multiplySubtract(t, dot(dualU, d), dot(dualU, f));
-    const Float<N> v = multiplySubtract(t, dot(dualV, d), dot(dualV, f));
+    const Float<N> u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half);  // from the middle of the quad
+    const Float<N> v = multiplySubtract(t, dot(dualV, d), dot(dualV, f) + half);
     const Float<N> margin = load<N>(block.margin + first) * broadcast<N>(ray.length);
     const Float<N> reach = multiplyAdd(t, margin, broadcast<N>(0.5f + shared::kQuadError));
-    const Mask<N> inside = maximum(absolute(u - half), absolute(v - half)) <= reach;
-    return {inside & (broadcast<N>(0.0f) < t), t, u, v};
+    const Mask<N> inside = maximum(absolute(u), absolute(v)) <= reach;
+    return {inside & (broadcast<N>(0.0f) < t), t, u + half, v + half};
 }
 
-// Edge functions of triangles in the plane across the ray, computed again in double where one came out as 0: exactly,
-// since products of floats are exact there.
+// x of p times y of q minus y of p times x of q, for the three edges of triangles in the plane across the ray. Signs
+// are those of the exact values (unless those underflow), so the two triangles at an edge always agree on which side of
+// it the ray passes.
 template <int N>
 struct EdgeFunctions {
     Float<N> a, b, c;
 };
 
+// With fused multiply-add the error of one product is added back: Jeannerod, Louvet & Muller, "Further analysis of
+// Kahan's algorithm for the accurate computation of 2x2 determinants", 2013.
 template <int N>
-[[maybe_unused]] static EdgeFunctions<N> exactEdgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)[3]) {
+RT_FN Float<N> fusedDifference(Float<N> a, Float<N> b, Float<N> c, Float<N> d) {
+    const Float<N> cd = c * d;
+    return multiplySubtract(a, b, cd) - multiplySubtract(c, d, cd);
+}
+
+// Products of floats are exact in double.
+template <int N>
+[[maybe_unused]] static EdgeFunctions<N> doubleEdgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)[3]) {
     alignas(4 * N) float xs[3][N], ys[3][N], edges[3][N];
     for (int vertex = 0; vertex < 3; ++vertex) {
         store(xs[vertex], x[vertex]);
@@ -159,6 +165,27 @@ template <int N>
     return {load<N>(edges[0]), load<N>(edges[1]), load<N>(edges[2])};
 }
 
+template <int N>
+RT_FN EdgeFunctions<N> edgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)[3]) {
+    if constexpr (kFusedMultiplyAdd) {
+        return {fusedDifference(x[2], y[1], y[2], x[1]), fusedDifference(x[0], y[2], y[0], x[2]),
+                fusedDifference(x[1], y[0], y[1], x[0])};
+    } else {
+        Float<N> e[3];
+        Mask<N> doubtful = x[0] < x[0];  // none yet: what rounding may have given the wrong sign
+        for (int edge = 0; edge < 3; ++edge) {
+            const int p = (edge + 2) % 3, q = (edge + 1) % 3;
+            const Float<N> left = x[p] * y[q], right = y[p] * x[q];
+            e[edge] = left - right;
+            const Float<N> bound = (absolute(left) + absolute(right)) * broadcast<N>(2.0f * shared::kEpsilon);
+            doubtful = doubtful | (absolute(e[edge]) <= bound);
+        }
+        if (bits(doubtful) == 0) return {e[0], e[1], e[2]};
+        const EdgeFunctions<N> exact = doubleEdgeFunctions(x, y);
+        return {select(doubtful, exact.a, e[0]), select(doubtful, exact.b, e[1]), select(doubtful, exact.c, e[2])};
+    }
+}
+
 template <int N, std::uint32_t B>
 RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const TriangleBlock<B>& block, unsigned first) {
     const Float<N> zero = broadcast<N>(0.0f);
@@ -170,11 +197,7 @@ RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const TriangleBlock<B>& bl
         x[vertex] = negateMultiplyAdd(broadcast<N>(ray.shear[0]), z[vertex], x[vertex]);
         y[vertex] = negateMultiplyAdd(broadcast<N>(ray.shear[1]), z[vertex], y[vertex]);
     }
-    EdgeFunctions<N> e{differenceOfProducts(x[2], y[1], y[2], x[1]), differenceOfProducts(x[0], y[2], y[0], x[2]),
-                       differenceOfProducts(x[1], y[0], y[1], x[0])};
-    if constexpr (!kFusedMultiplyAdd) {
-        if (bits((e.a == zero) | (e.b == zero) | (e.c == zero)) != 0) e = exactEdgeFunctions<N>(x, y);
-    }
+    const EdgeFunctions<N> e = edgeFunctions(x, y);
     const Mask<N> inside = (zero <= minimum(e.a, minimum(e.b, e.c))) | (maximum(e.a, maximum(e.b, e.c)) <= zero);
     const Float<N> inverse = broadcast<N>(1.0f) / (e.a + e.b + e.c);
     const Float<N> depth = multiplyAdd(e.a, z[0], multiplyAdd(e.b, z[1], e.c * z[2]));

@@ -8,9 +8,12 @@
 //   a b minimum, maximum    (a, b): b where either is not a number, as the x86 instruction < <= >= ==          Mask;
 //   false where either is not a number select(m, a, b)     a where m, else b bits(m)             lane i in bit i
 //   lane(a, i), least(a)
+//   firstOf(m, a)       the lane of the lowest bit of m, of which one must be set
+//   Index<N>            N words, only carried along: loadIndex, select, firstOf
 //
 // Everything has internal linkage: each instruction set's copy stays in its own object file.
 #pragma once
+#include "Common/Accel/LowestBit.h"
 #include "Common/Shared/Shim.h"
 
 #if defined(RT_SIMD_GENERIC)
@@ -25,37 +28,6 @@
 #include "Common/Accel/SimdGeneric.h"
 #endif
 
-#if defined(_MSC_VER) && !defined(__clang__)
-#include <intrin.h>
-#endif
-
 namespace rt::accel {
-namespace {
-
-// Index of the lowest bit that is set; bits must not be 0.
-RT_FN unsigned lowestBit(unsigned bits) {
-#if defined(_MSC_VER) && !defined(__clang__)
-    unsigned long index;
-    _BitScanForward(&index, bits);
-    return index;
-#else
-    return static_cast<unsigned>(__builtin_ctz(bits));
-#endif
-}
-
-// a b - c d. With fused multiply-add the error of one product is added back, which makes the sign that of the exact
-// difference (Kahan; Jeannerod, Louvet & Muller, "Further analysis of Kahan's algorithm", 2013) unless it underflows.
-// Without, both products are rounded: swapping them negates the result exactly, but it may be zero though the exact one
-// is not.
-template <class F>
-RT_FN F differenceOfProducts(F a, F b, F c, F d) {
-    if constexpr (kFusedMultiplyAdd) {
-        const F cd = c * d;
-        return multiplySubtract(a, b, cd) - multiplySubtract(c, d, cd);
-    } else {
-        return a * b - c * d;
-    }
-}
-
-}  // namespace
+namespace {}  // namespace
 }  // namespace rt::accel

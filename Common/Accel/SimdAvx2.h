@@ -2,6 +2,7 @@
 #pragma once
 #include <immintrin.h>
 
+#include "Common/Accel/LowestBit.h"
 #include "Common/Shared/Shim.h"
 
 namespace rt::accel {
@@ -18,12 +19,19 @@ template <>
 struct Float<8> {
     __m256 v;
 };
+template <int N>
+struct Index;
+template <>
+struct Index<8> {
+    __m256i v;
+};
 template <>
 struct Mask<8> {
     __m256 v;
 };
 using Float8 = Float<8>;
 using Mask8 = Mask<8>;
+using Index8 = Index<8>;
 
 template <int N>
 RT_FN Float<N> load(const float* p) {
@@ -32,6 +40,10 @@ RT_FN Float<N> load(const float* p) {
 template <int N>
 RT_FN Float<N> broadcast(float x) {
     return {_mm256_set1_ps(x)};
+}
+template <int N>
+RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+    return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
 }
 RT_FN void store(float* p, Float8 a) {
     _mm256_store_ps(p, a.v);
@@ -94,12 +106,25 @@ RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
 RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
     return {_mm256_blendv_ps(b.v, a.v, m.v)};
 }
+RT_FN Index8 select(Mask8 m, Index8 a, Index8 b) {
+    return {_mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v))};
+}
 RT_FN unsigned bits(Mask8 m) {
     return static_cast<unsigned>(_mm256_movemask_ps(m.v));
 }
 
 RT_FN float lane(Float8 a, unsigned i) {
     return _mm256_cvtss_f32(_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(static_cast<int>(i))));
+}
+RT_FN std::uint32_t lane(Index8 a, unsigned i) {
+    const __m256i index = _mm256_set1_epi32(static_cast<int>(i));
+    return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(a.v, index)));
+}
+RT_FN float firstOf(Mask8 m, Float8 a) {
+    return lane(a, lowestBit(bits(m)));
+}
+RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
+    return lane(a, lowestBit(bits(m)));
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

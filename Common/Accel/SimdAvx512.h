@@ -30,6 +30,16 @@ template <>
 struct Float<16> {
     __m512 v;
 };
+template <int N>
+struct Index;
+template <>
+struct Index<8> {
+    __m256i v;
+};
+template <>
+struct Index<16> {
+    __m512i v;
+};
 template <>
 struct Mask<8> {
     __mmask8 v;
@@ -40,6 +50,8 @@ struct Mask<16> {
 };
 using Float8 = Float<8>;
 using Mask8 = Mask<8>;
+using Index8 = Index<8>;
+using Index16 = Index<16>;
 using Float16 = Float<16>;
 using Mask16 = Mask<16>;
 
@@ -57,6 +69,14 @@ RT_FN Float<N> broadcast(float x) {
         return {_mm512_set1_ps(x)};
     } else {
         return {_mm256_set1_ps(x)};
+    }
+}
+template <int N>
+RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+    if constexpr (N == 16) {
+        return {_mm512_loadu_si512(p)};
+    } else {
+        return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
     }
 }
 RT_FN void store(float* p, Float8 a) {
@@ -122,11 +142,23 @@ RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
 RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
     return {_mm256_mask_blend_ps(m.v, b.v, a.v)};
 }
+RT_FN Index8 select(Mask8 m, Index8 a, Index8 b) {
+    return {_mm256_mask_blend_epi32(m.v, b.v, a.v)};
+}
 RT_FN unsigned bits(Mask8 m) {
     return m.v;
 }
 RT_FN float lane(Float8 a, unsigned i) {
     return _mm256_cvtss_f32(_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(static_cast<int>(i))));
+}
+RT_FN float firstOf(Mask8 m, Float8 a) {
+    return _mm256_cvtss_f32(_mm256_maskz_compress_ps(m.v, a.v));
+}
+RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
+    return static_cast<std::uint32_t>(_mm256_cvtsi256_si32(_mm256_maskz_compress_epi32(m.v, a.v)));
+}
+RT_FN std::uint32_t lane(Index8 a, unsigned i) {
+    return firstOf(Mask8{static_cast<__mmask8>(1u << i)}, a);
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
@@ -189,14 +221,36 @@ RT_FN Mask16 operator|(Mask16 a, Mask16 b) {
 RT_FN Float16 select(Mask16 m, Float16 a, Float16 b) {
     return {_mm512_mask_blend_ps(m.v, b.v, a.v)};
 }
+RT_FN Index16 select(Mask16 m, Index16 a, Index16 b) {
+    return {_mm512_mask_blend_epi32(m.v, b.v, a.v)};
+}
 RT_FN unsigned bits(Mask16 m) {
     return m.v;
 }
 RT_FN float lane(Float16 a, unsigned i) {
     return _mm512_cvtss_f32(_mm512_permutexvar_ps(_mm512_set1_epi32(static_cast<int>(i)), a.v));
 }
+RT_FN float firstOf(Mask16 m, Float16 a) {
+    return _mm512_cvtss_f32(_mm512_maskz_compress_ps(m.v, a.v));
+}
+RT_FN std::uint32_t firstOf(Mask16 m, Index16 a) {
+    return static_cast<std::uint32_t>(_mm512_cvtsi512_si32(_mm512_maskz_compress_epi32(m.v, a.v)));
+}
+RT_FN std::uint32_t lane(Index16 a, unsigned i) {
+    return firstOf(Mask16{static_cast<__mmask16>(1u << i)}, a);
+}
 RT_FN float least(Float16 a) {
     return least(Float8{_mm256_min_ps(_mm512_castps512_ps256(a.v), _mm512_extractf32x8_ps(a.v, 1))});
+}
+// Eight lanes among sixteen; the others mean nothing, and their mask is not set.
+RT_FN Float16 widen(Float8 a) {
+    return {_mm512_castps256_ps512(a.v)};
+}
+RT_FN Index16 widen(Index8 a) {
+    return {_mm512_castsi256_si512(a.v)};
+}
+RT_FN Mask16 widen(Mask8 m) {
+    return {m.v};
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 #include <cmath>
 
+#include "Common/Accel/LowestBit.h"
 #include "Common/Shared/Shim.h"
 
 namespace rt::accel {
@@ -19,11 +20,16 @@ struct Float {
     float v[N];
 };
 template <int N>
+struct Index {
+    std::uint32_t v[N];
+};
+template <int N>
 struct Mask {
     bool v[N];
 };
 using Float8 = Float<8>;
 using Mask8 = Mask<8>;
+using Index8 = Index<8>;
 
 // Lane by lane; `expression` names the lane i.
 #define RT_EACH_LANE(Result, expression) \
@@ -48,6 +54,10 @@ RT_FN Float<N> load(const float* p) {
 template <int N>
 RT_FN Float<N> broadcast(float x) {
     RT_EACH_LANE(Float8, x);
+}
+template <int N>
+RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+    RT_EACH_LANE(Index8, p[i]);
 }
 RT_FN void store(float* p, Float8 a) {
     for (int i = 0; i < 8; ++i) {
@@ -111,6 +121,9 @@ RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
 RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
     RT_EACH_LANE(Float8, m.v[i] ? a.v[i] : b.v[i]);
 }
+RT_FN Index8 select(Mask8 m, Index8 a, Index8 b) {
+    RT_EACH_LANE(Index8, m.v[i] ? a.v[i] : b.v[i]);
+}
 RT_FN unsigned bits(Mask8 m) {
     unsigned result = 0;
     for (int i = 0; i < 8; ++i) {
@@ -121,6 +134,15 @@ RT_FN unsigned bits(Mask8 m) {
 
 RT_FN float lane(Float8 a, unsigned i) {
     return a.v[i];
+}
+RT_FN std::uint32_t lane(Index8 a, unsigned i) {
+    return a.v[i];
+}
+RT_FN float firstOf(Mask8 m, Float8 a) {
+    return a.v[lowestBit(bits(m))];
+}
+RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
+    return a.v[lowestBit(bits(m))];
 }
 RT_FN float least(Float8 a) {
     float result = a.v[0];

@@ -2,6 +2,7 @@
 #pragma once
 #include <nmmintrin.h>
 
+#include "Common/Accel/LowestBit.h"
 #include "Common/Shared/Shim.h"
 
 namespace rt::accel {
@@ -18,12 +19,19 @@ template <>
 struct Float<8> {
     __m128 lo, hi;
 };
+template <int N>
+struct Index;
+template <>
+struct Index<8> {
+    __m128i lo, hi;
+};
 template <>
 struct Mask<8> {
     __m128 lo, hi;
 };
 using Float8 = Float<8>;
 using Mask8 = Mask<8>;
+using Index8 = Index<8>;
 
 template <int N>
 RT_FN Float<N> load(const float* p) {
@@ -32,6 +40,11 @@ RT_FN Float<N> load(const float* p) {
 template <int N>
 RT_FN Float<N> broadcast(float x) {
     return {_mm_set1_ps(x), _mm_set1_ps(x)};
+}
+template <int N>
+RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+    const __m128i* v = reinterpret_cast<const __m128i*>(p);
+    return {_mm_load_si128(v), _mm_load_si128(v + 1)};
 }
 RT_FN void store(float* p, Float8 a) {
     _mm_store_ps(p, a.lo);
@@ -97,6 +110,9 @@ RT_FN Mask8 operator|(Mask8 a, Mask8 b) {
 RT_FN Float8 select(Mask8 m, Float8 a, Float8 b) {
     return {_mm_blendv_ps(b.lo, a.lo, m.lo), _mm_blendv_ps(b.hi, a.hi, m.hi)};
 }
+RT_FN Index8 select(Mask8 m, Index8 a, Index8 b) {
+    return {_mm_blendv_epi8(b.lo, a.lo, _mm_castps_si128(m.lo)), _mm_blendv_epi8(b.hi, a.hi, _mm_castps_si128(m.hi))};
+}
 RT_FN unsigned bits(Mask8 m) {
     return static_cast<unsigned>(_mm_movemask_ps(m.lo)) | static_cast<unsigned>(_mm_movemask_ps(m.hi)) << 4;
 }
@@ -105,6 +121,18 @@ RT_FN float lane(Float8 a, unsigned i) {
     alignas(16) float lanes[8];
     store(lanes, a);
     return lanes[i];
+}
+RT_FN std::uint32_t lane(Index8 a, unsigned i) {
+    alignas(16) std::uint32_t lanes[8];
+    _mm_store_si128(reinterpret_cast<__m128i*>(lanes), a.lo);
+    _mm_store_si128(reinterpret_cast<__m128i*>(lanes + 4), a.hi);
+    return lanes[i];
+}
+RT_FN float firstOf(Mask8 m, Float8 a) {
+    return lane(a, lowestBit(bits(m)));
+}
+RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
+    return lane(a, lowestBit(bits(m)));
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(a.lo, a.hi);

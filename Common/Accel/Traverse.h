@@ -18,8 +18,7 @@ namespace {
 
 constexpr float kLargest = 3.402823466e+38f;
 
-// ---- nearest of the lanes that were hit
-// ------------------------------------------------------------------------------
+// ---- nearest of the lanes that were hit -----------------------------------------------------------------------------
 
 RT_FN bool comesBefore(shared::uint instance, shared::uint kind, shared::uint primitive, const shared::Hit& hit) {
     if (instance != hit.instance) return instance + 1 < hit.instance + 1;  // kNone, the world, is the first
@@ -47,56 +46,58 @@ RT_FN void acceptNearest(const LaneHits<N>& lanes, shared::uint kind, const std:
     best.v = lane(lanes.v, i);
 }
 
-// ---- scenes without a tree
-// -------------------------------------------------------------------------------------------
+// ---- scenes without a tree ------------------------------------------------------------------------------------------
 
 // The nearest hit in each lane, over all blocks so far.
 struct FlatBest {
     Float<kLanes> t, u, v;
-    Float<kLanes> chunk;  // number of the run of kLanes primitives that was hit
-    unsigned chunks;      // tested so far
+    Index<kLanes> name;
 };
+
+template <int N, class Block>
+RT_FN LaneHits<kLanes> testLanes(const ShapeRay& ray, const Block& block, unsigned first) {
+    const LaneHits<N> lanes = intersectBlock<N>(ray, block, first);
+    if constexpr (N == kLanes) {
+        return lanes;
+    } else {
+        return {widen(lanes.mask), widen(lanes.t), widen(lanes.u), widen(lanes.v)};
+    }
+}
+
+// Tests the primitives of the list from number `first` on, kLanes of them, or the last eight: long registers divide
+// slowly.
+template <class Block>
+RT_FN LaneHits<kLanes> testChunk(const ShapeRay& ray, const FlatList<Block>& list, unsigned first) {
+    const Block& block = list.blocks[first / kFlatWidth];
+    if (kLanes > 8 && list.primitives - first <= 8) return testLanes<8>(ray, block, first % kFlatWidth);
+    return testLanes<kLanes>(ray, block, first % kFlatWidth);
+}
 
 template <class Block>
 RT_FN void testFlat(const ShapeRay& ray, const FlatList<Block>& list, FlatBest& best) {
     for (unsigned i = 0; i < list.primitives; i += kLanes) {
-        const LaneHits<kLanes> lanes = intersectBlock<kLanes>(ray, list.blocks[i / kFlatWidth], i % kFlatWidth);
+        const LaneHits<kLanes> lanes = testChunk(ray, list, i);
         const Mask<kLanes> nearer = lanes.mask & (lanes.t < best.t);
+        const std::uint32_t* names = list.blocks[i / kFlatWidth].primitive + i % kFlatWidth;
         best.t = select(nearer, lanes.t, best.t);
         best.u = select(nearer, lanes.u, best.u);
         best.v = select(nearer, lanes.v, best.v);
-        best.chunk = select(nearer, broadcast<kLanes>(static_cast<float>(best.chunks)), best.chunk);
-        ++best.chunks;
+        best.name = select(nearer, loadIndex<kLanes>(names), best.name);
     }
 }
 
+// Adds to `hits` the lanes in which something was hit before tMax.
 template <class Block>
-RT_FN bool testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, float tMax) {
+RT_FN void testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, Float<kLanes> tMax, Mask<kLanes>& hits) {
     for (unsigned i = 0; i < list.primitives; i += kLanes) {
-        const LaneHits<kLanes> lanes = intersectBlock<kLanes>(ray, list.blocks[i / kFlatWidth], i % kFlatWidth);
-        if (bits(lanes.mask & (lanes.t < broadcast<kLanes>(tMax))) != 0) return true;
+        const LaneHits<kLanes> lanes = testChunk(ray, list, i);
+        hits = hits | (lanes.mask & (lanes.t < tMax));
     }
-    return false;
-}
-
-// True when chunk number `chunk` belongs to the list: then the hit is named. Else `chunk` counts on from the next list.
-template <class Block>
-RT_FN bool nameFlatHit(const FlatList<Block>& list, shared::uint kind, unsigned lane, unsigned& chunk,
-                       shared::Hit& hit) {
-    const unsigned chunks = (list.primitives + kLanes - 1) / kLanes;
-    if (chunk >= chunks) {
-        chunk -= chunks;
-        return false;
-    }
-    const unsigned i = chunk * kLanes + lane;
-    hit.kind = kind;
-    hit.primitive = list.blocks[i / kFlatWidth].primitive[i % kFlatWidth];
-    return true;
 }
 
 RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
     const Float<kLanes> zero = broadcast<kLanes>(0.0f);
-    FlatBest best{broadcast<kLanes>(tMax), zero, zero, zero, 0};
+    FlatBest best{broadcast<kLanes>(tMax), zero, zero, {}};
     if (shared::has(features, shared::kFeatureSpheres)) testFlat(ray, view.flatSpheres, best);
     if (shared::has(features, shared::kFeatureMovingSpheres)) testFlat(ray, view.flatMovingSpheres, best);
     if (shared::has(features, shared::kFeatureQuads)) testFlat(ray, view.flatQuads, best);
@@ -105,42 +106,36 @@ RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const 
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
     const float t = least(best.t);
     if (!(t < tMax)) return hit;
-    unsigned lanes = bits(best.t == broadcast<kLanes>(t));
-    unsigned nearest = lowestBit(lanes);
-    unsigned chunk = static_cast<unsigned>(lane(best.chunk, nearest));
-    for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {  // a tie: the first in the order of lists
-        const unsigned i = lowestBit(lanes);
-        const unsigned other = static_cast<unsigned>(lane(best.chunk, i));
-        if (other < chunk) {
-            chunk = other;
-            nearest = i;
-        }
-    }
+    const Mask<kLanes> nearest = best.t == broadcast<kLanes>(t);
+    std::uint32_t name = firstOf(nearest, best.name);
     hit.t = t;
-    hit.u = lane(best.u, nearest);
-    hit.v = lane(best.v, nearest);
-    if (shared::has(features, shared::kFeatureSpheres) &&
-        nameFlatHit(view.flatSpheres, shared::kSphere, nearest, chunk, hit))
-        return hit;
-    if (shared::has(features, shared::kFeatureMovingSpheres) &&
-        nameFlatHit(view.flatMovingSpheres, shared::kSphere, nearest, chunk, hit))
-        return hit;
-    if (shared::has(features, shared::kFeatureQuads) && nameFlatHit(view.flatQuads, shared::kQuad, nearest, chunk, hit))
-        return hit;
-    nameFlatHit(view.flatTriangles, shared::kTriangle, nearest, chunk, hit);
+    hit.u = firstOf(nearest, best.u);
+    hit.v = firstOf(nearest, best.v);
+    const unsigned lanes = bits(nearest);
+    for (unsigned others = lanes & (lanes - 1); others != 0; others &= others - 1) {  // a tie
+        const unsigned i = lowestBit(others);
+        const std::uint32_t other = lane(best.name, i);
+        if (other > name) continue;
+        name = other;
+        hit.u = lane(best.u, i);
+        hit.v = lane(best.v, i);
+    }
+    hit.kind = name >> kFlatKindShift;
+    hit.primitive = name & ((1u << kFlatKindShift) - 1);
     return hit;
 }
 
 RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
-    if (shared::has(features, shared::kFeatureSpheres) && testFlatAny(ray, view.flatSpheres, tMax)) return true;
-    if (shared::has(features, shared::kFeatureMovingSpheres) && testFlatAny(ray, view.flatMovingSpheres, tMax))
-        return true;
-    if (shared::has(features, shared::kFeatureQuads) && testFlatAny(ray, view.flatQuads, tMax)) return true;
-    return shared::has(features, shared::kFeatureTriangles) && testFlatAny(ray, view.flatTriangles, tMax);
+    const Float<kLanes> end = broadcast<kLanes>(tMax);
+    Mask<kLanes> hits = end < end;
+    if (shared::has(features, shared::kFeatureSpheres)) testFlatAny(ray, view.flatSpheres, end, hits);
+    if (shared::has(features, shared::kFeatureMovingSpheres)) testFlatAny(ray, view.flatMovingSpheres, end, hits);
+    if (shared::has(features, shared::kFeatureQuads)) testFlatAny(ray, view.flatQuads, end, hits);
+    if (shared::has(features, shared::kFeatureTriangles)) testFlatAny(ray, view.flatTriangles, end, hits);
+    return bits(hits) != 0;
 }
 
-// ---- nodes
-// -----------------------------------------------------------------------------------------------------------
+// ---- nodes ----------------------------------------------------------------------------------------------------------
 
 // A ray as the slab test wants it. Reciprocals are widened so that rounding, theirs and that of the primitives' own
 // tests, can only let more boxes in: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
@@ -244,8 +239,7 @@ RT_FN bool testLeafAny(const ShapeRay& ray, const Block* blocks, Reference leaf,
     return false;
 }
 
-// ---- trees
-// -----------------------------------------------------------------------------------------------------------
+// ---- trees ----------------------------------------------------------------------------------------------------------
 
 RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
     shared::Ray r = ray;
@@ -262,7 +256,7 @@ template <bool World>
 RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                      shared::uint instance, shared::Hit& best) {
     const BoxRay boxRay = makeBoxRay(ray);
-    const ShapeRay shapeRay = makeShapeRay(features, ray);
+    const ShapeRay shapeRay = makeShapeRay(features, ray, World);
     StackEntry stack[kStackSize];
     unsigned size = 0;
     Reference current = root;
@@ -306,7 +300,7 @@ template <bool World>
 RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax) {
     const BoxRay boxRay = makeBoxRay(ray);
-    const ShapeRay shapeRay = makeShapeRay(features, ray);
+    const ShapeRay shapeRay = makeShapeRay(features, ray, World);
     Reference stack[kStackSize];
     unsigned size = 0;
     Reference current = root;
@@ -342,12 +336,11 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
     }
 }
 
-// ---- the two questions
-// -----------------------------------------------------------------------------------------------
+// ---- the two questions ----------------------------------------------------------------------------------------------
 
 // The nearest hit with 0 < t < tMax; its t is negative if there is none.
 RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
-    if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray), tMax);
+    if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray, true), tMax);
     shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
     traceTree<true>(features, view, view.root, ray, shared::kNone, best);
     if (!(best.t < tMax)) best.t = -1.0f;
@@ -356,7 +349,7 @@ RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, con
 
 // Whether anything is hit with 0 < t < tMax.
 RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
-    if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray), tMax);
+    if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray, true), tMax);
     return occludedTree<true>(features, view, view.root, ray, tMax);
 }
 

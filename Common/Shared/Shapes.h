@@ -1,9 +1,9 @@
-// Intersection of a ray with one shape: the formulas of the GPU's own traversal, and the reference for the blocks of eight
-// that the CPU tests at a time (Common/Accel/ShapeBlocks.h).
+// Intersection of a ray with one shape: the formulas of the GPU's own traversal, and the reference for the blocks of
+// eight that the CPU tests at a time (Common/Accel/ShapeBlocks.h).
 //
-// A ray's parameter t counts lengths of its direction, which needs no unit length. Origins lie off their surface already, so
-// every hit with 0 < t < tMax counts. No constant here has a unit of length: scaling a scene by a power of two changes no bit
-// of a decision.
+// A ray's parameter t counts lengths of its direction, which needs no unit length. Origins lie off their surface
+// already, so every hit with 0 < t < tMax counts. No constant here has a unit of length: scaling a scene by a power of
+// two changes no bit of a decision.
 #ifndef RT_SHARED_SHAPES_H
 #define RT_SHARED_SHAPES_H
 #include "Types.h"
@@ -11,8 +11,8 @@
 RT_SHARED_BEGIN
 
 struct ShapeHit {
-    float t; // negative: missed
-    float u; // as in Hit
+    float t;  // negative: missed
+    float u;  // as in Hit
     float v;
 };
 
@@ -28,30 +28,30 @@ RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
     return centerAtStart + motion * time;
 }
 
-// The nearest t in (0, tMax) where the ray meets the sphere, or -1. The discriminant comes from the ray's distance to the
-// centre, so a distant sphere loses no digits (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray
-// Tracing Gems, 2019), and the root that would cancel is found from the product of both.
+// The nearest t in (0, tMax) where the ray meets the sphere, or -1. The discriminant comes from the ray's distance to
+// the centre, so a distant sphere loses no digits (Haines et al., "Precision Improvements for Ray/Sphere Intersection",
+// Ray Tracing Gems, 2019), and the root that would cancel is found from the product of both.
 RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
     float b = -dot(f, ray.direction);
-    vec3 l = f + (b / a) * ray.direction; // from the centre to the point of the line that is nearest to it
+    vec3 l = f + (b / a) * ray.direction;  // from the centre to the point of the line that is nearest to it
     float discriminant = radius * radius - dot(l, l);
     if (!(discriminant >= 0.0f)) return -1.0f;
 
     float root = sqrt(a * discriminant);
     float q = b + (b < 0.0f ? -root : root);
-    float near = (dot(f, f) - radius * radius) / q; // b < 0: the far root, positive only from inside
+    float near = (dot(f, f) - radius * radius) / q;  // b < 0: the far root, positive only from inside
     float t = near > 0.0f ? near : q / a;
     return q != 0.0f && t > 0.0f && t < tMax ? t : -1.0f;
 }
 
 // What the test of a quad needs to know of it; computed once, or per test where memory is dearer.
 struct QuadFrame {
-    vec3 normal; // along edgeU x edgeV, of any length
-    vec3 dualU;  // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
+    vec3 normal;  // along edgeU x edgeV, of any length
+    vec3 dualU;   // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
     vec3 dualV;
-    float margin; // relative error of u and v for a unit of t |direction|
+    float margin;  // relative error of u and v for a unit of t |direction|
 };
 
 // Bounds the rounding errors of u and v, relative to the terms they are sums of.
@@ -67,13 +67,13 @@ RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
     return frame;
 }
 
-// The parallelogram is closed and widened by what rounding may take off its edges, so that quads which share an edge leave
-// no gap. Only rays within the plane are rejected for their angle.
+// The parallelogram is closed and widened by what rounding may take off its edges, so that quads which share an edge
+// leave no gap. Only rays within the plane are rejected for their angle.
 RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) {
     ShapeHit hit = missedShape();
     vec3 f = corner - ray.origin;
     float t = dot(frame.normal, f) / dot(frame.normal, ray.direction);
-    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
+    if (!(t > 0.0f && t < tMax)) return hit;  // not a number where the ray lies in the plane
     float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
     float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
     float reach = 0.5f + kQuadError + t * frame.margin * length(ray.direction);
@@ -99,8 +99,8 @@ RT_FN uint largestAxis(vec3 v) {
     return m.x > m.y ? (m.x > m.z ? 0u : 2u) : (m.y > m.z ? 1u : 2u);
 }
 
-// Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along an
-// axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
+// Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along
+// an axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
 RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
     ShapeHit hit = missedShape();
     uint kz = largestAxis(ray.direction);
@@ -121,7 +121,7 @@ RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 verte
     if (min(wa, min(wb, wc)) < 0.0f && max(wa, max(wb, wc)) > 0.0f) return hit;
     float sum = wa + wb + wc;
     float t = (wa * a[kz] + wb * b[kz] + wc * c[kz]) / (sum * ray.direction[kz]);
-    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the triangle is seen edge-on
+    if (!(t > 0.0f && t < tMax)) return hit;  // not a number where the triangle is seen edge-on
     hit.t = t;
     hit.u = wb / sum;
     hit.v = wc / sum;

@@ -81,7 +81,8 @@ std::vector<RaySet> makeRays(const BenchScene& s, const accel::AccelView& view) 
         vec3 point = ray.origin + ray.direction * hits[i].t;
         vec3 normal = normalAt(s, hits[i], point);
         if (shared::dot(normal, ray.direction) > 0.0f) normal = -normal;
-        point += normal * (1e-5f * shared::length(point - s.eye));
+        const float radius = hits[i].kind == shared::kSphere ? s.spheres[hits[i].primitive].radius : 0.0f;
+        point += normal * (32.0f * shared::kEpsilon * (2.0f * radius + hits[i].t + shared::length(point)));
         sets[1].rays.push_back({point, cosineDirection(normal, random), 0.0f});
         sets[3].rays.push_back({point, shared::normalize(light - point), 0.0f});
         sets[3].ends.push_back(shared::length(light - point));

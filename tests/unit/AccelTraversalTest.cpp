@@ -1,5 +1,6 @@
 // Whatever the tree, the instruction set and the order of traversal, the answer is that of testing every primitive.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,161 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
                     wrong += anyTree[i] != expected || anyFlat[i] != expected;
                 }
                 EXPECT_EQ(wrong, 0);
+            }
+        }
+    }
+}
+
+// Numerics N6: rays in the planes of flat boxes, along axes and diagonals, with zeros of both signs and denormal
+// components.
+TEST(AccelTraversal, RaysInThePlanesOfBoxesMissNothing) {
+    Geometry g;
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+            for (int k = 0; k < 6; ++k) {
+                const vec3 corner(static_cast<float>(i), static_cast<float>(j), static_cast<float>(k));
+                const int axis = (i + j + k) % 3;
+                vec3 u(0.0f), v(0.0f);
+                u[(axis + 1) % 3] = v[(axis + 2) % 3] = 1.0f;
+                if ((i + 2 * j + k) % 2 == 0) {
+                    g.addQuad(corner, u, v);
+                } else {
+                    g.addTriangle(corner, corner + u, corner + v);
+                }
+            }
+        }
+    }
+    std::vector<Ray> rays;
+    const float components[] = {0.0f, -0.0f, 1.0f, -1.0f, 1e-40f, -1e-40f};
+    Random random(41);
+    for (const float x : components) {
+        for (const float y : components) {
+            for (const float z : components) {
+                const vec3 d(x, y, z);
+                if (!(shared::dot(d, d) > 0.5f)) continue;
+                for (int i = 0; i < 60; ++i) {  // whole and half coordinates, inside and outside of the lattice
+                    const vec3 origin(static_cast<float>(random.below(18)) * 0.5f - 1.0f,
+                                      static_cast<float>(random.below(18)) * 0.5f - 1.0f,
+                                      static_cast<float>(random.below(18)) * 0.5f - 1.0f);
+                    rays.push_back({origin, d / shared::sqrt(shared::dot(d, d)), 0.0f});
+                }
+            }
+        }
+    }
+    const auto tree = buildAccel(g);
+    const auto flat = buildAccel(g, kAlwaysFlat);
+    for (const NamedQuery& q : runnableQueries()) {
+        SCOPED_TRACE(q.name);
+        const std::vector<Hit> a = closestHits(*q.query, tree->view(), rays);
+        const std::vector<Hit> b = closestHits(*q.query, flat->view(), rays);
+        int different = 0, hits = 0;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            different += !sameBits(a[i], b[i]);
+            hits += b[i].t >= 0.0f;
+        }
+        EXPECT_EQ(different, 0);
+        EXPECT_GT(hits, static_cast<int>(rays.size()) / 10);
+    }
+}
+
+TEST(AccelTraversal, TheFirstOfEquallyNearPrimitivesWins) {
+    for (const int copies : {1, 7, 30}) {
+        Geometry g;  // a triangle under a quad under the pole of a sphere, in one plane
+        for (int i = 0; i < copies; ++i) {
+            g.addTriangle(vec3(-1.0f, 0.0f, -1.0f), vec3(1.0f, 0.0f, -1.0f), vec3(0.0f, 0.0f, 2.0f));
+            g.addQuad(vec3(-2.0f, 0.0f, -2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 4.0f));
+            g.addSphere(vec3(0.0f, -1.0f, 0.0f), 1.0f);
+        }
+        const std::vector<Ray> rays{{vec3(0.0f, 4.0f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.0f},
+                                    {vec3(0.25f, 4.0f, 0.25f), vec3(0.0f, -1.0f, 0.0f), 0.0f}};
+        for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
+            const auto accel = buildAccel(g, flat);
+            for (const NamedQuery& q : runnableQueries()) {
+                SCOPED_TRACE(q.name + " " + std::to_string(copies) + (flat != 0 ? " flat" : " tree"));
+                const std::vector<Hit> hits = closestHits(*q.query, accel->view(), rays);
+                EXPECT_EQ(hits[0].t, 4.0f);
+                EXPECT_EQ(hits[0].kind, shared::kSphere);
+                EXPECT_EQ(hits[0].primitive, 0u);
+                EXPECT_EQ(hits[1].t, 4.0f);
+                EXPECT_EQ(hits[1].kind, shared::kQuad);
+                EXPECT_EQ(hits[1].primitive, 0u);
+            }
+        }
+    }
+}
+
+TEST(AccelTraversal, IntervalsAreOpenAtBothEnds) {
+    Geometry g;
+    g.addQuad(vec3(-1.0f, 0.0f, -1.0f), vec3(2.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 2.0f));
+    const vec3 down(0.0f, -1.0f, 0.0f);
+    const std::vector<Ray> rays{{vec3(0.0f, 2.0f, 0.0f), down, 0.0f},
+                                {vec3(0.0f, 2.0f, 0.0f), down, 0.0f},
+                                {vec3(0.0f), down, 0.0f},
+                                {vec3(0.0f, -1.0f, 0.0f), down, 0.0f}};
+    const std::vector<float> ends{2.0f, 2.0000002f, 10.0f, 10.0f};
+    const std::vector<std::uint8_t> expected{0, 1, 0, 0};
+    for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
+        const auto accel = buildAccel(g, flat);
+        for (const NamedQuery& q : runnableQueries()) {
+            EXPECT_EQ(anyHits(*q.query, accel->view(), rays, ends), expected);
+            std::vector<Hit> hits(rays.size());
+            q.query->closest(accel->view(), rays.data(), ends.data(), hits.data(), rays.size());
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                EXPECT_EQ(hits[i].t >= 0.0f, expected[i] == 1);
+            }
+        }
+    }
+}
+
+TEST(AccelTraversal, AnEmptySceneIsMissed) {
+    Geometry g;
+    const auto accel = buildAccel(g);
+    for (const NamedQuery& q : runnableQueries()) {
+        const std::vector<Ray> rays{{vec3(0.0f), vec3(0.0f, 0.0f, 1.0f), 0.0f}};
+        EXPECT_LT(closestHits(*q.query, accel->view(), rays)[0].t, 0.0f);
+        EXPECT_EQ(anyHits(*q.query, accel->view(), rays, {1.0f})[0], 0);
+    }
+}
+
+// Numerics N20: a scene twice as large is hit in the same places, bit for bit.
+TEST(AccelTraversal, PowersOfTwoScaleExactly) {
+    for (NamedGeometry& scene : geometries(300)) {
+        Random random(12);
+        const std::vector<Ray> rays = randomRays(scene.geometry, random, 3000);
+        for (const int exponent : {-20, -13, 4, 20}) {
+            const float scale = std::ldexp(1.0f, exponent);
+            Geometry scaled = scene.geometry;
+            for (shared::Sphere& s : scaled.spheres) {
+                s.center *= scale;
+                s.radius *= scale;
+            }
+            for (vec3& v : scaled.motions) {
+                v *= scale;
+            }
+            for (shared::Quad& quad : scaled.quads) {
+                quad.corner *= scale;
+                quad.edgeU *= scale;
+                quad.edgeV *= scale;
+            }
+            for (vec3& v : scaled.positions) {
+                v *= scale;
+            }
+            std::vector<Ray> scaledRays = rays;
+            for (Ray& ray : scaledRays) {
+                ray.origin *= scale;
+            }
+            const auto accel = buildAccel(scene.geometry), scaledAccel = buildAccel(scaled);
+            for (const NamedQuery& q : runnableQueries()) {
+                SCOPED_TRACE(scene.name + " " + q.name + " 2^" + std::to_string(exponent));
+                const std::vector<Hit> a = closestHits(*q.query, accel->view(), rays);
+                const std::vector<Hit> b = closestHits(*q.query, scaledAccel->view(), scaledRays);
+                int different = 0;
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    Hit expected = a[i];
+                    if (expected.t >= 0.0f) expected.t *= scale;
+                    different += !sameBits(expected, b[i]);
+                }
+                EXPECT_EQ(different, 0);
             }
         }
     }
