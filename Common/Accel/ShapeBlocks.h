@@ -17,8 +17,8 @@ struct ShapeRay {
     float squaredLength;
     float inverseSquaredLength;
     float length;
-    unsigned axis[3];  // permutation that makes axis[2] the direction's largest component
-    float shear[3];    // direction[axis[0]] / direction[axis[2]], likewise axis[1]; 1 / direction[axis[2]]
+    unsigned axis[3]; // permutation that makes axis[2] the direction's largest component
+    float shear[3];   // direction[axis[0]] / direction[axis[2]], likewise axis[1]; 1 / direction[axis[2]]
 };
 
 RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray, bool isUnit) {
@@ -80,7 +80,7 @@ RT_FN Float<N> dot(Vector<N> a, Vector<N> b) {
 template <int N>
 struct LaneHits {
     Mask<N> mask;
-    Float<N> t, u, v;  // meaningful where mask is set
+    Float<N> t, u, v; // meaningful where mask is set
 };
 
 template <int N>
@@ -89,16 +89,14 @@ RT_FN LaneHits<N> intersectSpheres(const ShapeRay& ray, Vector<N> center, Float<
     const Float<N> inverseA = broadcast<N>(ray.inverseSquaredLength);
     const Vector<N> d = broadcast3<N>(ray.direction);
     const Vector<N> f = center - broadcast3<N>(ray.origin);
-    const Float<N> b = dot(f, d);
-    const Float<N> along = b * inverseA;
-    const Float<N> x = negateMultiplyAdd(along, d.x, f.x);
-    const Float<N> y = negateMultiplyAdd(along, d.y, f.y);
-    const Float<N> z = negateMultiplyAdd(along, d.z, f.z);
-    const Float<N> discriminant = negateMultiplyAdd(x, x, radius * radius) -
-                                  multiplyAdd(y, y, z * z);     // of the chord; negative beside the sphere
-    const Float<N> half = squareRoot(discriminant * inverseA);  // not a number there
-    const Float<N> near = along - half;
-    const Float<N> t = select(zero < near, near, along + half);
+    const Float<N> middle = dot(f, d) * inverseA;
+    const Float<N> x = negateMultiplyAdd(middle, d.x, f.x);
+    const Float<N> y = negateMultiplyAdd(middle, d.y, f.y);
+    const Float<N> z = negateMultiplyAdd(middle, d.z, f.z);
+    const Float<N> squaredHalf = negateMultiplyAdd(x, x, radius * radius) - multiplyAdd(y, y, z * z);
+    const Float<N> halfChord = squareRoot(squaredHalf * inverseA); // not a number beside the sphere
+    const Float<N> near = middle - halfChord;
+    const Float<N> t = select(zero < near, near, middle + halfChord);
     return {zero < t, t, zero, zero};
 }
 
@@ -123,7 +121,7 @@ RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const QuadBlock<B>& block,
     const Vector<N> dualU = load3<N>(block.dualU, first);
     const Vector<N> dualV = load3<N>(block.dualV, first);
     const Float<N> t = dot(normal, f) / dot(normal, d);
-    const Float<N> u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half);  // from the middle of the quad
+    const Float<N> u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half); // from the middle of the quad
     const Float<N> v = multiplySubtract(t, dot(dualV, d), dot(dualV, f) + half);
     const Float<N> margin = load<N>(block.margin + first) * broadcast<N>(ray.length);
     const Float<N> reach = multiplyAdd(t, margin, broadcast<N>(0.5f + shared::kQuadError));
@@ -172,7 +170,7 @@ RT_FN EdgeFunctions<N> edgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)
                 fusedDifference(x[1], y[0], y[1], x[0])};
     } else {
         Float<N> e[3];
-        Mask<N> doubtful = x[0] < x[0];  // none yet: what rounding may have given the wrong sign
+        Mask<N> doubtful = x[0] < x[0]; // none yet: what rounding may have given the wrong sign
         for (int edge = 0; edge < 3; ++edge) {
             const int p = (edge + 2) % 3, q = (edge + 1) % 3;
             const Float<N> left = x[p] * y[q], right = y[p] * x[q];
@@ -205,5 +203,5 @@ RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const TriangleBlock<B>& bl
     return {inside & (zero < t), t, e.b * inverse, e.c * inverse};
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

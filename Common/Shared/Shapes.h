@@ -11,8 +11,8 @@
 RT_SHARED_BEGIN
 
 struct ShapeHit {
-    float t;  // negative: missed
-    float u;  // as in Hit
+    float t; // negative: missed
+    float u; // as in Hit
     float v;
 };
 
@@ -28,30 +28,28 @@ RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
     return centerAtStart + motion * time;
 }
 
-// The nearest t in (0, tMax) where the ray meets the sphere, or -1. The discriminant comes from the ray's distance to
-// the centre, so a distant sphere loses no digits (Haines et al., "Precision Improvements for Ray/Sphere Intersection",
-// Ray Tracing Gems, 2019), and the root that would cancel is found from the product of both.
+// The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the centre,
+// not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision Improvements for
+// Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance to the centre: that is
+// what the origin of a ray that leaves the sphere is offset by.
 RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
-    vec3 f = ray.origin - center;
+    vec3 f = center - ray.origin;
     float a = dot(ray.direction, ray.direction);
-    float b = -dot(f, ray.direction);
-    vec3 l = f + (b / a) * ray.direction;  // from the centre to the point of the line that is nearest to it
-    float discriminant = radius * radius - dot(l, l);
-    if (!(discriminant >= 0.0f)) return -1.0f;
-
-    float root = sqrt(a * discriminant);
-    float q = b + (b < 0.0f ? -root : root);
-    float near = (dot(f, f) - radius * radius) / q;  // b < 0: the far root, positive only from inside
-    float t = near > 0.0f ? near : q / a;
-    return q != 0.0f && t > 0.0f && t < tMax ? t : -1.0f;
+    float middle = dot(f, ray.direction) / a;
+    vec3 l = f - middle * ray.direction; // to the centre from the point of the line that is nearest to it
+    float squaredHalf = (radius * radius - dot(l, l)) / a;
+    if (!(squaredHalf >= 0.0f)) return -1.0f;
+    float halfChord = sqrt(squaredHalf);
+    float t = middle - halfChord > 0.0f ? middle - halfChord : middle + halfChord;
+    return t > 0.0f && t < tMax ? t : -1.0f;
 }
 
 // What the test of a quad needs to know of it; computed once, or per test where memory is dearer.
 struct QuadFrame {
-    vec3 normal;  // along edgeU x edgeV, of any length
-    vec3 dualU;   // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
+    vec3 normal; // along edgeU x edgeV, of any length
+    vec3 dualU;  // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
     vec3 dualV;
-    float margin;  // relative error of u and v for a unit of t |direction|
+    float margin; // relative error of u and v for a unit of t |direction|
 };
 
 // Bounds the rounding errors of u and v, relative to the terms they are sums of.
@@ -73,7 +71,7 @@ RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) 
     ShapeHit hit = missedShape();
     vec3 f = corner - ray.origin;
     float t = dot(frame.normal, f) / dot(frame.normal, ray.direction);
-    if (!(t > 0.0f && t < tMax)) return hit;  // not a number where the ray lies in the plane
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
     float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
     float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
     float reach = 0.5f + kQuadError + t * frame.margin * length(ray.direction);
@@ -121,7 +119,7 @@ RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 verte
     if (min(wa, min(wb, wc)) < 0.0f && max(wa, max(wb, wc)) > 0.0f) return hit;
     float sum = wa + wb + wc;
     float t = (wa * a[kz] + wb * b[kz] + wc * c[kz]) / (sum * ray.direction[kz]);
-    if (!(t > 0.0f && t < tMax)) return hit;  // not a number where the triangle is seen edge-on
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the triangle is seen edge-on
     hit.t = t;
     hit.u = wb / sum;
     hit.v = wc / sum;

@@ -1,14 +1,24 @@
 // Rays per second of one thread, ours and Embree's (robust mode, single-ray calls), on the same rays in one run. The
 // two take turns and medians are compared, so that a busy machine disturbs both alike.
 //   rays-bench [REPEATS] [SCENE...]
-#include <cmath>
 #include <cstdio>
+
+#ifndef RT_HAS_EMBREE
+
+int main() {
+    std::puts("rays-bench compares with Embree 3, which this build has not found.");
+    return 1;
+}
+
+#else
+
+#include <cmath>
 #include <cstdlib>
 #include <ctime>
 #include <functional>
 
-#include "AccelBenchScenes.h"
 #include "Common/Accel/RayQuery.h"
+#include "tests/bench/AccelBenchScenes.h"
 
 namespace rt::bench {
 namespace {
@@ -16,13 +26,13 @@ namespace {
 using shared::Hit;
 using shared::Ray;
 
-constexpr int kSide = 512;  // pixels of the image whose paths give the rays
+constexpr int kSide = 512; // pixels of the image whose paths give the rays
 constexpr int kTile = 8;
 
 struct RaySet {
     std::string name;
     std::vector<Ray> rays;
-    std::vector<float> ends;  // of the intervals that any-hit asks for
+    std::vector<float> ends; // of the intervals that any-hit asks for
 };
 
 float uniform(std::mt19937& random) {
@@ -171,8 +181,8 @@ void compare(const BenchScene& scene, RTCDevice device, int repeats) {
     }
 }
 
-}  // namespace
-}  // namespace rt::bench
+} // namespace
+} // namespace rt::bench
 
 int main(int argc, char** argv) {
     using namespace rt::bench;
@@ -189,3 +199,5 @@ int main(int argc, char** argv) {
     if (wanted("one-weekend")) compare(oneWeekend(), device, repeats);
     rtcReleaseDevice(device);
 }
+
+#endif

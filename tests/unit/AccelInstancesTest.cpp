@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
-#include "AccelScene.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -39,7 +39,7 @@ glm::dmat3 rotation(Random& random) {
 TEST(AccelInstances, AreHitLikeTransformedGeometry) {
     Random random(51);
     Geometry placed, baked;
-    for (int i = 0; i < 40; ++i) {  // the world's own, in both
+    for (int i = 0; i < 40; ++i) { // the world's own, in both
         const vec3 a = random.inCube(12.0f);
         const vec3 b = a + random.inCube(2.0f), c = a + random.inCube(2.0f);
         placed.addTriangle(a, b, c);
@@ -47,7 +47,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
     }
     placed.geometries.push_back({0, 0, 0, 0, 0, 40});
     std::vector<Placement> places;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> origin(40, {shared::kNone, 0});  // of each baked triangle
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> origin(40, {shared::kNone, 0}); // of each baked triangle
     for (std::uint32_t g = 1; g <= 3; ++g) {
         const std::uint32_t first = static_cast<std::uint32_t>(placed.triangles.size());
         for (int i = 0; i < 30; ++i) {
@@ -56,7 +56,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
         }
         placed.geometries.push_back({0, 0, 0, 0, first, 30});
     }
-    placed.geometries.push_back({});  // empty
+    placed.geometries.push_back({}); // empty
     for (std::uint32_t i = 0; i < 60; ++i) {
         const std::uint32_t g = 1 + i % 4;
         glm::dmat3 scale(0.0);
@@ -88,7 +88,7 @@ TEST(AccelInstances, AreHitLikeTransformedGeometry) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             ends[i] = a[i].t < 0.0f ? shared::kInfinity : a[i].t * (i % 2 == 0 ? 0.999f : 1.001f);
             if (b[i].t < 0.0f || a[i].t < 0.0f) {
-                otherHits += b[i].t >= 0.0f || a[i].t >= 0.0f;  // only a ray along an edge may differ
+                otherHits += b[i].t >= 0.0f || a[i].t >= 0.0f; // only a ray along an edge may differ
                 continue;
             }
             const auto [instance, primitive] = origin[b[i].primitive];
@@ -139,5 +139,5 @@ TEST(AccelInstances, OfNothingAreNotThere) {
     }
 }
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing

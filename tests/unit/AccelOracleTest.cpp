@@ -10,7 +10,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include "AccelScene.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -29,7 +29,7 @@ struct FirstHit {
     }
 };
 constexpr double kDoubt = 1e-4;
-constexpr double kRounding = 1e-5;  // of t, relative to the distances that went into it
+constexpr double kRounding = 1e-5; // of t, relative to the distances that went into it
 
 // The first of two crossings, each within an interval of t, is the hit unless it lies behind the origin.
 void addCrossings(FirstHit& first, double nearLow, double nearHigh, double farLow, double farHigh) {
@@ -53,7 +53,7 @@ void add(FirstHit& first, const Ray& ray, const shared::Sphere& s) {
     const double small = s.radius * (1.0 - kDoubt), large = s.radius * (1.0 + kDoubt);
     if (glm::dot(l, l) > large * large) return;
     const double outer = std::sqrt((large * large - glm::dot(l, l)) / a) + slack;
-    if (glm::dot(l, l) > small * small) {  // touched or not
+    if (glm::dot(l, l) > small * small) { // touched or not
         if (middle + outer > 0.0) first.earliest = std::min(first.earliest, middle - outer);
         return;
     }
@@ -65,12 +65,12 @@ void add(FirstHit& first, const Ray& ray, dvec3 corner, dvec3 u, dvec3 v, bool i
     const dvec3 d(ray.direction), n = glm::cross(u, v), f = dvec3(ray.origin) - corner;
     const double squared = glm::dot(n, n);
     const double cosine = std::abs(glm::dot(n, d)) / std::sqrt(squared * glm::dot(d, d));
-    if (cosine < 1e-9) return;  // along the plane: no first hit is surely there
+    if (cosine < 1e-9) return; // along the plane: no first hit is surely there
     const double t = -glm::dot(n, f) / glm::dot(n, d);
     const dvec3 p = f + d * t;
     const double a = glm::dot(glm::cross(p, v), n) / squared, b = glm::dot(glm::cross(u, p), n) / squared;
     const double depth = isTriangle ? std::min({a, b, 1.0 - a - b}) : std::min({a, b, 1.0 - a, 1.0 - b});
-    const double size = std::sqrt(squared) / std::max(glm::length(u), glm::length(v));  // the smaller extent
+    const double size = std::sqrt(squared) / std::max(glm::length(u), glm::length(v)); // the smaller extent
     const double slack = kRounding * (glm::length(f) + std::abs(t)) / cosine;
     const double doubt = kDoubt / cosine + slack / size;
     if (depth > -doubt && t + slack > 0.0) first.earliest = std::min(first.earliest, t - slack);
@@ -260,12 +260,12 @@ TEST(AccelOracle, AgreesWithEmbree) {
     }
     for (const NamedQuery& q : runnableQueries()) {
         std::vector<Ray> some = rays;
-        if (q.name == "generic") some.resize(100000);  // it is slow
+        if (q.name == "generic") some.resize(100000); // it is slow
         const std::vector<Hit> ours = closestHits(*q.query, tree->view(), some);
         int different = 0, wrong = 0;
         for (std::size_t i = 0; i < some.size(); ++i) {
             if (std::abs(ours[i].t - theirs[i]) <= 1e-4f * std::max(1.0f, theirs[i])) continue;
-            ++different;  // edges and tangents: then the loop in double decides
+            ++different; // edges and tangents: then the loop in double decides
             wrong += !bruteForce(g, rays[i]).allows(ours[i].t);
         }
         EXPECT_EQ(wrong, 0) << q.name;
@@ -275,5 +275,5 @@ TEST(AccelOracle, AgreesWithEmbree) {
 
 #endif
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing

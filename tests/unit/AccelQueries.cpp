@@ -1,7 +1,7 @@
 // The traversal in plain C++, which x86 builds otherwise lack, and the list of all that this processor runs.
 #define RT_SIMD_GENERIC
-#include "AccelScene.h"
 #include "Common/Accel/RayQueryKernel.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 
@@ -15,4 +15,4 @@ std::vector<NamedQuery> runnableQueries() {
     return queries;
 }
 
-}  // namespace rt::accel::testing
+} // namespace rt::accel::testing

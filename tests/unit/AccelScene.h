@@ -93,4 +93,4 @@ inline std::unique_ptr<CpuAccel> buildAccel(Geometry& geometry, std::uint32_t fl
 }
 inline constexpr std::uint32_t kAlwaysFlat = 0xffffffff;
 
-}  // namespace rt::accel::testing
+} // namespace rt::accel::testing

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "AccelScene.h"
 #include "Common/Shared/Shapes.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -88,7 +88,7 @@ TEST(Shapes, SpheresNeverGiveNaN) {
     const shared::Sphere sphere{vec3(0.25f, -1.0f, 2.0f), 0.5f, 0, shared::kNone};
     std::vector<Ray> rays;
     Random random(22);
-    for (const vec3 start : {vec3(0.0f), vec3(0.5f, 0.0f, 0.0f), vec3(0.0f, -0.5f, 0.0f)}) {  // centre and surface
+    for (const vec3 start : {vec3(0.0f), vec3(0.5f, 0.0f, 0.0f), vec3(0.0f, -0.5f, 0.0f)}) { // centre and surface
         for (const vec3 direction :
              {vec3(1, 0, 0), vec3(0, 0, 1), vec3(-0.0f, 1, 0), vec3(0, -1, 0), random.direction()}) {
             rays.push_back({sphere.center + start, direction, 0.0f});
@@ -103,7 +103,7 @@ TEST(Shapes, SpheresNeverGiveNaN) {
             }
         }
     }
-    for (const float length : {1e-6f, 1e-3f, 1e3f, 1e6f}) {  // as under an instance; t counts lengths of the direction
+    for (const float length : {1e-6f, 1e-3f, 1e3f, 1e6f}) { // as under an instance; t counts lengths of the direction
         const Ray ray{vec3(0.25f, -1.0f, 7.0f), vec3(0.0f, 0.0f, -length), 0.0f};
         EXPECT_NEAR(shared::intersectSphere(ray, sphere.center, sphere.radius, shared::kInfinity) * length, 4.5f,
                     2e-6f);
@@ -133,7 +133,7 @@ TEST(Shapes, RaysLeaveTheSphereTheyStartFrom) {
             SCOPED_TRACE(name);
             EXPECT_EQ(std::count_if(hits.begin(), hits.end(), [](float t) { return t >= 0.0f; }), 0);
         }
-        if (c.x > 1e4f * sphere.radius || sphere.radius < 1e-3f) continue;  // the offset is of the size of short chords
+        if (c.x > 1e4f * sphere.radius || sphere.radius < 1e-3f) continue; // the offset is of the size of short chords
         for (const auto& [name, hits] : sphereHits(sphere, inward)) {
             SCOPED_TRACE(name);
             int wrong = 0;
@@ -213,5 +213,5 @@ TEST(Shapes, MovingSpheresAreWhereTheyAreAtTheTimeOfTheRay) {
     }
 }
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "AccelScene.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -144,7 +144,7 @@ TEST(AccelTraversal, RaysInThePlanesOfBoxesMissNothing) {
             for (const float z : components) {
                 const vec3 d(x, y, z);
                 if (!(shared::dot(d, d) > 0.5f)) continue;
-                for (int i = 0; i < 60; ++i) {  // whole and half coordinates, inside and outside of the lattice
+                for (int i = 0; i < 60; ++i) { // whole and half coordinates, inside and outside of the lattice
                     const vec3 origin(static_cast<float>(random.below(18)) * 0.5f - 1.0f,
                                       static_cast<float>(random.below(18)) * 0.5f - 1.0f,
                                       static_cast<float>(random.below(18)) * 0.5f - 1.0f);
@@ -171,7 +171,7 @@ TEST(AccelTraversal, RaysInThePlanesOfBoxesMissNothing) {
 
 TEST(AccelTraversal, TheFirstOfEquallyNearPrimitivesWins) {
     for (const int copies : {1, 7, 30}) {
-        Geometry g;  // a triangle under a quad under the pole of a sphere, in one plane
+        Geometry g; // a triangle under a quad under the pole of a sphere, in one plane
         for (int i = 0; i < copies; ++i) {
             g.addTriangle(vec3(-1.0f, 0.0f, -1.0f), vec3(1.0f, 0.0f, -1.0f), vec3(0.0f, 0.0f, 2.0f));
             g.addQuad(vec3(-2.0f, 0.0f, -2.0f), vec3(4.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 4.0f));
@@ -272,5 +272,5 @@ TEST(AccelTraversal, PowersOfTwoScaleExactly) {
     }
 }
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing

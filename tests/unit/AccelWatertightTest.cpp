@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "AccelScene.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -83,7 +83,7 @@ TEST(Watertight, MeshesDoNotLeakAtVerticesAndEdges) {
                     g.positions.push_back((v + vec3(shift, -0.5f * shift, 0.3f * shift)) * scale);
                 }
                 g.triangles = mesh.triangles;
-                vec3 center(0.0f);  // of the mesh as rounded
+                vec3 center(0.0f); // of the mesh as rounded
                 for (const vec3 v : g.positions) {
                     center += v / static_cast<float>(g.positions.size());
                 }
@@ -104,7 +104,7 @@ TEST(Watertight, MeshesDoNotLeakAtVerticesAndEdges) {
                     vec3 d(0.0f);
                     d[axis / 2] = axis % 2 == 0 ? 1.0f : -1.0f;
                     rays.push_back({center, d, 0.0f});
-                    for (const vec3 v : g.positions) {  // axis-parallel and through a vertex
+                    for (const vec3 v : g.positions) { // axis-parallel and through a vertex
                         vec3 origin = v;
                         origin[axis / 2] = center[axis / 2];
                         const vec3 offset = (origin - center) / scale;
@@ -151,7 +151,7 @@ TEST(Watertight, BoxesOfQuadsDoNotLeakAtEdgesAndCorners) {
                 std::vector<Ray> rays;
                 for (int i = 0; i < 4000; ++i) {
                     vec3 target(random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f), random.uniform(-1.0f, 1.0f));
-                    const int free = i % 4;  // the coordinate that varies along the edge; 3: a corner
+                    const int free = i % 4; // the coordinate that varies along the edge; 3: a corner
                     for (int a = 0; a < 3; ++a) {
                         if (a != free) target[a] = random.uniform() < 0.5f ? -1.0f : 1.0f;
                     }
@@ -171,5 +171,5 @@ TEST(Watertight, BoxesOfQuadsDoNotLeakAtEdgesAndCorners) {
     }
 }
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing

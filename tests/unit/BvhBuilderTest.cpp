@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "AccelScene.h"
 #include "Common/Accel/BvhBuilder.h"
+#include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {
 namespace {
@@ -82,7 +82,7 @@ TEST(BvhBuilder, KeepsGroupsApartAndSinglesAlone) {
 TEST(BvhBuilder, DividesItemsThatNoPlaneDivides) {
     std::vector<Box> boxes(40000, randomBoxes(1)[0]);
     expectComplete({boxes, {}}, {});
-    for (std::size_t i = 0; i < boxes.size(); ++i) {  // every centre half as far as the one before
+    for (std::size_t i = 0; i < boxes.size(); ++i) { // every centre half as far as the one before
         boxes[i] = Box{};
         boxes[i].add(vec3(std::ldexp(1.0f, -static_cast<int>(i % 140))));
     }
@@ -132,5 +132,5 @@ TEST(CpuAccel, TakesAtMostHundredBytesForATriangle) {
     EXPECT_LE(scene + buildAccel(g)->bytes(), 100 * g.triangles.size());
 }
 
-}  // namespace
-}  // namespace rt::accel::testing
+} // namespace
+} // namespace rt::accel::testing
