@@ -5,8 +5,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
 build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
-                libtinyobjloader-dev libstb-dev libtbb-dev)
-test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang glslang-tools spirv-tools)
+                libtinyobjloader-dev libstb-dev libtbb-dev libvulkan-dev glslang-tools spirv-tools)
+test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers)
 bench_packages=(libbenchmark-dev libembree-dev)
 
 preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
@@ -16,6 +16,8 @@ fail() {
     echo "build.sh: $*" >&2
     exit 1
 }
+
+. cmake/SoftwareDriver.sh
 
 usage() {
     cat <<'END'
@@ -104,6 +106,7 @@ case $verb in
         install_packages "${build_packages[@]}" "${test_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
+        provide_device
         run_tests
         ;;
     bench)

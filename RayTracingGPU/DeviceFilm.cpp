@@ -20,18 +20,18 @@ static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && 
 constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
 constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
 
-// Exact for what toDouble() returned.
+// Exact for what toDouble() returned. In vectors, because GCC 12's vectorizer gets a loop over the components wrong.
 FilmSum toPair(const double* values) {
+    const glm::dvec3 exact(values[0], values[1], values[2]);
     FilmSum sum;
-    for (int c = 0; c < 3; ++c) {
-        sum.high[c] = static_cast<float>(values[c]);
-        sum.low[c] = static_cast<float>(values[c] - static_cast<double>(sum.high[c]));
-    }
+    sum.high = vec3(exact);
+    sum.low = vec3(exact - glm::dvec3(sum.high));
     return sum;
 }
 
 void toDouble(const FilmSum& sum, double* values) {
-    for (int c = 0; c < 3; ++c) values[c] = static_cast<double>(sum.high[c]) + static_cast<double>(sum.low[c]);
+    const glm::dvec3 exact = glm::dvec3(sum.high) + glm::dvec3(sum.low);
+    for (int c = 0; c < 3; ++c) values[c] = exact[c];
 }
 
 void appendPairs(std::span<const double> values, std::vector<FilmSum>& pairs) {

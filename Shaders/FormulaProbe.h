@@ -1,0 +1,280 @@
+// Every shared formula on pseudo-random arguments, valid as C++20 and as GLSL: the same function runs on both sides, and a
+// test compares what comes out. Arguments are made of hashes, so they are the same words on both sides.
+#ifndef RT_SHADERS_FORMULA_PROBE_H
+#define RT_SHADERS_FORMULA_PROBE_H
+#include "Common/Shared/Bsdf.h"
+#include "Common/Shared/Camera.h"
+#include "Common/Shared/Color.h"
+#include "Common/Shared/Lights.h"
+#include "Common/Shared/Media.h"
+#include "Common/Shared/Random.h"
+#include "Common/Shared/Shapes.h"
+
+RT_SHARED_BEGIN
+
+// Results are integers below kProbeFloats and bits of floats from there on.
+const uint kProbeHash = 0u;
+const uint kProbePermute = 1u;
+const uint kProbeSampler = 2u;
+const uint kProbeFloats = 3u;
+const uint kProbeSinCos = 3u;
+const uint kProbeArcTan = 4u;
+const uint kProbeExponential = 5u;
+const uint kProbeLogarithm = 6u;
+const uint kProbeSrgb = 7u;
+const uint kProbeFrame = 8u;
+const uint kProbeHemisphere = 9u;
+const uint kProbeSphere = 10u;
+const uint kProbeOffset = 11u;
+const uint kProbeFresnel = 12u;
+const uint kProbeMetal = 13u;
+const uint kProbeMetalPdf = 14u;
+const uint kProbeDielectric = 15u;
+const uint kProbeSphereLight = 16u;
+const uint kProbeQuadLight = 17u;
+const uint kProbeTriangleLight = 18u;
+const uint kProbeContribution = 19u;
+const uint kProbeSphereHit = 20u;
+const uint kProbeQuadHit = 21u;
+const uint kProbeTriangleHit = 22u;
+const uint kProbeSphereMedium = 23u;
+const uint kProbeBoxMedium = 24u;
+const uint kProbeFreeFlight = 25u;
+const uint kProbeCamera = 26u;
+const uint kProbeCount = 27u;
+
+// A source of arguments. At most one of them stands in a call: C++ leaves open which is evaluated first.
+struct Arguments {
+    uint key;
+    uint next;
+};
+
+RT_FN vec2 uniformPair(RT_INOUT(Arguments) a) {
+    uvec3 h = hash3(uvec3(a.key, a.next, 0x517cc1b7u));
+    a.next++;
+    return vec2(toUniform(h.x), toUniform(h.y));
+}
+RT_FN float uniformNumber(RT_INOUT(Arguments) a) {
+    return uniformPair(a).x;
+}
+// In the cube [-1, 1]^3.
+RT_FN vec3 cubePoint(RT_INOUT(Arguments) a) {
+    vec2 xy = uniformPair(a);
+    return vec3(2.0f * xy.x - 1.0f, 2.0f * xy.y - 1.0f, 2.0f * uniformNumber(a) - 1.0f);
+}
+// By arithmetic alone, so that both sides have nearly the same one.
+RT_FN vec3 unitVector(RT_INOUT(Arguments) a) {
+    vec3 v = cubePoint(a);
+    float squared = dot(v, v);
+    return squared > 1.0e-6f ? v / sqrt(squared) : vec3(0.0f, 0.0f, 1.0f);
+}
+// On the side of n.
+RT_FN vec3 hemisphereVector(RT_INOUT(Arguments) a, vec3 n) {
+    vec3 v = unitVector(a);
+    return dot(v, n) < 0.0f ? -v : v;
+}
+
+RT_FN uvec4 floatWords(float x, float y, float z, float w) {
+    return uvec4(floatBitsToUint(x), floatBitsToUint(y), floatBitsToUint(z), floatBitsToUint(w));
+}
+RT_FN uvec4 floatWords(vec3 v, float w) {
+    return floatWords(v.x, v.y, v.z, w);
+}
+
+RT_FN RenderParams probeParams() {
+    RenderParams p;
+    p.width = 640u;
+    p.height = 360u;
+    p.maxDepth = 50u;
+    p.seed = 7u;
+    p.lightSampling = kSampleMis;
+    p.lightSelection = kSelectContribution;
+    p.sphereLight = kShapeAuto;
+    p.quadLight = kShapeAuto;
+    p.triangleLight = kShapeAuto;
+    p.samplerKind = kSamplerIndependent;
+    p.strataX = 5u;
+    p.strataY = 7u;
+    p.russianRoulette = 1u;
+    return p;
+}
+
+RT_FN uvec4 probeSampler(uint i) {
+    RenderParams params = probeParams();
+    params.samplerKind = i % 3u;
+    uvec2 words = randomWords(makeSampler(params, i / 3u, i & 1u, i & 255u), i & 15u);
+    // Jittered strata compute with floats: compared to 16 bits of the result.
+    if (params.samplerKind == kSamplerStratified) words = words >> 16u;
+    return uvec4(words.x, words.y, 0u, 0u);
+}
+
+RT_FN Material probeMaterial(uint kind, float fuzz, float ior) {
+    Material m;
+    m.kind = kind;
+    m.albedo = vec3(0.8f, 0.6f, 0.4f);
+    m.texture = kNone;
+    m.fuzz = fuzz;
+    m.ior = ior;
+    m.emission = vec3(0.0f, 0.0f, 0.0f);
+    m.emissionTexture = kNone;
+    m.emissionSides = kSidesFront;
+    return m;
+}
+
+RT_FN Light probeLight(RT_INOUT(Arguments) a, uint kind) {
+    Light light;
+    light.kind = kind;
+    light.material = 0u;
+    light.position = cubePoint(a) + vec3(0.0f, 3.0f, 0.0f);
+    light.edgeU = vec3(0.4f, 0.0f, 0.0f) * (0.5f + uniformNumber(a));
+    light.edgeV = vec3(0.0f, 0.0f, 0.7f) * (0.5f + uniformNumber(a));
+    light.normal = vec3(0.0f, -1.0f, 0.0f);
+    light.radius = 0.05f + 0.5f * uniformNumber(a);
+    light.area = length(cross(light.edgeU, light.edgeV)) * (kind == kLightTriangle ? 0.5f : 1.0f);
+    light.emission = vec3(4.0f, 3.0f, 2.0f);
+    light.sides = kSidesBoth;
+    light.selection = 1.0f;
+    light.cdf = 1.0f;
+    return light;
+}
+
+RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
+    Light light = probeLight(a, kind);
+    vec3 position = cubePoint(a);
+    vec3 normal = vec3(0.0f, 1.0f, 0.0f);
+    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights;
+    LightSample s = sampleLight(features, probeParams(), light, position, normal, 0.0f, uniformPair(a));
+    return floatWords(s.wi, s.pdf);
+}
+
+RT_FN uvec4 probeBsdf(RT_INOUT(Arguments) a, Material m) {
+    vec3 n = unitVector(a);
+    vec3 wo = hemisphereVector(a, n);
+    vec2 u = uniformPair(a);
+    BsdfSample s = sampleBsdf(kFeatureAll, m, m.albedo, n, uint(u.x * 2.0f), wo, u, u.y);
+    return floatWords(s.wi, s.pdf);
+}
+
+RT_FN Ray probeRay(RT_INOUT(Arguments) a) {
+    Ray ray;
+    ray.origin = cubePoint(a) * 4.0f;
+    ray.direction = normalize(cubePoint(a) - ray.origin);
+    ray.time = 0.0f;
+    return ray;
+}
+
+RT_FN Medium probeMedium(uint shape) {
+    Medium m;
+    m.toLocal[0] = vec4(1.25f, 0.0f, 0.5f, 0.1f);
+    m.toLocal[1] = vec4(0.0f, 0.75f, 0.0f, -0.2f);
+    m.toLocal[2] = vec4(-0.5f, 0.0f, 1.25f, 0.3f);
+    m.shape = shape;
+    m.extinction = 1.0f;
+    m.albedo = vec3(1.0f, 1.0f, 1.0f);
+    m.texture = kNone;
+    return m;
+}
+
+RT_FN Camera probeCamera() {
+    Camera camera;
+    camera.origin = vec3(0.25f, 0.5f, 3.0f);
+    camera.corner = vec3(-2.0f, 1.125f, -4.0f);
+    camera.across = vec3(4.0f, 0.0f, 0.0f);
+    camera.down = vec3(0.0f, -2.25f, 0.0f);
+    camera.lensU = vec3(0.1f, 0.0f, 0.0f);
+    camera.lensV = vec3(0.0f, 0.1f, 0.0f);
+    return camera;
+}
+
+RT_FN uvec4 probeShape(RT_INOUT(Arguments) a, uint which) {
+    Ray ray = probeRay(a);
+    vec3 p = cubePoint(a);
+    if (which == kProbeSphereHit) {
+        return floatWords(intersectSphere(ray, p * 0.5f, 0.25f + uniformNumber(a), kInfinity), 0.0f, 0.0f, 0.0f);
+    }
+    vec3 u = cubePoint(a);
+    vec3 v = cubePoint(a);
+    ShapeHit hit = missedShape();
+    if (which == kProbeQuadHit) {
+        hit = intersectQuad(ray, p, quadFrame(u, v), kInfinity);
+    } else {
+        hit = intersectTriangle(ray, p, p + u, p + v, kInfinity);
+    }
+    return floatWords(hit.t, hit.u, hit.v, 0.0f);
+}
+
+RT_FN uvec4 probeElementary(RT_INOUT(Arguments) a, uint which) {
+    vec2 u = uniformPair(a);
+    if (which == kProbeSinCos) return floatWords(vec3(sinCos2Pi(u.x), 0.0f), 0.0f);
+    if (which == kProbeArcTan) return floatWords(arcTan(2.0f * u.x - 1.0f, 2.0f * u.y - 1.0f), 0.0f, 0.0f, 0.0f);
+    if (which == kProbeExponential) {
+        return floatWords(exponential(40.0f * u.x - 20.0f), expm1(-u.y), 0.0f, 0.0f);
+    }
+    if (which == kProbeLogarithm) return floatWords(logarithm(u.x + 1.0e-6f), log1p(-u.y), 0.0f, 0.0f);
+    return floatWords(srgbToLinear(u.x), srgbToLinear(u.y), 0.0f, 0.0f);
+}
+
+RT_FN uvec4 probeSampling(RT_INOUT(Arguments) a, uint which) {
+    if (which == kProbeHemisphere) return floatWords(sampleCosineHemisphere(uniformPair(a)), 0.0f);
+    if (which == kProbeSphere) return floatWords(sampleSphere(uniformPair(a)), 0.0f);
+    vec3 n = unitVector(a);
+    if (which == kProbeFrame) return floatWords(toWorld(makeFrame(n), vec3(0.25f, 0.5f, 0.75f)), 0.0f);
+    vec3 p = cubePoint(a);
+    return floatWords(offsetOrigin(p, vec3(1.0e-6f), n, unitVector(a)), 0.0f);
+}
+
+RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
+    if (which == kProbeFresnel) {
+        float cosine = uniformNumber(a);
+        vec2 f = fresnel(cosine, 0.4f + 2.0f * uniformNumber(a));
+        return floatWords(f.x, f.y, 0.0f, 0.0f);
+    }
+    float fuzz = 0.05f + 0.9f * uniformNumber(a);
+    if (which == kProbeDielectric) return probeBsdf(a, probeMaterial(kMaterialDielectric, 0.0f, 1.5f));
+    if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz, 1.0f));
+    vec3 n = unitVector(a);
+    vec3 wo = hemisphereVector(a, n);
+    vec4 f = evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz, 1.0f), vec3(1.0f), n, wo, hemisphereVector(a, n));
+    return floatWords(vec3(f), f.w);
+}
+
+RT_FN uvec4 probe(uint which, uint i) {
+    Arguments a;
+    a.key = i;
+    a.next = which << 8u;
+    if (which == kProbeHash) return uvec4(hash3(uvec3(i, 3u, 5u)), owenScramble(i, hash1(i)));
+    if (which == kProbePermute) return uvec4(permute(i % 977u, 977u, hash1(i)), sobolPair(i, uvec3(i, 11u, 13u)), hash1(i));
+    if (which == kProbeSampler) return probeSampler(i);
+    if (which <= kProbeSrgb) return probeElementary(a, which);
+    if (which <= kProbeOffset) return probeSampling(a, which);
+    if (which <= kProbeDielectric) return probeSurface(a, which);
+    if (which <= kProbeTriangleLight) return probeLightSample(a, which - kProbeSphereLight);
+    if (which == kProbeContribution) {
+        LightBound bound;
+        bound.center = cubePoint(a);
+        bound.radius = 0.3f;
+        bound.axis = unitVector(a);
+        bound.twoSided = 0.0f;
+        bound.intensity = 2.0f;
+        vec3 p = cubePoint(a);
+        return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
+    }
+    if (which <= kProbeTriangleHit) return probeShape(a, which);
+    Ray ray = probeRay(a);
+    if (which <= kProbeBoxMedium) {
+        vec2 span = mediumInterval(probeMedium(which - kProbeSphereMedium), ray.origin, ray.direction);
+        return floatWords(span.x, span.y, 0.0f, 0.0f);
+    }
+    if (which == kProbeFreeFlight) {
+        float u = toFineUniform(hash1(i), hash1(i + 1u));
+        return floatWords(sampleFreeFlight(u, 0.5f), transmittance(3.0f * u), collisionProbability(u), 0.0f);
+    }
+    vec2 image = uniformPair(a);
+    ray = generateCameraRay(kFeatureThinLens, probeCamera(), uvec2(i % 640u, i % 360u), uvec2(640u, 360u), image,
+                            uniformPair(a), 0.0f);
+    return floatWords(ray.direction, ray.origin.x);
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,147 @@
+// CPU and GPU trace the same paths: with the same seed their images agree sample for sample, until rounding makes a path
+// decide differently. Every built-in scene; the validation layers watch, synchronization included.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/SceneSource.h"
+#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Shared/Features.h"
+#include "RayTracingCPU/CpuEngine.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+using image::Image;
+
+constexpr std::uint32_t kSide = 48; // pixels
+
+std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene& builtin) {
+    constexpr std::uint32_t kCount = 200; // of scenes that come in every size
+    std::string id(builtin.id);
+    if (builtin.defaultCount > kCount) id += ":" + std::to_string(kCount);
+    return app::compile(app::loadScene(id), true);
+}
+
+app::RenderSettings smallSettings(std::uint32_t spp) {
+    app::RenderSettings settings;
+    settings.width = kSide;
+    settings.height = kSide;
+    settings.spp = spp;
+    return settings;
+}
+
+Image render(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({}).finished) {
+    }
+    EXPECT_EQ(engine.report().nonfiniteSamples, 0u);
+    return engine.film().resolve();
+}
+
+struct Pair {
+    Image cpu;
+    Image gpu;
+};
+
+class Engines {
+  public:
+    explicit Engines(std::shared_ptr<const scene::CompiledScene> scene)
+        : scene_(std::move(scene)), cpu_(cpu::makeCpuEngine({})), gpu_(gpu::makeGpuEngine(device(), {false})) {
+        cpu_->setScene(scene_, nullptr);
+        gpu_->setScene(scene_, nullptr);
+    }
+    Pair render(const app::RenderSettings& settings) {
+        return {test::render(*cpu_, *scene_, settings), test::render(*gpu_, *scene_, settings)};
+    }
+
+  private:
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    std::unique_ptr<app::Engine> cpu_;
+    std::unique_ptr<app::Engine> gpu_;
+};
+
+// Share of pixels that are within 1e-3 of each other, relatively, in all channels.
+double agreement(const Pair& images) {
+    std::size_t agree = 0;
+    for (std::size_t i = 0; i < images.cpu.data.size(); i += 3) {
+        bool same = true;
+        for (std::size_t c = i; c < i + 3; ++c) {
+            const float a = images.cpu.data[c];
+            const float b = images.gpu.data[c];
+            same = same && std::abs(a - b) <= 1e-3f * std::max(std::abs(a), std::abs(b)) + 1e-6f;
+        }
+        if (same) ++agree;
+    }
+    return static_cast<double>(agree) / (kSide * kSide);
+}
+
+double leastAgreement(const scene::CompiledScene& scene) {
+    return shared::has(scene.features, shared::kFeatureDielectric | shared::kFeatureVolumes) ? 0.98 : 0.99;
+}
+
+// The mean difference within 4 standard errors + 1e-5 of the mean: common random numbers cancel nearly all noise.
+::testing::AssertionResult pairedMeansAgree(const Pair& images) {
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+        const double n = kSide * kSide;
+        double mean = 0;
+        double sum = 0;
+        double squares = 0;
+        for (std::size_t i = channel; i < images.cpu.data.size(); i += 3) {
+            const double d = static_cast<double>(images.gpu.data[i]) - static_cast<double>(images.cpu.data[i]);
+            mean += static_cast<double>(images.cpu.data[i]) / n;
+            sum += d;
+            squares += d * d;
+        }
+        const double difference = sum / n;
+        const double standardError = std::sqrt(std::max(0.0, squares / n - difference * difference) / (n - 1));
+        if (std::abs(difference) <= 4 * standardError + 1e-5 * mean) continue;
+        return ::testing::AssertionFailure() << "channel " << channel << ": the GPU's mean is off by " << difference
+                                             << " +- " << standardError << " of " << mean;
+    }
+    return ::testing::AssertionSuccess();
+}
+
+class AgreementTest : public ::testing::TestWithParam<std::size_t> {};
+
+TEST_P(AgreementTest, SampleForSample) {
+    const auto scene = smallScene(scene::builtinScenes()[GetParam()]);
+    Engines engines(scene);
+    EXPECT_GE(agreement(engines.render(smallSettings(1))), leastAgreement(*scene));
+    EXPECT_TRUE(pairedMeansAgree(engines.render(smallSettings(16))));
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
+std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
+    std::string name(scene::builtinScenes()[info.param].id);
+    std::replace_if(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
+                         sceneName);
+
+// Every way of sampling lights and pixels, on the default scene.
+TEST(EstimatorAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
+    Engines engines(scene);
+    for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
+        for (auto sampler : {app::SamplerKind::Independent, app::SamplerKind::Stratified}) {
+            app::RenderSettings settings = smallSettings(1);
+            settings.lightSampling = sampling;
+            settings.sampler = sampler;
+            settings.lightSelection = app::LightSelection::Power;
+            SCOPED_TRACE(static_cast<int>(sampling) * 10 + static_cast<int>(sampler));
+            EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rt::test

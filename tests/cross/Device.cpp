@@ -1,0 +1,28 @@
+#include "tests/cross/Device.h"
+
+#include <cstdlib>
+
+#include <gtest/gtest.h>
+
+namespace rt::test {
+namespace {
+
+// Whatever the tests did, the validation layers have nothing to say about it.
+class NoValidationMessages : public ::testing::Environment {
+  public:
+    void TearDown() override {
+        EXPECT_EQ(device().validationMessages(), 0u);
+    }
+};
+
+const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new NoValidationMessages);
+
+}  // namespace
+
+vulkan::VulkanContext& device() {
+    const char* chosen = std::getenv("RT_DEVICE");
+    static vulkan::VulkanContext context({chosen != nullptr ? chosen : "", true});
+    return context;
+}
+
+}  // namespace rt::test

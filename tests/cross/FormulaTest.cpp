@@ -1,0 +1,165 @@
+// The shared formulas on the device against the C++ build of the same headers.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/VulkanResources.h"
+#include <FormulaProbe.comp.h>
+#include "Shaders/FormulaProbe.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+using Words = std::array<std::uint32_t, 4>;
+
+constexpr std::uint32_t kInputs = 100'000;
+
+// Results of all formulas, kInputs of each.
+std::vector<Words> runOnDevice(vulkan::VulkanContext& context) {
+    struct Launch {
+        VkDeviceAddress results;
+        std::uint32_t count;
+    };
+    const VkDevice device = context.device();
+    VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    code.codeSize = sizeof FormulaProbe_comp;
+    code.pCode = FormulaProbe_comp;
+    VkShaderModule module = VK_NULL_HANDLE;
+    vulkan::check(vkCreateShaderModule(device, &code, nullptr, &module), "Loading the probe");
+    const vulkan::Handle<VkShaderModule> moduleOwner(device, module, vkDestroyShaderModule);
+
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Launch)};
+    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layoutInfo.pushConstantRangeCount = 1;
+    layoutInfo.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    vulkan::check(vkCreatePipelineLayout(device, &layoutInfo, nullptr, &layout), "Loading the probe");
+    const vulkan::Handle<VkPipelineLayout> layoutOwner(device, layout, vkDestroyPipelineLayout);
+
+    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.layout = layout;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    vulkan::check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "Loading the probe");
+    const vulkan::Handle<VkPipeline> pipelineOwner(device, pipeline, vkDestroyPipeline);
+
+    std::vector<Words> results(std::size_t{shared::kProbeCount} * kInputs);
+    const vulkan::Buffer buffer(context, results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
+    const Launch launch{buffer.address(), kInputs};
+    context.run([&](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
+        vkCmdDispatch(commands, (kInputs + 63) / 64, shared::kProbeCount, 1);
+        vulkan::barrier(commands);
+    });
+    vulkan::download(context, buffer, std::as_writable_bytes(std::span(results)));
+    return results;
+}
+
+// Bound on the difference of a formula's results, absolute or relative, whichever is smaller. Devices may round divisions and
+// roots otherwise than the host, so where a formula decides something, or is ill-conditioned, `exceptions` of the kInputs
+// may be off by more.
+struct Bound {
+    std::uint32_t formula;
+    const char* name;
+    double difference;
+    std::uint32_t exceptions;
+};
+
+constexpr Bound kBounds[] = {
+    {shared::kProbeSinCos, "sine and cosine", 5e-7, 0},
+    {shared::kProbeArcTan, "arc tangent", 1e-6, 0},
+    {shared::kProbeExponential, "exponential", 1e-6, 0},
+    {shared::kProbeLogarithm, "logarithm", 1e-6, 0},
+    {shared::kProbeSrgb, "sRGB", 2e-6, 0},
+    {shared::kProbeFrame, "frame", 1e-6, 0},
+    {shared::kProbeHemisphere, "cosine hemisphere", 1e-6, 0},
+    {shared::kProbeSphere, "sphere", 1e-6, 0},
+    {shared::kProbeOffset, "offset", 1e-6, 0},
+    {shared::kProbeFresnel, "Fresnel", 1e-4, 20}, // its slope is infinite at the critical angle
+    {shared::kProbeMetal, "metal, sampled", 1e-3, 300}, // its density is unbounded at the edge of the lobe
+    {shared::kProbeMetalPdf, "metal, evaluated", 1e-4, 50},
+    {shared::kProbeDielectric, "dielectric", 1e-5, 20},
+    {shared::kProbeSphereLight, "sphere light", 1e-5, 10},
+    {shared::kProbeQuadLight, "quad light", 1e-4, 10},
+    {shared::kProbeTriangleLight, "triangle light", 1e-4, 10},
+    {shared::kProbeContribution, "contribution of a light", 1e-5, 0},
+    {shared::kProbeSphereHit, "ray and sphere", 1e-4, 10},
+    {shared::kProbeQuadHit, "ray and quad", 1e-4, 20},
+    {shared::kProbeTriangleHit, "ray and triangle", 1e-4, 20},
+    {shared::kProbeSphereMedium, "ray in a sphere", 1e-4, 10},
+    {shared::kProbeBoxMedium, "ray in a box", 1e-4, 20},
+    {shared::kProbeFreeFlight, "free flight", 2e-6, 0},
+    {shared::kProbeCamera, "camera", 1e-6, 0},
+};
+static_assert(std::size(kBounds) == shared::kProbeCount - shared::kProbeFloats);
+
+// Largest of the four differences, each absolute or relative.
+double difference(const Words& a, const Words& b) {
+    double worst = 0;
+    for (std::size_t c = 0; c < a.size(); ++c) {
+        if (a[c] == b[c]) continue;
+        const double x = static_cast<double>(std::bit_cast<float>(a[c]));
+        const double y = static_cast<double>(std::bit_cast<float>(b[c]));
+        const double off = std::abs(x - y);
+        if (!std::isfinite(off)) return std::numeric_limits<double>::infinity();
+        worst = std::max(worst, off / std::max(1.0, std::abs(y)));
+    }
+    return worst;
+}
+
+Words onHost(std::uint32_t formula, std::uint32_t input) {
+    const shared::uvec4 words = shared::probe(formula, input);
+    return {words.x, words.y, words.z, words.w};
+}
+
+const Words& onDevice(std::uint32_t formula, std::uint32_t input) {
+    static const std::vector<Words> results = runOnDevice(device());
+    return results[std::size_t{formula} * kInputs + input];
+}
+
+TEST(FormulaTest, IntegersAreEqual) {
+    for (std::uint32_t formula = 0; formula < shared::kProbeFloats; ++formula) {
+        for (std::uint32_t i = 0; i < kInputs; ++i) {
+            ASSERT_EQ(onDevice(formula, i), onHost(formula, i)) << "formula " << formula << ", input " << i;
+        }
+    }
+}
+
+TEST(FormulaTest, FloatsAreWithinBounds) {
+    for (const Bound& bound : kBounds) {
+        std::uint32_t beyond = 0;
+        double worst = 0;
+        for (std::uint32_t i = 0; i < kInputs; ++i) {
+            const double off = difference(onDevice(bound.formula, i), onHost(bound.formula, i));
+            worst = std::max(worst, off);
+            if (off > bound.difference) ++beyond;
+        }
+        EXPECT_LE(beyond, bound.exceptions) << bound.name << ": of " << kInputs << " inputs so many are off by more than "
+                                            << bound.difference << ", the worst by " << worst;
+    }
+}
+
+// The comparison would see a formula that is wrong in the sixth digit.
+TEST(FormulaTest, ComparisonSeesAWrongDigit) {
+    const Words words = onHost(shared::kProbeSphere, 1);
+    Words wrong = words;
+    wrong[0] = std::bit_cast<std::uint32_t>(std::bit_cast<float>(words[0]) * 1.00001f + 1e-6f);
+    EXPECT_GT(difference(words, wrong), 1e-6);
+}
+
+}  // namespace
+}  // namespace rt::test

@@ -1,0 +1,199 @@
+// What the GPU engine promises beyond the formulas: repeatable, resumable, indifferent to forced features, and a film that
+// does not stagnate.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <random>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/SceneSource.h"
+#include "Common/Shared/Features.h"
+#include "RayTracingGPU/DeviceFilm.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+using image::Film;
+using image::Image;
+
+constexpr std::uint32_t kSide = 20; // no multiple of a tile's
+
+app::RenderSettings settingsFor(std::uint32_t spp) {
+    app::RenderSettings settings;
+    settings.width = kSide;
+    settings.height = kSide;
+    settings.spp = spp;
+    return settings;
+}
+
+struct Render {
+    std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
+    std::unique_ptr<app::Engine> engine = gpu::makeGpuEngine(device(), {false});
+
+    explicit Render(const app::RenderSettings& settings) {
+        engine->setScene(scene, nullptr);
+        engine->reset(scene->camera, settings);
+    }
+    const Film& finish() {
+        while (!engine->renderSome({}).finished) {
+        }
+        return engine->film();
+    }
+};
+
+TEST(GpuEngineTest, SameSeedSameBits) {
+    app::RenderSettings settings = settingsFor(40);
+    settings.replicates = 3;
+    const std::vector<float> first = Render(settings).finish().resolve().data;
+    const std::vector<float> second = Render(settings).finish().resolve().data;
+    EXPECT_EQ(first, second);
+    settings.seed = 1;
+    EXPECT_NE(first, Render(settings).finish().resolve().data);
+}
+
+TEST(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
+    app::RenderSettings settings = settingsFor(75);
+    settings.secondMoments = true;
+    settings.sampler = app::SamplerKind::Independent; // the strata of others depend on the number of samples
+    Render whole(settings);
+    const Film& expected = whole.finish();
+
+    app::RenderSettings part = settings;
+    part.spp = 37; // in the middle of a block
+    Film film = Render(part).finish();
+    Render resumed(settings);
+    resumed.engine->restore(std::move(film));
+    const Film& actual = resumed.finish();
+    EXPECT_EQ(actual.resolve().data, expected.resolve().data);
+    EXPECT_EQ(actual.varianceOfMean().data, expected.varianceOfMean().data);
+    EXPECT_EQ(actual.totalSamples(), std::uint64_t{kSide} * kSide * settings.spp);
+}
+
+TEST(GpuEngineTest, CountsWhatItDid) {
+    Render render(settingsFor(5));
+    render.finish();
+    const app::EngineReport report = render.engine->report();
+    EXPECT_EQ(report.rays.camera, std::uint64_t{kSide} * kSide * 5);
+    EXPECT_GT(report.rays.scattered, report.rays.camera / 2);
+    EXPECT_GT(report.rays.shadow, 0u);
+    EXPECT_EQ(report.kernel, "paths+shadow+quads+spheres");
+    EXPECT_GT(report.deviceBytes, 0u);
+}
+
+TEST(GpuEngineTest, CancelledWorkCanGoOn) {
+    Render render(settingsFor(40));
+    const std::atomic<bool> cancel{true};
+    EXPECT_FALSE(render.engine->renderSome({std::chrono::seconds(1), &cancel}).finished);
+    EXPECT_EQ(render.engine->film().totalSamples(), 0u);
+    EXPECT_EQ(render.finish().resolve().data, Render(settingsFor(40)).finish().resolve().data);
+}
+
+// More features than the scene needs change nothing but rounding.
+TEST(GpuEngineTest, ForcedFeaturesDoNotChangeTheImage) {
+    app::RenderSettings settings = settingsFor(1);
+    const Image lean = Render(settings).finish().resolve();
+    settings.features = shared::kFeatureAll & ~shared::kFeatureThinLens;
+    const Image all = Render(settings).finish().resolve();
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < lean.data.size(); ++i) {
+        if (std::abs(lean.data[i] - all.data[i]) > 1e-3f * std::abs(lean.data[i]) + 1e-6f) ++off;
+    }
+    EXPECT_LE(off, lean.data.size() / 50);
+}
+
+TEST(GpuEngineTest, FirstHitFeatures) {
+    Render render(settingsFor(1));
+    const app::AovImages images = render.engine->renderAovs({true, true, true}, 4);
+    ASSERT_EQ(images.albedo.data.size(), std::size_t{kSide} * kSide * 3);
+    ASSERT_EQ(images.depth.data.size(), std::size_t{kSide} * kSide);
+    const float* normal = images.normal.pixel(kSide / 2, kSide / 2); // of the back wall
+    EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1.0f, 0.2f);
+    EXPECT_GT(images.depth.pixel(kSide / 2, kSide / 2)[0], 0.0f);
+}
+
+// ---- film ------------------------------------------------------------------------------------------------------------
+
+// Feeds `blocks` block sums of one tile to the reduction and returns the largest relative error of the film's sums.
+double reductionError(std::uint32_t blocks, const std::function<float()>& next) {
+    constexpr std::uint32_t kPerLaunch = 4096;
+    vulkan::VulkanContext& context = device();
+    const vulkan::PipelineCache cache(context, "");
+    const gpu::FilmReducer reducer(context, cache);
+    Film film({8, 8, 1, false});
+    gpu::DeviceFilm onDevice(context, film.desc(), 1);
+    onDevice.load(film, 0);
+    std::vector<shared::vec3> sums(std::size_t{kPerLaunch} * shared::kTilePixels);
+    const vulkan::Buffer buffer(context, sums.size() * sizeof sums[0], 0, vulkan::Memory::Device, "sums");
+    std::vector<glm::dvec3> exact(shared::kTilePixels, glm::dvec3(0));
+    for (std::uint32_t done = 0; done < blocks; done += kPerLaunch) {
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            for (int c = 0; c < 3; ++c) sums[i][c] = next();
+            exact[i % shared::kTilePixels] += glm::dvec3(sums[i]);
+        }
+        vulkan::upload(context, buffer, std::as_bytes(std::span(sums)));
+        shared::FilmLaunch launch{};
+        onDevice.describe(launch);
+        launch.blockSums = buffer.address();
+        launch.slotCount = 1;
+        launch.blocks = kPerLaunch;
+        launch.spp = (done + kPerLaunch) * shared::kBlock;
+        context.run([&](VkCommandBuffer commands) {
+            reducer.reduce(commands, launch);
+            vulkan::barrier(commands);
+        });
+        onDevice.advance(launch);
+    }
+    onDevice.store(film);
+    EXPECT_EQ(film.minSamples(), std::uint64_t{blocks} * shared::kBlock);
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const double sum = film.state(0, 0).sums[3 * i + static_cast<std::size_t>(c)];
+            worst = std::max(worst, std::abs(sum / exact[i][c] - 1));
+        }
+    }
+    return worst;
+}
+
+// Sums of more bits than a float has come back from the device as they went.
+TEST(DeviceFilmTest, RoundTripIsExact) {
+    const image::FilmDesc desc{8, 8, 1, true};
+    Film film(desc);
+    std::vector<double> sums(Film::kTilePixels * 3);
+    std::mt19937 random(3);
+    for (double& sum : sums) {
+        const float high = std::uniform_real_distribution<float>(1, 1000)(random);
+        sum = static_cast<double>(high) * (1 + std::ldexp(1.0, -24) * 0.25);
+        sum = static_cast<double>(static_cast<float>(sum)) + static_cast<double>(high) * std::ldexp(1.0, -26);
+    }
+    film.assign(0, 0, {32, sums, sums, {}});
+    gpu::DeviceFilm onDevice(device(), desc, 1);
+    onDevice.load(film, 0);
+    Film back(desc);
+    onDevice.store(back);
+    EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).sums.begin()));
+    EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).squares.begin()));
+}
+
+constexpr std::uint32_t kManyBlocks = 1u << 15; // 524 288 samples
+
+TEST(DeviceFilmTest, ConstantSumsDoNotStagnate) {
+    EXPECT_LE(reductionError(kManyBlocks, [] { return 1.6f; }), 1e-9);
+}
+
+TEST(DeviceFilmTest, RareLargeSumsKeepTheSmallOnes) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform;
+    const auto next = [&] { return uniform(random) < 1e-4f ? 2e4f * uniform(random) : 0.02f * uniform(random); };
+    EXPECT_LE(reductionError(kManyBlocks, next), 1e-9);
+}
+
+}  // namespace
+}  // namespace rt::test
