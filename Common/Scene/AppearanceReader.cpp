@@ -1,5 +1,4 @@
 // Reading of scene files: textures and materials.
-#include <limits>
 
 #include "Common/Scene/SceneReader.h"
 #include "Common/Scene/StandIns.h"
@@ -7,8 +6,6 @@
 namespace rt::scene {
 
 namespace {
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 NoiseTexture readNoise(const JsonNode& node) {
     node.expectKeys({"type", "kind", "scale", "frequency", "tint", "seed"});
@@ -73,7 +70,7 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
     const bool needsAlbedo = material.kind == MaterialKind::Lambertian || material.kind == MaterialKind::Metal;
     if (needsAlbedo || node.has("albedo")) material.albedo = references.colorOrTexture(node.at("albedo"));
     if (material.kind == MaterialKind::Emitter || node.has("emission"))
-        material.emission = node.at("emission").vectorWithin(0, kInfinite);
+        material.emission = node.at("emission").vectorWithin(0, kLargest);
     if (const auto texture = node.find("emission_texture"))
         material.emissionTexture = references.name(*texture, "textures");
     if (const auto sides = node.find("sides"))

@@ -48,10 +48,7 @@ std::string listed(std::initializer_list<const char*> names) {
 
 std::string rangeText(double low, double high) {
     std::ostringstream text;
-    if (high == std::numeric_limits<double>::infinity())
-        text << "at least " << low;
-    else
-        text << "from " << low << " to " << high;
+    text << "from " << low << " to " << high;
     return text.str();
 }
 
@@ -139,13 +136,11 @@ std::string JsonNode::oneOf(std::initializer_list<const char*> allowed) const {
 }
 
 double JsonNode::number() const {
-    if (!value_->is_number()) failValue("a number");
-    return value_->get<double>();
+    return within(-kLargest, kLargest);
 }
 
 double JsonNode::positive() const {
-    if (!value_->is_number() || !(value_->get<double>() > 0)) failValue("a number above 0");
-    return value_->get<double>();
+    return within(1 / kLargest, kLargest);
 }
 
 double JsonNode::within(double low, double high) const {
@@ -160,20 +155,10 @@ std::uint32_t JsonNode::unsignedInteger() const {
     return value_->get<std::uint32_t>();
 }
 
-glm::dvec3 JsonNode::vector() const {
-    constexpr double kInfinite = std::numeric_limits<double>::infinity();
-    return vectorWithin(-kInfinite, kInfinite);
-}
-
 glm::dvec3 JsonNode::vectorWithin(double low, double high) const {
-    const bool isAny = low == -std::numeric_limits<double>::infinity();
-    const bool isVector = value_->is_array() && value_->size() == 3;
-    if (!isVector) failValue(isAny ? "an array of 3 numbers" : "an array of 3 numbers " + rangeText(low, high));
+    if (!value_->is_array() || value_->size() != 3) failValue("an array of 3 numbers " + rangeText(low, high));
     glm::dvec3 v;
-    for (int i = 0; i < 3; ++i) {
-        const JsonNode component = element(static_cast<std::size_t>(i));
-        v[i] = isAny ? component.number() : component.within(low, high);
-    }
+    for (int i = 0; i < 3; ++i) v[i] = element(static_cast<std::size_t>(i)).within(low, high);
     return v;
 }
 

@@ -16,6 +16,10 @@ namespace rt::scene {
 // and for values nested deeper than 256.
 nlohmann::json parseJson(const std::string& text, const std::string& file);
 
+// Numbers of a scene stay within this, and lengths above its inverse: their fourth powers are finite and not 0 in single
+// precision.
+inline constexpr double kLargest = 1e9;
+
 // Refers to its parent, which must outlive it. All readers throw InputError when the value is not of their kind.
 class JsonNode {
   public:
@@ -41,11 +45,11 @@ class JsonNode {
     bool boolean() const;
     std::string string() const;
     std::string oneOf(std::initializer_list<const char*> allowed) const;
-    double number() const; // finite
-    double positive() const;
+    double number() const;   // within +-kLargest
+    double positive() const; // from 1 / kLargest to kLargest
     double within(double low, double high) const;
     std::uint32_t unsignedInteger() const;
-    glm::dvec3 vector() const;
+    glm::dvec3 vector() const { return vectorWithin(-kLargest, kLargest); }
     glm::dvec3 vectorWithin(double low, double high) const; // each component
     // A flat array of numbers, a multiple of `width` of them.
     std::vector<double> numbers(std::size_t width) const;

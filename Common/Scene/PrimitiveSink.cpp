@@ -11,10 +11,10 @@ namespace rt::scene {
 
 namespace {
 
-// Squares of coordinates and areas stay finite and normal in float; what lies outside is treated as degenerate.
-constexpr double kMaxCoordinate = 1e18;
-constexpr double kMinArea = 1e-37;
-constexpr double kMinRadius = 1e-18;
+// Fourth powers of lengths stay finite and normal in float; what lies outside counts as degenerate.
+constexpr double kMaxCoordinate = 4e9;
+constexpr double kMinRadius = 1e-9;
+constexpr double kMinArea = 1e-18;
 
 bool representable(const glm::dvec3& v) {
     return std::abs(v.x) <= kMaxCoordinate && std::abs(v.y) <= kMaxCoordinate && std::abs(v.z) <= kMaxCoordinate;

@@ -2,7 +2,6 @@
 #include "Common/Scene/SceneReader.h"
 
 #include <cstdint>
-#include <limits>
 #include <system_error>
 
 #include <glm/geometric.hpp>
@@ -15,7 +14,6 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
 
 CameraDesc readCamera(const JsonNode& node) {
@@ -43,17 +41,17 @@ Background readBackground(const JsonNode& node, const SceneReferences& reference
     const std::string type = node.at("type").oneOf({"constant", "gradient", "image"});
     if (type == "constant") {
         node.expectKeys({"type", "color"});
-        return ConstantBackground{node.at("color").vectorWithin(0, kInfinite)};
+        return ConstantBackground{node.at("color").vectorWithin(0, kLargest)};
     }
     if (type == "gradient") {
         node.expectKeys({"type", "bottom", "top"});
-        return GradientBackground{node.at("bottom").vectorWithin(0, kInfinite),
-                                  node.at("top").vectorWithin(0, kInfinite)};
+        return GradientBackground{node.at("bottom").vectorWithin(0, kLargest),
+                                  node.at("top").vectorWithin(0, kLargest)};
     }
     node.expectKeys({"type", "file", "factor"});
     ImageBackground image;
     image.file = references.file(node.at("file"), false);
-    if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kInfinite);
+    if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kLargest);
     return image;
 }
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -131,6 +132,52 @@ void expectValid(const CompiledScene& s) {
     }
 }
 
+// Features decide which code runs at all; a wrong bit is a wrong picture.
+std::map<std::string, std::uint32_t> expectedFeatures() {
+    using namespace shared;
+    const std::uint32_t cornell =
+        kFeatureQuads | kFeatureLambertian | kFeatureEmissive | kFeatureLights | kFeatureQuadLights;
+    const std::uint32_t book = kFeatureSpheres | kFeatureLambertian | kFeatureSky;
+    const std::uint32_t field = book | kFeatureMetal | kFeatureFuzz | kFeatureDielectric | kFeatureThinLens;
+    const std::uint32_t mesh = kFeatureTriangles | kFeatureSmoothNormals;
+    return {
+        {"cornell-box-lights", cornell | kFeatureSpheres | kFeatureDielectric | kFeatureSphereLights},
+        {"one-weekend-default", book},
+        {"one-weekend-test", book},
+        {"one-weekend-final", field},
+        {"next-week-default", book | kFeatureMovingSpheres | kFeatureMotion | kFeatureThinLens},
+        {"next-week-random-spheres", field | kFeatureMovingSpheres | kFeatureMotion | kFeatureChecker},
+        {"next-week-two-spheres", book | kFeatureChecker},
+        {"next-week-earth", book | kFeatureImages},
+        {"next-week-two-perlin-spheres", book | kFeatureNoise},
+        {"next-week-quads", kFeatureQuads | kFeatureLambertian | kFeatureSky},
+        {"next-week-simple-light", cornell | kFeatureSpheres | kFeatureNoise | kFeatureSphereLights},
+        {"next-week-cornell-box", cornell},
+        {"next-week-cornell-smoke", cornell | kFeatureVolumes},
+        {"next-week-final", cornell | kFeatureSpheres | kFeatureMovingSpheres | kFeatureMotion | kFeatureMetal |
+                                kFeatureFuzz | kFeatureDielectric | kFeatureVolumes | kFeatureImages | kFeatureNoise},
+        {"rest-of-life-cornell-box", cornell},
+        {"rest-of-life-cornell-box-mirror", cornell | kFeatureMetal},
+        {"rest-of-life-cornell-box-glass",
+         cornell | kFeatureSpheres | kFeatureDielectric | kFeatureTargets | kFeatureSphereLights},
+        {"white-spheres", cornell | kFeatureSpheres},
+        {"cube-and-spheres", book | kFeatureTriangles | kFeatureMetal | kFeatureFuzz | kFeatureDielectric |
+                                 kFeatureImages | kFeatureThinLens},
+        {"planets-in-one-weekend", field | kFeatureImages},
+        {"lucy-in-one-weekend", field | mesh | kFeatureInstances},
+        {"cornell-box-lucy", cornell | mesh | kFeatureSpheres | kFeatureDielectric},
+        {"veach-mis", cornell | kFeatureSpheres | kFeatureMetal | kFeatureFuzz | kFeatureSphereLights},
+        {"many-lights", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureMetal | kFeatureFuzz |
+                            kFeatureDielectric | kFeatureManyLights | kFeatureSphereLights | kFeatureTriangleLights},
+        {"triangle-lights", (cornell & ~kFeatureQuadLights) | kFeatureSpheres | kFeatureTriangles | kFeatureMetal |
+                                kFeatureFuzz | kFeatureDielectric | kFeatureManyLights | kFeatureTriangleLights},
+        {"furnace", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureManyLights | kFeatureSphereLights |
+                        kFeatureTriangleLights},
+        {"furnace-mixed", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureMetal | kFeatureDielectric |
+                              kFeatureVolumes | kFeatureManyLights | kFeatureSphereLights | kFeatureTriangleLights},
+    };
+}
+
 class BuiltinScenes : public testing::TestWithParam<std::string> {};
 
 TEST_P(BuiltinScenes, IsValidAndSurvivesAFile) {
@@ -138,6 +185,7 @@ TEST_P(BuiltinScenes, IsValidAndSurvivesAFile) {
     const auto compiled = compileScene(desc, generated());
     expectValid(*compiled);
     EXPECT_EQ(compiled->id, GetParam());
+    EXPECT_EQ(compiled->features, expectedFeatures().at(GetParam()));
 
     SceneDesc loaded = parseScene(toJson(desc), "scene.json", {});
     loaded.id = desc.id;
@@ -190,55 +238,6 @@ TEST(BuiltinScenesTable, CountsAreChecked) {
     for (const std::string count : {"", "0", "-1", "10000001", "99999999999999999999", "1.5", "1x", " 1", "abc"})
         EXPECT_NE(errorOf("white-spheres:" + count).find("from 1 to 10000000"), std::string::npos) << count;
     EXPECT_NE(errorOf("furnace:3").find("takes no count"), std::string::npos);
-}
-
-// Features decide which code runs at all; a wrong bit is a wrong picture.
-TEST(BuiltinScenesTable, FeatureMasks) {
-    using namespace shared;
-    const std::uint32_t cornell =
-        kFeatureQuads | kFeatureLambertian | kFeatureEmissive | kFeatureLights | kFeatureQuadLights;
-    const std::uint32_t book = kFeatureSpheres | kFeatureLambertian | kFeatureSky;
-    const std::uint32_t field = book | kFeatureMetal | kFeatureFuzz | kFeatureDielectric | kFeatureThinLens;
-    const std::uint32_t mesh = kFeatureTriangles | kFeatureSmoothNormals;
-    const std::pair<const char*, std::uint32_t> expected[] = {
-        {"cornell-box-lights", cornell | kFeatureSpheres | kFeatureDielectric | kFeatureSphereLights},
-        {"one-weekend-default", book},
-        {"one-weekend-test", book},
-        {"one-weekend-final", field},
-        {"next-week-default", book | kFeatureMovingSpheres | kFeatureMotion | kFeatureThinLens},
-        {"next-week-random-spheres", field | kFeatureMovingSpheres | kFeatureMotion | kFeatureChecker},
-        {"next-week-two-spheres", book | kFeatureChecker},
-        {"next-week-earth", book | kFeatureImages},
-        {"next-week-two-perlin-spheres", book | kFeatureNoise},
-        {"next-week-quads", kFeatureQuads | kFeatureLambertian | kFeatureSky},
-        {"next-week-simple-light", cornell | kFeatureSpheres | kFeatureNoise | kFeatureSphereLights},
-        {"next-week-cornell-box", cornell},
-        {"next-week-cornell-smoke", cornell | kFeatureVolumes},
-        {"next-week-final", cornell | kFeatureSpheres | kFeatureMovingSpheres | kFeatureMotion | kFeatureMetal |
-                                kFeatureFuzz | kFeatureDielectric | kFeatureVolumes | kFeatureImages | kFeatureNoise},
-        {"rest-of-life-cornell-box", cornell},
-        {"rest-of-life-cornell-box-mirror", cornell | kFeatureMetal},
-        {"rest-of-life-cornell-box-glass",
-         cornell | kFeatureSpheres | kFeatureDielectric | kFeatureTargets | kFeatureSphereLights},
-        {"white-spheres", cornell | kFeatureSpheres},
-        {"cube-and-spheres", book | kFeatureTriangles | kFeatureMetal | kFeatureFuzz | kFeatureDielectric |
-                                 kFeatureImages | kFeatureThinLens},
-        {"planets-in-one-weekend", field | kFeatureImages},
-        {"lucy-in-one-weekend", field | mesh | kFeatureInstances},
-        {"cornell-box-lucy", cornell | mesh | kFeatureSpheres | kFeatureDielectric},
-        {"veach-mis", cornell | kFeatureSpheres | kFeatureMetal | kFeatureFuzz | kFeatureSphereLights},
-        {"many-lights", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureMetal | kFeatureFuzz |
-                            kFeatureDielectric | kFeatureManyLights | kFeatureSphereLights | kFeatureTriangleLights},
-        {"triangle-lights", (cornell & ~kFeatureQuadLights) | kFeatureSpheres | kFeatureTriangles | kFeatureMetal |
-                                kFeatureFuzz | kFeatureDielectric | kFeatureManyLights | kFeatureTriangleLights},
-        {"furnace", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureManyLights | kFeatureSphereLights |
-                        kFeatureTriangleLights},
-        {"furnace-mixed", cornell | kFeatureSpheres | kFeatureTriangles | kFeatureMetal | kFeatureDielectric |
-                              kFeatureVolumes | kFeatureManyLights | kFeatureSphereLights | kFeatureTriangleLights},
-    };
-    EXPECT_EQ(std::size(expected), builtinScenes().size());
-    for (const auto& [id, mask] : expected)
-        EXPECT_EQ(compileScene(findBuiltinScene(id), generated())->features, mask) << id;
 }
 
 } // namespace

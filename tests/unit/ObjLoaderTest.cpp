@@ -1,6 +1,7 @@
 // OBJ and MTL files: what is read, and errors that name file and line.
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -135,6 +136,19 @@ TEST_F(ObjLoader, ErrorsNameFileAndLine) {
         EXPECT_NE(errorOf(empty).find("there is no face in it"), std::string::npos) << empty;
     EXPECT_THROW(loadObj(folder_ / "gone.obj", true), InputError);
     EXPECT_THROW(loadObj(folder_, true), InputError);
+}
+
+TEST_F(ObjLoader, DamagedFilesDoNoHarm) {
+    write("model.mtl", "newmtl red\nKd 1 0 0\nKe 1 1 1\nillum 3\n");
+    const std::string text = "mtllib model.mtl\n" + kSquare +
+                             "vt 0 0\nvn 0 0 1\nusemtl red\nf 1/1/1 2/1/1 3/1/1 4/1/1\nf -1//1 -2//1 -3//1\n";
+    std::mt19937 random(1);
+    for (int i = 0; i < 1000; ++i) {
+        std::string damaged = text.substr(0, i % 2 == 0 ? text.size() : random() % text.size());
+        for (int k = 0; k < 3 && !damaged.empty(); ++k)
+            damaged[random() % damaged.size()] = static_cast<char>(random());
+        errorOf(damaged);
+    }
 }
 
 TEST_F(ObjLoader, AFileAloneIsAScene) {

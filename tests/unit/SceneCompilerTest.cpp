@@ -503,11 +503,11 @@ TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {
 
 TEST(SceneCompiler, ExtremeButUsableGeometryStays) {
     SceneDesc scene = withMaterials();
-    add(scene, quad({0, 0, 0}, {1e-15, 0, 0}, {0, 1e-15, 0}, "lamp"));
-    add(scene, quad({0, 0, 0}, {1e15, 0, 0}, {0, 1e15, 0}, "lamp"));
+    add(scene, quad({0, 0, 0}, {2e-9, 0, 0}, {0, 2e-9, 0}, "lamp"));
+    add(scene, quad({0, 0, 0}, {2e9, 0, 0}, {0, 2e9, 0}, "lamp"));
     add(scene, quad({0, 0, 0}, {1, 0, 0}, {1, 1e-9, 0}, "lamp"));
-    add(scene, sphere({0, 0, 0}, 1e-15, "lamp"));
-    add(scene, sphere({0, 0, 0}, 1e15, "lamp"));
+    add(scene, sphere({0, 0, 0}, 2e-9, "lamp"));
+    add(scene, sphere({0, 0, 0}, 2e9, "lamp"));
     const auto compiled = compileScene(scene);
     EXPECT_EQ(compiled->quads.size() + compiled->spheres.size(), 5u);
     for (const shared::Quad& quad : compiled->quads) EXPECT_EQ(quad.normal, shared::vec3(0, 0, 1));

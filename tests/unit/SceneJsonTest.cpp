@@ -103,9 +103,9 @@ TEST(SceneJson, NumbersSurviveToTheLastBit) {
         sphere.material = "wall";
         for (int axis = 0; axis < 3; ++axis) {
             const double x = std::bit_cast<double>(random());
-            sphere.center[axis] = std::isfinite(x) ? x : 0.1;
+            sphere.center[axis] = std::abs(x) < 1e9 ? x : 0.1;
         }
-        sphere.radius = std::abs(sphere.center.x) > 0 ? std::abs(sphere.center.x) : 1;
+        sphere.radius = std::max(std::abs(sphere.center.x), 1e-9);
         scene.objects.push_back({sphere});
     }
     SceneDesc loaded = parse(toJson(scene));
@@ -133,10 +133,10 @@ const Mistake kMistakes[] = {
     {"/objects", "{}", "/objects: an object: must be an array"},
     {"/objects/0", "7", "/objects/0: 7: must be an object"},
     {"/materials", "[]", "/materials: an array of 0: must be an object"},
-    {"/objects/0/radius", "\"big\"", "/objects/0/radius: \"big\": must be a number above 0"},
+    {"/objects/0/radius", "\"big\"", "/objects/0/radius: \"big\": must be a number from 1e-09 to 1e+09"},
     {"/objects/0/light", "1", "/objects/0/light: 1: must be true or false"},
     {"/objects/0/center", "[1, 2]", "/objects/0/center: an array of 2: must be an array of 3 numbers"},
-    {"/objects/0/center/1", "null", "/objects/0/center/1: null: must be a number"},
+    {"/objects/0/center/1", "null", "/objects/0/center/1: null: must be a number from -1e+09 to 1e+09"},
     {"/textures/stone/seed", "-1", "/textures/stone/seed: -1: must be a whole number from 0 to 4294967295"},
     {"/textures/stone/seed", "1.5", "whole number"},
     {"/textures/stone/seed", "4294967296", "whole number"},
@@ -153,18 +153,19 @@ const Mistake kMistakes[] = {
     {"/textures/map/stand_in", "\"pluto\"", "/textures/map/stand_in: \"pluto\": must be one of earth"},
     {"/textures/stone/kind", "\"wood\"", "must be one of marble, turbulence, smooth"},
     // numbers out of range
-    {"/objects/0/radius", "-1", "/objects/0/radius: -1: must be a number above 0"},
-    {"/objects/0/radius", "0", "above 0"},
+    {"/objects/0/radius", "-1", "/objects/0/radius: -1: must be a number from 1e-09 to 1e+09"},
+    {"/objects/0/radius", "0", "from 1e-09 to 1e+09"},
     {"/materials/matte/albedo", "[0.5, 1.5, 0]", "/materials/matte/albedo/1: 1.5: must be a number from 0 to 1"},
-    {"/materials/lamp/emission", "[1, -1, 0]", "/materials/lamp/emission/1: -1: must be a number at least 0"},
+    {"/materials/lamp/emission", "[1, -1, 0]", "/materials/lamp/emission/1: -1: must be a number from 0 to 1e+09"},
     {"/materials/shiny/fuzz", "1.01", "/materials/shiny/fuzz: 1.01: must be a number from 0 to 1"},
-    {"/materials/clear/ior", "0", "/materials/clear/ior: 0: must be a number above 0"},
-    {"/objects/6/density", "0", "/objects/6/density: 0: must be a number above 0"},
+    {"/materials/clear/ior", "0", "/materials/clear/ior: 0: must be a number from 1e-09 to 1e+09"},
+    {"/objects/6/density", "0", "/objects/6/density: 0: must be a number from 1e-09 to 1e+09"},
+    {"/objects/0/center", "[0, 1e10, 0]", "/objects/0/center/1: 10000000000.0: must be a number from -1e+09 to 1e+09"},
     {"/camera/vertical_fov", "180", "/camera/vertical_fov: 180: must be a number between 0 and 180"},
     {"/camera/defocus_angle", "-1", "from 0 to below 180"},
-    {"/camera/focus_distance", "0", "above 0"},
-    {"/render/aspect", "-1", "above 0"},
-    {"/background/top", "[-1, 0, 0]", "at least 0"},
+    {"/camera/focus_distance", "0", "from 1e-09 to 1e+09"},
+    {"/render/aspect", "-1", "from 1e-09 to 1e+09"},
+    {"/background/top", "[-1, 0, 0]", "from 0 to 1e+09"},
     // shapes without extent, cameras without direction
     {"/objects/2/edge_v", "[2, 0, 0]", "/objects/2: edge_u and edge_v must span an area", false},
     {"/objects/2/edge_v", "[0, 0, 0]", "must span an area", false},
