@@ -336,13 +336,14 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
     return 0.0f;
 }
 
-// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray.
+// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray: several
+// times that of the point itself, since the device that traces the ray also rounds when it tests the light's shape.
 RT_FN vec3 lightPointError(RT_IN(Light) light) {
     if (light.kind == kLightSphere) {
         float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
         return vec3(32.0f * kEpsilon * reach);
     }
-    return 8.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
+    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
 }
 
 // ---- choosing among lights ------------------------------------------------------------------------------------------

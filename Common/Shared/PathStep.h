@@ -153,6 +153,10 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     return transmittance(depth);
 }
 
+// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
+// the light's coordinates when the light is far from the shading point but not from the origin.
+const float kShadowMargin = 32.0f * kEpsilon;
+
 // Fraction of the light of `sampled` that arrives at v.origin. The segment ends at the light's own offset point, so
 // that the emitter does not shadow itself and no primitive has to be excluded.
 RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, RT_IN(Light) light,
@@ -170,7 +174,7 @@ RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, R
         if (!(dot(segment, sampled.wi) > 0.0f)) return 1.0f;
         shadow.direction = segment / tMax;
     }
-    if (isOccluded(features, scene, shadow, tMax)) return 0.0f;
+    if (isOccluded(features, scene, shadow, tMax * (1.0f - kShadowMargin))) return 0.0f;
     return rayTransmittance(features, scene, shadow, tMax);
 }
 

@@ -44,6 +44,45 @@ RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
     return t > 0.0f && t < tMax ? t : -1.0f;
 }
 
+struct SpherePoint {
+    vec3 position;
+    vec3 normal; // unit, outwards
+};
+
+// Where the ray meets the sphere, on the side that the hit at parameter t is on. The position is off the sphere by less than 8
+// roundings of |center| + radius, which is what rays that leave it are offset by.
+RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
+    vec3 f = ray.origin - center;
+    float a = dot(ray.direction, ray.direction);
+    float middle = -dot(f, ray.direction) / a;
+    bool first = t < middle;
+    SpherePoint point;
+    vec3 reach = abs(ray.origin) + abs(ray.direction) * t;
+    vec3 size = abs(center) + radius;
+    if (4.0f * max(reach.x, max(reach.y, reach.z)) < max(size.x, max(size.y, size.z))) {
+        // Near a huge sphere, the ground say: the sphere's coordinates would take the digits of the point's. Half the chord
+        // from the power of the origin, which is small, without the cancellation of its largest term; then along the ray.
+        vec3 m = abs(f);
+        float largest = max(m.x, max(m.y, m.z));
+        vec3 others = m.x == largest ? vec3(0.0f, m.y, m.z) : m.y == largest ? vec3(m.x, 0.0f, m.z) : vec3(m.x, m.y, 0.0f);
+        float power = ((largest - radius) * (largest + radius) + dot(others, others)) / a;
+        float halfChord = sqrt(max(middle * middle - power, 0.0f));
+        bool behind = middle < 0.0f;
+        float q = behind ? middle - halfChord : middle + halfChord; // the root of larger magnitude
+        vec3 along = ray.direction * (first == behind ? q : power / q);
+        point.position = ray.origin + along;
+        point.normal = normalize(f + along);
+        return point;
+    }
+    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et al.,
+    // Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
+    vec3 foot = f + ray.direction * middle;
+    float halfChord = sqrt(max(0.0f, radius * radius - dot(foot, foot)) / a);
+    point.normal = normalize(foot + ray.direction * (first ? -halfChord : halfChord));
+    point.position = center + point.normal * radius;
+    return point;
+}
+
 // What the test of a quad needs to know of it; computed once, or per test where memory is dearer.
 struct QuadFrame {
     vec3 normal; // along edgeU x edgeV, of any length

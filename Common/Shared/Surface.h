@@ -6,6 +6,7 @@
 #include "Features.h"
 #include "Media.h"
 #include "Sampling.h"
+#include "Shapes.h"
 #include "Textures.h"
 #include "Types.h"
 
@@ -39,17 +40,11 @@ RT_FN vec3 sphereCenter(uint features, SceneRef scene, RT_IN(Sphere) sphere, uin
 RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     Sphere sphere = loadSphere(scene, hit.primitive);
     vec3 center = sphereCenter(features, scene, sphere, hit.primitive, ray.time);
-    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et
-    // al., Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
-    vec3 f = ray.origin - center;
-    float a = dot(ray.direction, ray.direction);
-    float b = -dot(f, ray.direction) / a;
-    vec3 foot = f + ray.direction * b;
-    float half_ = sqrt(max(0.0f, sphere.radius * sphere.radius - dot(foot, foot)) / a);
+    SpherePoint point = spherePoint(ray, center, sphere.radius, hit.t);
     Surface s;
-    s.normal = normalize(foot + ray.direction * (hit.t < b ? -half_ : half_));
+    s.normal = point.normal;
     s.shading = s.normal;
-    s.position = center + s.normal * sphere.radius;
+    s.position = point.position;
     s.error = vec3(8.0f * kEpsilon * (max(max(abs(center.x), abs(center.y)), abs(center.z)) + sphere.radius));
     s.uv = vec2(0.0f, 0.0f);
     if (has(features, kFeatureImages)) s.uv = sphereUv(s.normal);

@@ -84,6 +84,40 @@ TEST(Irradiance, UnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
+// The light stands next to the camera, where coordinates are small, and the wall far away: its shadow rays are long against the
+// coordinates of the light, and rounding must not let them end behind it.
+TEST(Irradiance, OfAWallFarAway) {
+    for (const double distance : {1e2, 1e3, 1e4}) {
+        SceneDesc desc = emptyScene({0.1, 0.2, 0.3}, {0.2 * distance, distance, 0.6 * distance}, 1e-3);
+        const dvec3 toWall = glm::normalize(desc.camera.lookAt - desc.camera.lookFrom);
+        const dvec3 u = glm::normalize(glm::cross(toWall, dvec3(1, 0, 0)));
+        const dvec3 v = glm::cross(toWall, u);
+        MaterialDesc wall;
+        wall.albedo = dvec3(kAlbedo);
+        desc.materials["wall"] = wall;
+        MaterialDesc light;
+        light.kind = MaterialKind::Emitter;
+        light.emission = dvec3(3, 2, 1) * distance * distance;
+        light.sides = Sides::Both;
+        desc.materials["light"] = light;
+        const dvec3 at = desc.camera.lookAt;
+        desc.objects.push_back({QuadDesc{at - distance * (u + v), 2 * distance * u, 2 * distance * v, "wall"}});
+        const dvec3 corner = desc.camera.lookFrom + 0.5 * u;
+        const dvec3 edgeU = u * 0.7;
+        const dvec3 edgeV = (v + 0.5 * toWall) * 0.9;
+        desc.objects.push_back({QuadDesc{corner, edgeU, edgeV, "light"}});
+        const dvec3 middle = corner + 0.5 * (edgeU + edgeV) - at;
+        const dvec3 way = glm::normalize(middle);
+        const double formFactor = std::abs(glm::dot(glm::cross(edgeU, edgeV), way) * glm::dot(toWall, way)) /
+                                  glm::dot(middle, middle); // but for the square of the light's extent over the distance
+        app::RenderSettings settings = smallSettings(8, 4096);
+        settings.maxDepth = 2;
+        const dvec3 truth = dvec3(3, 2, 1) * (distance * distance * formFactor * kAlbedo / std::numbers::pi);
+        const Estimate estimate = render(desc, settings);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(estimate.mean[c] / truth[c], 1, 5e-4) << distance;
+    }
+}
+
 // E = pi (A + 2/3 B n_y) under the sky A + B direction.y.
 TEST(Irradiance, UnderTheGradientSky) {
     SceneDesc desc = floorScene();
