@@ -1,7 +1,7 @@
-// One vertex of a path: trace, emission, next-event estimation, scattering, roulette. Both engines run this very code;
-// the loop around it is theirs.
+// One vertex of a path: emission, next-event estimation, scattering, roulette. Both engines run this very code; the loop
+// around it is theirs.
 //
-//        ray            pathStep
+//        ray           pathVertex
 //   o---------->x   emission weighed against the light sampling of the vertex before
 //               |\__ one shadow ray to a chosen light          (mis)
 //               v    next ray from the bsdf, or from a light   (mixture)
@@ -153,31 +153,6 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     return transmittance(depth);
 }
 
-// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
-// the light's coordinates when the light is far from the shading point but not from the origin.
-const float kShadowMargin = 32.0f * kEpsilon;
-
-// Fraction of the light of `sampled` that arrives at v.origin. The segment ends at the light's own offset point, so
-// that the emitter does not shadow itself and no primitive has to be excluded.
-RT_FN float visibility(uint features, SceneRef scene, vec3 origin, float time, RT_IN(Light) light,
-                       RT_IN(LightSample) sampled) {
-    Ray shadow;
-    shadow.origin = origin;
-    shadow.direction = sampled.wi;
-    shadow.time = time;
-    float tMax = kInfinity;
-    if (light.kind != kLightSky) {
-        vec3 end = offsetOrigin(sampled.point, lightPointError(light), sampled.normal, -sampled.wi);
-        vec3 segment = end - origin;
-        tMax = length(segment);
-        // Closer than rounding can tell apart: nothing fits in between.
-        if (!(dot(segment, sampled.wi) > 0.0f)) return 1.0f;
-        shadow.direction = segment / tMax;
-    }
-    if (isOccluded(features, scene, shadow, tMax * (1.0f - kShadowMargin))) return 0.0f;
-    return rayTransmittance(features, scene, shadow, tMax);
-}
-
 RT_FN LightContext lightContext(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     LightContext context;
     context.position = v.origin;
@@ -206,23 +181,72 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
     return sampled;
 }
 
+// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
+// the light's coordinates when the light is far from the shading point but not from the origin.
+const float kShadowMargin = 32.0f * kEpsilon;
+
+// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes on,
+// at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be remembered
+// meanwhile.
+struct DirectLight {
+    vec3 radiance;
+    vec3 direction; // unit
+    float distance; // of the segment to be checked; 0: there is none
+};
+
+RT_FN DirectLight noDirectLight() {
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    direct.direction = vec3(0.0f, 0.0f, 0.0f);
+    direct.distance = 0.0f;
+    return direct;
+}
+
 // Next-event estimation: one light, one shadow ray, weighed by the balance heuristic against the bsdf's density.
-RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                          RT_IN(Vertex) v, RT_INOUT(PathState) s) {
+RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                                    RT_IN(Vertex) v, RT_INOUT(PathState) s) {
+    DirectLight direct = noDirectLight();
     SceneGlobals globals = loadGlobals(scene);
     vec2 u = v.numbers.light;
     LightChoice choice = chooseLight(scene, globals.lightCount, selectionNumber(globals, smp, v.index, u), s.last);
-    if (choice.light == kNone) return;
+    if (choice.light == kNone) return direct;
     Light light = loadLight(scene, choice.light);
     if (globals.lightCount <= kContributionLights) u.x = choice.u;
     LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
-    if (!(sampled.pdf > 0.0f)) return;
+    if (!(sampled.pdf > 0.0f)) return direct;
     vec4 f = evalScattering(features, v, sampled.wi);
     vec3 contribution = s.throughput * vec3(f) * sampled.radiance;
-    if (!(maxComponent(contribution) > 0.0f)) return;
-    s.shadowRays++;
-    float visible = visibility(features, scene, v.origin, s.ray.time, light, sampled);
-    s.radiance += contribution * (visible / (choice.probability * sampled.pdf + f.w));
+    if (!(maxComponent(contribution) > 0.0f)) return direct;
+    direct.radiance = contribution * (1.0f / (choice.probability * sampled.pdf + f.w));
+    direct.direction = sampled.wi;
+    direct.distance = kInfinity;
+    if (light.kind == kLightSky) return direct;
+    // The segment ends at the light's own offset point, so that the emitter does not shadow itself and no primitive has
+    // to be excluded.
+    vec3 end = offsetOrigin(sampled.point, lightPointError(light), sampled.normal, -sampled.wi);
+    vec3 segment = end - v.origin;
+    float whole = length(segment);
+    direct.direction = segment / whole;
+    direct.distance = whole * (1.0f - kShadowMargin);
+    if (!(dot(segment, sampled.wi) > 0.0f)) {
+        // Closer than rounding can tell apart: nothing fits in between.
+        s.radiance += direct.radiance;
+        direct.distance = 0.0f;
+    }
+    return direct;
+}
+
+RT_FN Ray shadowRay(RT_IN(PathState) s, RT_IN(DirectLight) direct) {
+    Ray ray;
+    ray.origin = s.last.position;
+    ray.direction = direct.direction;
+    ray.time = s.ray.time;
+    return ray;
+}
+
+// To be called where no surface is in the way of shadowRay(s, direct).
+RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
+    s.radiance += direct.radiance * rayTransmittance(features, scene, shadowRay(s, direct), direct.distance);
 }
 
 // ---- Shirley's mixture --------------------------------------------------------------------------------------------
@@ -296,13 +320,13 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
 
 // ---- a step -------------------------------------------------------------------------------------------------------
 
-// Continues the path from v. False: it ends here.
+// Continues the path from v. False: it ends here. Either way `direct` may be left to be checked.
 RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
-                   RT_INOUT(PathState) s) {
+                   RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     bool delta = isDeltaVertex(features, v);
     s.last = lightContext(scene, params, v);
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
-    if (lights && params.lightSampling == kSampleMis) addDirectLight(features, scene, params, smp, v, s);
+    if (lights && params.lightSampling == kSampleMis) direct = sampleDirectLight(features, scene, params, smp, v, s);
 
     BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
     if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
@@ -407,10 +431,10 @@ RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT
     return v;
 }
 
-// Advances the path by one vertex. False: the path has ended and s.radiance is its estimate.
-RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                    RT_INOUT(PathState) s) {
-    Hit hit = traceRay(features, scene, s.ray);
+// Advances the path by one vertex, given what s.ray meets. False: it has ended, and s.radiance is its estimate once
+// `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
+RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+                      RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
@@ -431,7 +455,22 @@ RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         v = surfaceVertex(features, scene, s, surface, material);
     }
     v.numbers = vertexNumbers(smp, v.index);
-    return scatter(features, scene, params, smp, v, s);
+    return scatter(features, scene, params, smp, v, s, direct);
+}
+
+// The whole step. False: the path has ended and s.radiance is its estimate.
+RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                    RT_INOUT(PathState) s) {
+    Hit hit = traceRay(features, scene, s.ray);
+    DirectLight direct = noDirectLight();
+    bool goesOn = pathVertex(features, scene, params, smp, hit, s, direct);
+    if (direct.distance > 0.0f) {
+        s.shadowRays++;
+        if (!isOccluded(features, scene, shadowRay(s, direct), direct.distance)) {
+            addDirectLight(features, scene, direct, s);
+        }
+    }
+    return goesOn;
 }
 
 RT_SHARED_END
