@@ -10,16 +10,30 @@ namespace {
 
 using namespace rt::shared;
 
+// Advances the path by one vertex. False: it has ended and path.radiance is its estimate.
+template <std::uint32_t kFeatures>
+RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, PathState& path, KernelCounters& counters) {
+    const CpuScene& scene = *context.scene;
+    const Hit hit = traceRay(kFeatures, scene, path.ray);
+    DirectLight direct = noDirectLight();
+    const bool goesOn = pathVertex(kFeatures, scene, context.params, smp, hit, path, direct);
+    if (direct.distance > 0.0f) {
+        ++counters.shadow;
+        if (!isOccluded(kFeatures, scene, shadowRay(path, direct), direct.distance))
+            addDirectLight(kFeatures, scene, direct, path);
+    }
+    return goesOn;
+}
+
 template <std::uint32_t kFeatures>
 void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum, KernelCounters& counters) {
     vec3 total(sum[0], sum[1], sum[2]);
     Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
     for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
         PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel);
-        while (pathStep(kFeatures, *context.scene, context.params, smp, path)) {
+        while (pathStep<kFeatures>(context, smp, path, counters)) {
         }
         counters.scattered += path.vertex - 1u;
-        counters.shadow += path.shadowRays;
         // A sample that is not a number is dropped and counted, and stays in the divisor.
         if (isFinite(path.radiance)) {
             total += path.radiance;

@@ -12,7 +12,6 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>
 #include <RayTracing.rmiss.h>
-#include <Shadow.rmiss.h>
 
 }  // namespace
 
@@ -23,7 +22,6 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
         case Shader::RayGeneration: return RayTracing_rgen;
         case Shader::AovGeneration: return Aov_rgen;
         case Shader::Miss: return RayTracing_rmiss;
-        case Shader::ShadowMiss: return Shadow_rmiss;
         case Shader::TriangleHit: return RayTracing_rchit;
         case Shader::QuadHit: return RayTracing_Quad_rchit;
         case Shader::SphereHit: return RayTracing_Procedural_rchit;

@@ -9,7 +9,6 @@ enum class Shader {
     RayGeneration,
     AovGeneration,
     Miss,
-    ShadowMiss,
     TriangleHit,
     QuadHit,
     SphereHit,

@@ -18,7 +18,7 @@ class LaunchSize {
 
     // A launch of `samples` took `seconds`.
     void measured(std::uint64_t samples, double seconds) {
-        constexpr double kLargestStep = 4;
+        constexpr double kLargestStep = 16;
         const double done = static_cast<double>(samples);
         // What remained of a pass may be too little to tell how fast the device is.
         if (done < 0.5 * suggested_ && seconds < kLaunchSeconds) return;

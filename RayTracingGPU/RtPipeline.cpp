@@ -71,23 +71,13 @@ class GroupList {
     std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups_;
 };
 
-bool tracesShadowRays(const PipelineDecisions& decisions) {
-    return decisions.lightSampling == shared::kSampleMis &&
-           shared::has(decisions.features, shared::kFeatureLights | shared::kFeatureTargets);
-}
-
 ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shader rayGeneration, std::string& name) {
     const std::uint32_t features = decisions.features;
     ShaderGroups groups;
-    groups.miss.resize(shared::kMissRecords);
     groups.hit.resize(shared::kHitRecords);
     groups.rayGeneration = list.addGeneral(VK_SHADER_STAGE_RAYGEN_BIT_KHR, rayGeneration);
-    groups.miss[shared::kMissRecordNothing] = list.addGeneral(VK_SHADER_STAGE_MISS_BIT_KHR, Shader::Miss);
+    groups.miss = list.addGeneral(VK_SHADER_STAGE_MISS_BIT_KHR, Shader::Miss);
     name = "paths";
-    if (tracesShadowRays(decisions)) {
-        groups.miss[shared::kMissRecordShadow] = list.addGeneral(VK_SHADER_STAGE_MISS_BIT_KHR, Shader::ShadowMiss);
-        name += "+shadow";
-    }
     if (shared::has(features, shared::kFeatureTriangles)) {
         groups.hit[shared::kHitRecordTriangle] = list.addTriangles(Shader::TriangleHit);
         name += "+triangles";

@@ -21,8 +21,9 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     const VkDeviceSize base = limits.groupBaseAlignment;
     const VkDeviceSize stride = roundUp(handleSize, limits.groupHandleAlignment);
     // The one record of ray generation is as long as its stride and begins at a base address, as do the others' first ones.
+    // A single miss record serves both kinds of rays: that nothing was hit means the same to both.
     const VkDeviceSize rayGenerationSize = roundUp(stride, base);
-    const VkDeviceSize missSize = roundUp(stride * groups.miss.size(), base);
+    const VkDeviceSize missSize = roundUp(stride, base);
     const VkDeviceSize hitSize = stride * groups.hit.size();
     const VkDeviceSize size = rayGenerationSize + missSize + hitSize;
 
@@ -35,7 +36,7 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
         if (group) std::memcpy(&table[at], &handles[*group * handleSize], handleSize);
     };
     place(0, groups.rayGeneration);
-    for (std::size_t i = 0; i < groups.miss.size(); ++i) place(rayGenerationSize + i * stride, groups.miss[i]);
+    place(rayGenerationSize, groups.miss);
     for (std::size_t i = 0; i < groups.hit.size(); ++i) place(rayGenerationSize + missSize + i * stride, groups.hit[i]);
 
     buffer_ = vulkan::Buffer(context, size + base, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR, vulkan::Memory::Device,
@@ -43,7 +44,7 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     const VkDeviceAddress start = roundUp(buffer_.address(), base);
     vulkan::upload(context, buffer_, table, start - buffer_.address());
     rayGeneration_ = {start, rayGenerationSize, rayGenerationSize};
-    miss_ = {start + rayGenerationSize, stride, stride * groups.miss.size()};
+    miss_ = {start + rayGenerationSize, stride, stride};
     hit_ = {start + rayGenerationSize + missSize, stride, hitSize};
 }
 

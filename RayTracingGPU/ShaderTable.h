@@ -8,10 +8,10 @@
 
 namespace rt::gpu {
 
-// Indices of a pipeline's groups. A record without a group is never reached.
+// Indices of a pipeline's groups. A hit record without a group is never reached.
 struct ShaderGroups {
     std::uint32_t rayGeneration = 0;
-    std::vector<std::optional<std::uint32_t>> miss;
+    std::uint32_t miss = 0;
     std::vector<std::optional<std::uint32_t>> hit;
     std::uint32_t count = 0; // of groups
 };

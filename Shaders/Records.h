@@ -171,9 +171,6 @@ const uint kHitRecordTriangle = 0u;
 const uint kHitRecordQuad = 1u;
 const uint kHitRecordSphere = 2u;
 const uint kHitRecords = 3u;
-const uint kMissRecordNothing = 0u;
-const uint kMissRecordShadow = 1u;
-const uint kMissRecords = 2u;
 
 // ---- rays ------------------------------------------------------------------------------------------------------------
 

@@ -4,7 +4,6 @@
 #include "Common/Shared/Lights.h"
 
 layout(location = 0) rayPayloadEXT HitPayload hitPayload;
-layout(location = 1) rayPayloadEXT uint shadowPayload; // 1: occluded
 
 struct SceneRef {
     uint unused;
@@ -50,9 +49,11 @@ float rayTMin(uint features, Ray ray) {
     return has(features, kFeatureMovingSpheres) ? ray.time * kTimeToTMin : 0.0f;
 }
 
-Hit traceRay(uint features, SceneRef scene, Ray ray) {
-    traceRayEXT(topLevel, gl_RayFlagsOpaqueEXT, 0xffu, 0u, 1u, kMissRecordNothing, ray.origin, rayTMin(features, ray),
-                ray.direction, kInfinity, 0);
+// What the ray meets in (0, tMax); a negative t if nothing. With gl_RayFlagsSkipClosestHitShaderEXT only the sign of t
+// tells anything.
+Hit traceRay(uint features, Ray ray, uint flags, float tMax) {
+    hitPayload.t = 0.0f;
+    traceRayEXT(topLevel, flags, 0xffu, 0u, 1u, 0u, ray.origin, rayTMin(features, ray), ray.direction, tMax, 0);
     Hit hit;
     hit.t = hitPayload.t;
     hit.kind = hitPayload.kind;
@@ -61,12 +62,4 @@ Hit traceRay(uint features, SceneRef scene, Ray ray) {
     hit.u = hitPayload.uv.x;
     hit.v = hitPayload.uv.y;
     return hit;
-}
-
-bool isOccluded(uint features, SceneRef scene, Ray ray, float tMax) {
-    shadowPayload = 1u;
-    traceRayEXT(topLevel,
-                gl_RayFlagsOpaqueEXT | gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, 0xffu, 0u,
-                1u, kMissRecordShadow, ray.origin, rayTMin(features, ray), ray.direction, tMax, 1);
-    return shadowPayload != 0u;
 }

@@ -6,9 +6,9 @@
 //               |\__ one shadow ray to a chosen light          (mis)
 //               v    next ray from the bsdf, or from a light   (mixture)
 //
-// The includer provides SceneRef, every load...() that the included headers name, loadMaterial, loadMedium, and
-//   Hit traceRay(features, scene, ray)                 nearest intersection at t > 0
-//   bool isOccluded(features, scene, ray, tMax)        any surface in (0, tMax)
+// The engine traces. For each step it finds the nearest hit of PathState::ray, calls pathVertex, and looks whether anything
+// lies in the way of the shadow ray that the step may leave. The includer provides SceneRef, every load...() that the
+// included headers name, loadMaterial and loadMedium.
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Bsdf.h"
@@ -34,7 +34,6 @@ struct PathState {
     vec3 radiance;
     float pdf;    // density over solid angle of ray.direction; 0: from the camera or a delta lobe
     uint vertex;  // surfaces and collisions met so far
-    uint shadowRays;
     LightContext last;  // where ray starts, for the weights of multiple importance sampling
 };
 
@@ -67,7 +66,6 @@ RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camer
     s.radiance = vec3(0.0f, 0.0f, 0.0f);
     s.pdf = 0.0f;
     s.vertex = 0u;
-    s.shadowRays = 0u;
     s.last.position = s.ray.origin;
     s.last.normal = vec3(0.0f, 0.0f, 0.0f);
     s.last.total = 0.0f;
@@ -191,7 +189,7 @@ const float kShadowMargin = 32.0f * kEpsilon;
 struct DirectLight {
     vec3 radiance;
     vec3 direction; // unit
-    float distance; // of the segment to be checked; 0: there is none
+    float distance; // that has to be free of surfaces; 0: there is no shadow ray
 };
 
 RT_FN DirectLight noDirectLight() {
@@ -456,21 +454,6 @@ RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params,
     }
     v.numbers = vertexNumbers(smp, v.index);
     return scatter(features, scene, params, smp, v, s, direct);
-}
-
-// The whole step. False: the path has ended and s.radiance is its estimate.
-RT_FN bool pathStep(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                    RT_INOUT(PathState) s) {
-    Hit hit = traceRay(features, scene, s.ray);
-    DirectLight direct = noDirectLight();
-    bool goesOn = pathVertex(features, scene, params, smp, hit, s, direct);
-    if (direct.distance > 0.0f) {
-        s.shadowRays++;
-        if (!isOccluded(features, scene, shadowRay(s, direct), direct.distance)) {
-            addDirectLight(features, scene, direct, s);
-        }
-    }
-    return goesOn;
 }
 
 RT_SHARED_END

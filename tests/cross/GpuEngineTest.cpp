@@ -83,7 +83,7 @@ TEST(GpuEngineTest, CountsWhatItDid) {
     EXPECT_EQ(report.rays.camera, std::uint64_t{kSide} * kSide * 5);
     EXPECT_GT(report.rays.scattered, report.rays.camera / 2);
     EXPECT_GT(report.rays.shadow, 0u);
-    EXPECT_EQ(report.kernel, "paths+shadow+quads+spheres");
+    EXPECT_EQ(report.kernel, "paths+quads+spheres");
     EXPECT_GT(report.deviceBytes, 0u);
 }
 

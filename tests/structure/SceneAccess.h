@@ -30,8 +30,6 @@ Light loadLight(SceneRef scene, uint i);
 LightBound loadLightBound(SceneRef scene, uint i);
 LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal);
 float loadSkyCdf(SceneRef scene, uint i);
-Hit traceRay(uint features, SceneRef scene, Ray ray);
-bool isOccluded(uint features, SceneRef scene, Ray ray, float tMax);
 
 RT_SHARED_END
 
