@@ -36,3 +36,17 @@ function(rt_add_program name source)
         target_link_libraries(${name} PRIVATE ${arg_DEPENDS})
     endif()
 endfunction()
+
+# X.json of `folder` for each name X becomes a row {"X", "its text"} of the header "<header>.inc" in an include folder of
+# `target`.
+function(rt_embed_texts target header folder)
+    set(rows "")
+    foreach(name IN LISTS ARGN)
+        set(file ${PROJECT_SOURCE_DIR}/${folder}/${name}.json)
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+        file(READ ${file} text)
+        string(APPEND rows "{\"${name}\", R\"rt-text(${text})rt-text\"},\n")
+    endforeach()
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/texts/${header}.inc CONTENT "@rows@" @ONLY)
+    target_include_directories(${target} PRIVATE ${PROJECT_BINARY_DIR}/texts)
+endfunction()

@@ -49,9 +49,11 @@ scene::SceneDesc loadScene(const std::string& source) {
     return scene::findBuiltinScene(source);
 }
 
-std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights) {
+std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
+                                                    bool generatedAssets) {
     scene::CompileOptions options;
     options.oneSidedLights = oneSidedLights;
+    options.generatedAssets = generatedAssets;
     options.loadTexels = readTexels;
     return scene::compileScene(desc, options);
 }

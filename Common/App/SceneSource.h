@@ -11,8 +11,9 @@ namespace rt::app {
 // A .json scene file, an .obj file, or the id of a built-in scene. Throws InputError.
 scene::SceneDesc loadScene(const std::string& source);
 
-// With its textures. Throws InputError.
-std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights);
+// With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.
+std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
+                                                    bool generatedAssets = false);
 
 // Ids and titles, one a line or as JSON: [{"id": …, "title": …, "description": …}].
 std::string listScenes(bool json);

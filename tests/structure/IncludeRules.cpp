@@ -22,6 +22,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Accel", {"Common/Core", "Common/Shared"}},
     {"Common/Image", {"Common/Core", "Common/Shared"}},
     {"Common/App", {"Common/Scene", "Common/Image"}},
+    {"Common/Bench", {"Common/App"}},
     {"Common/Tools", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
     {"Common/Gui", {"Common/App", "Common/Vulkan"}},

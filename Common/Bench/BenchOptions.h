@@ -1,0 +1,26 @@
+// The command line of ray-tracing-bench.
+#pragma once
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace rt::bench {
+
+struct BenchOptions {
+    std::string suite = "quick"; // name or file
+    std::vector<std::string> scenes;  // instead of the suite's
+    std::vector<std::string> engines; // of the suite's, only these
+    std::string report;               // folder; empty: tables on standard output only
+    std::string device;               // Vulkan device: index or part of a name
+    bool freshReferences = false;
+    bool stability = false;
+    bool quiet = false;
+    std::vector<std::string> compare; // two reports; empty: measure
+    bool listSuites = false;
+};
+
+// Nothing after --help and --version, which are answered on `out`. Throws UsageError.
+std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out);
+
+} // namespace rt::bench

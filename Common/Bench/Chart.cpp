@@ -1,0 +1,157 @@
+#include "Common/Bench/Chart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "Common/Bench/Markup.h"
+
+namespace rt::bench {
+namespace {
+
+constexpr double kWidth = 560, kPlotHeight = 300;
+constexpr double kLeft = 64, kRight = 14, kTop = 30, kBottom = 44;
+constexpr double kLegendLine = 17;
+
+// Okabe and Ito's colours, told apart by every kind of colour vision; dashes and marks tell lines apart without them.
+constexpr std::array kColors = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#444444"};
+constexpr std::array kDashes = {"", "6 3", "2 3", "9 3 2 3"};
+
+struct Scale { // of one axis, in powers of ten
+    double low = 0, high = 1;
+    double from = 0, to = 1; // in the picture
+
+    double operator()(double value) const { return from + (std::log10(value) - low) / (high - low) * (to - from); }
+};
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.1f", value);
+    return text;
+}
+
+class SvgWriter {
+  public:
+    explicit SvgWriter(double height) {
+        text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
+                "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
+                "\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+    }
+
+    void line(double x0, double y0, double x1, double y1, const std::string& style) {
+        text_ += "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) + "\" y2=\"" + number(y1) +
+                 "\" " + style + "/>\n";
+    }
+    void text(double x, double y, const std::string& content, const std::string& style) {
+        text_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" fill=\"#222\" " + style + ">" + escapeMarkup(content) + "</text>\n";
+    }
+    void polyline(const std::vector<std::pair<double, double>>& points, const std::string& style) {
+        text_ += "<polyline fill=\"none\" points=\"";
+        for (const auto& [x, y] : points) text_ += number(x) + "," + number(y) + " ";
+        text_ += "\" " + style + "/>\n";
+    }
+    void dot(double x, double y, const std::string& color) {
+        text_ += "<circle cx=\"" + number(x) + "\" cy=\"" + number(y) + "\" r=\"2.8\" fill=\"" + color + "\"/>\n";
+    }
+    std::string finish() { return text_ + "</svg>\n"; }
+
+  private:
+    std::string text_;
+};
+
+std::string powerOfTen(int exponent) {
+    if (exponent >= 0 && exponent <= 4) return std::to_string(static_cast<int>(std::lround(std::pow(10.0, exponent))));
+    if (exponent < 0 && exponent >= -2) return exponent == -1 ? "0.1" : "0.01";
+    return "1e" + std::to_string(exponent);
+}
+
+// Whole powers of ten, or halves of them where there is little to see.
+void widen(Scale& scale) {
+    scale.low = std::floor(scale.low * 2 - 0.05) / 2;
+    scale.high = std::ceil(scale.high * 2 + 0.05) / 2;
+}
+
+void drawAxes(SvgWriter& svg, const Chart& chart, const Scale& x, const Scale& y) {
+    const std::string grid = "stroke=\"#ddd\"", faint = "stroke=\"#f2f2f2\"";
+    for (const bool horizontal : {true, false}) {
+        const Scale& scale = horizontal ? x : y;
+        const bool wide = scale.high - scale.low > 6; // no room for all labels
+        for (int e = static_cast<int>(std::floor(scale.low)); e <= static_cast<int>(std::ceil(scale.high)); ++e)
+            for (int digit = 1; digit < 10; ++digit) {
+                const double exponent = e + std::log10(digit);
+                if (exponent < scale.low - 1e-9 || exponent > scale.high + 1e-9) continue;
+                const double at = scale(std::pow(10.0, exponent));
+                const std::string& style = digit == 1 ? grid : faint;
+                horizontal ? svg.line(at, y.from, at, y.to, style) : svg.line(x.from, at, x.to, at, style);
+                if (digit != 1 || (wide && e % 2 != 0)) continue;
+                horizontal ? svg.text(at, y.from + 16, powerOfTen(e), "text-anchor=\"middle\"")
+                           : svg.text(x.from - 6, at + 4, powerOfTen(e), "text-anchor=\"end\"");
+            }
+    }
+    svg.line(x.from, y.from, x.to, y.from, "stroke=\"#888\"");
+    svg.line(x.from, y.from, x.from, y.to, "stroke=\"#888\"");
+    svg.text((x.from + x.to) / 2, y.from + 36, chart.xTitle, "text-anchor=\"middle\"");
+    svg.text(x.from - 50, y.to - 10, chart.yTitle, "");
+    svg.text((x.from + x.to) / 2, 16, chart.title, "text-anchor=\"middle\" font-weight=\"bold\"");
+}
+
+void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Scale& x, const Scale& y) {
+    const std::string color = kColors[index % kColors.size()];
+    const std::string dash = kDashes[index / kColors.size() % kDashes.size()];
+    std::vector<std::pair<double, double>> points;
+    for (const ChartPoint& p : line.points) {
+        points.emplace_back(x(p.x), y(p.y));
+        if (p.error > 0) {
+            const double low = std::max(p.y - p.error, std::pow(10.0, y.low));
+            svg.line(x(p.x), y(low), x(p.x), y(std::min(p.y + p.error, std::pow(10.0, y.high))),
+                     "stroke=\"" + color + "\" stroke-opacity=\"0.5\"");
+        }
+        svg.dot(x(p.x), y(p.y), color);
+    }
+    svg.polyline(points, "stroke=\"" + color + "\" stroke-width=\"1.6\"" +
+                             (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
+    const double legend = y.from + kBottom + kLegendLine * static_cast<double>(index);
+    svg.line(kLeft, legend - 4, kLeft + 26, legend - 4,
+             "stroke=\"" + color + "\" stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
+    svg.text(kLeft + 32, legend, line.name, "");
+}
+
+// Through the first point of the first line.
+void drawGuide(SvgWriter& svg, const ChartLine& line, const Scale& x, const Scale& y) {
+    const double start = std::log10(line.points.front().y) + std::log10(line.points.front().x);
+    const double from = std::max(x.low, start - y.high), to = std::min(x.high, start - y.low);
+    if (!(to > from)) return;
+    svg.line(x(std::pow(10.0, from)), y(std::pow(10.0, start - from)), x(std::pow(10.0, to)), y(std::pow(10.0, start - to)),
+             "stroke=\"#999\" stroke-dasharray=\"1 4\"");
+}
+
+} // namespace
+
+std::string toSvg(const Chart& original) {
+    Chart chart = original;
+    Scale x{1e9, -1e9, kLeft, kWidth - kRight};
+    Scale y{1e9, -1e9, kTop + kPlotHeight, kTop + 14};
+    for (ChartLine& line : chart.lines) {
+        std::erase_if(line.points, [](const ChartPoint& p) {
+            return !(p.x > 0) || !(p.y > 0) || !std::isfinite(p.x) || !std::isfinite(p.y);
+        });
+        for (const ChartPoint& p : line.points) {
+            x.low = std::min(x.low, std::log10(p.x));
+            x.high = std::max(x.high, std::log10(p.x));
+            y.low = std::min(y.low, std::log10(p.y));
+            y.high = std::max(y.high, std::log10(p.y));
+        }
+    }
+    std::erase_if(chart.lines, [](const ChartLine& line) { return line.points.empty(); });
+    if (chart.lines.empty()) return {};
+    widen(x);
+    widen(y);
+    SvgWriter svg(kTop + kPlotHeight + kBottom + kLegendLine * static_cast<double>(chart.lines.size()));
+    drawAxes(svg, chart, x, y);
+    if (chart.minusOne) drawGuide(svg, chart.lines.front(), x, y);
+    for (std::size_t i = 0; i < chart.lines.size(); ++i) drawLine(svg, chart.lines[i], i, x, y);
+    return svg.finish();
+}
+
+} // namespace rt::bench

@@ -1,0 +1,36 @@
+// What is measured: a scene on an engine under settings. Each thing that a suite may vary is an axis, one row of a table
+// that suites, reports and comparisons go by.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "Common/App/Settings.h"
+
+namespace rt::bench {
+
+struct Config {
+    std::string scene = "cornell-box-lights"; // id or file
+    std::string engine = "multi";
+    std::uint32_t threads = 0;   // CPU engines: 0 means all
+    app::RenderSettings settings; // height 0: from the scene's aspect; spp and seed are no part of it
+
+    Config() { settings.height = 0; }
+};
+
+struct Axis {
+    std::string_view name; // as in suites and reports
+    std::string (*get)(const Config&);
+    void (*set)(Config&, const std::string& value); // throws UsageError saying what is allowed
+};
+std::span<const Axis> axes();
+const Axis* findAxis(std::string_view name); // null: there is none
+
+// The axes' values, joined: equal for equal configurations.
+std::string keyOf(const Config& config);
+
+inline constexpr std::string_view kEngines[] = {"single", "multi", "pipeline", "compute"};
+bool isGpuEngine(std::string_view engine);
+
+} // namespace rt::bench

@@ -1,0 +1,59 @@
+#include "Common/Bench/Machine.h"
+
+#include <chrono>
+#include <ctime>
+#include <thread>
+
+#include "Common/Core/CpuFeatures.h"
+
+namespace rt::bench {
+namespace {
+
+std::string today() {
+    const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+    char text[32] = "";
+    if (const std::tm* utc = std::gmtime(&now)) std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", utc);
+    return text;
+}
+
+std::string compiler() {
+#if defined(__clang__)
+    return "Clang " __clang_version__;
+#elif defined(__GNUC__)
+    return "GCC " __VERSION__;
+#elif defined(_MSC_VER)
+    return "Visual C++ " + std::to_string(_MSC_VER);
+#else
+    return "unknown";
+#endif
+}
+
+std::string systemName() {
+#if defined(__linux__)
+    return "Linux";
+#elif defined(_WIN32)
+    return "Windows";
+#elif defined(__APPLE__)
+    return "macOS";
+#else
+    return "unknown";
+#endif
+}
+
+} // namespace
+
+std::vector<Fact> machineFacts() {
+    std::vector<Fact> facts = {{"date", today()},
+                               {"program", "ray-tracing-bench " RT_VERSION},
+                               {"compiler", compiler()},
+                               {"system", systemName()},
+                               {"processor", processorName()},
+                               {"instruction set", name(bestInstructionSet())},
+                               {"hardware threads", std::to_string(std::thread::hardware_concurrency())}};
+#ifndef NDEBUG
+    facts.push_back({"build", "with assertions: not for figures"});
+#endif
+    return facts;
+}
+
+} // namespace rt::bench

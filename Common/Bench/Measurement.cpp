@@ -1,0 +1,114 @@
+#include "Common/Bench/Measurement.h"
+
+#include <ostream>
+
+#include "Common/App/RenderLoop.h"
+#include "Common/Bench/Energy.h"
+
+namespace rt::bench {
+namespace {
+
+constexpr double kWarmUpSeconds = 0.25;
+constexpr std::uint32_t kWarmUpSpp = 16;       // one block
+constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
+
+app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
+    return {a.camera + b.camera, a.scattered + b.scattered, a.shadow + b.shadow};
+}
+
+class Measurer {
+  public:
+    Measurer(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings,
+             const std::atomic<bool>& stop)
+        : engine_(engine), scene_(scene), stop_(stop), silence_(nullptr), progress_(silence_, app::Progress::Style::Silent) {
+        options_.settings = settings;
+    }
+
+    void warmUp() {
+        app::Options options = options_;
+        options.settings.spp = kWarmUpSpp;
+        options.timeLimit = kWarmUpSeconds;
+        engine_.reset(scene_.camera, options.settings);
+        app::renderUntilStopped(engine_, options, 0, stop_, progress_, [] {});
+    }
+
+    void toSamples(const Ladder& ladder) {
+        const bool anew = options_.settings.sampler == app::SamplerKind::Stratified;
+        for (const std::uint32_t spp : ladder.spp) {
+            const double perSample = done_.spp > 0 ? done_.seconds / static_cast<double>(done_.spp) : 0;
+            if (perSample * spp > ladder.maxSeconds) return;
+            image::Film film = anew || done_.spp == 0 ? image::Film() : engine_.film();
+            if (anew) done_ = {};
+            options_.settings.spp = spp;
+            engine_.reset(scene_.camera, options_.settings);
+            if (done_.spp > 0) engine_.restore(std::move(film));
+            if (!step()) return;
+            take(std::nullopt);
+        }
+    }
+
+    void toSeconds(const Ladder& ladder) {
+        options_.settings.spp = kUnknownSpp;
+        options_.settings.sppIsKnown = false;
+        engine_.reset(scene_.camera, options_.settings);
+        for (const double seconds : ladder.seconds) {
+            if (seconds > ladder.maxSeconds) return;
+            options_.timeLimit = seconds - done_.seconds;
+            if (*options_.timeLimit > 0 && !step()) return;
+            take(seconds);
+        }
+    }
+
+    Run finish() {
+        run_.report = engine_.report();
+        return std::move(run_);
+    }
+
+  private:
+    // False: interrupted.
+    bool step() {
+        const app::EngineReport before = engine_.report(); // a reset has set its counts to 0
+        const EnergyMeter energy;
+        const app::RenderResult result =
+            app::renderUntilStopped(engine_, options_, engine_.film().totalSamples(), stop_, progress_, [] {});
+        if (result.stoppedBy == app::StopReason::Interrupted) return false;
+        if (const auto joules = energy.joules()) done_.joules = done_.joules.value_or(0) + *joules;
+        const app::EngineReport after = engine_.report();
+        done_.seconds += result.seconds;
+        done_.deviceSeconds += after.renderDeviceSeconds - before.renderDeviceSeconds;
+        done_.rays = done_.rays + app::RayCounts{after.rays.camera - before.rays.camera,
+                                                 after.rays.scattered - before.rays.scattered,
+                                                 after.rays.shadow - before.rays.shadow};
+        return true;
+    }
+
+    void take(std::optional<double> timeBudget) {
+        const image::Film& film = engine_.film();
+        done_.spp = film.minSamples();
+        done_.timeBudget = timeBudget;
+        run_.snapshots.push_back(done_);
+        run_.snapshots.back().image = film.resolve();
+    }
+
+    app::Engine& engine_;
+    const scene::CompiledScene& scene_;
+    const std::atomic<bool>& stop_;
+    std::ostream silence_;
+    app::Progress progress_;
+    app::Options options_;
+    Snapshot done_; // so far; without image
+    Run run_;
+};
+
+} // namespace
+
+Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
+            std::uint32_t seed, const std::atomic<bool>& stop) {
+    settings.seed = seed;
+    Measurer measurer(engine, scene, settings, stop);
+    measurer.warmUp();
+    if (!stop) ladder.seconds.empty() ? measurer.toSamples(ladder) : measurer.toSeconds(ladder);
+    return measurer.finish();
+}
+
+} // namespace rt::bench

@@ -1,0 +1,42 @@
+// One render, timed, with its image at several numbers of samples on the way.
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "Common/App/Engine.h"
+#include "Common/Bench/Config.h"
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::bench {
+
+// Where to look: at these samples per pixel, or after these seconds of sampling; ascending.
+struct Ladder {
+    std::vector<std::uint32_t> spp;
+    std::vector<double> seconds;
+    double maxSeconds = 1e30; // no step that would probably end later is begun
+};
+
+struct Snapshot {
+    std::uint64_t spp = 0;               // of each pixel; the least of all where time ran out
+    std::optional<double> timeBudget;    // seconds, where that was asked for
+    double seconds = 0;                  // wall time of sampling alone, warm-up excluded
+    double deviceSeconds = 0;            // in kernels
+    app::RayCounts rays;
+    std::optional<double> joules;        // of the processor package
+    image::Image image;
+};
+
+struct Run {
+    std::vector<Snapshot> snapshots;
+    app::EngineReport report; // of its end
+};
+
+// `engine` has the scene; `settings` are complete but for spp and seed. A short render beforehand warms up caches, clocks
+// and shaders that drivers compile late. Samplers that lay out strata for a known number of samples are started anew for
+// each step. When `stop` becomes true, the step in progress is left out.
+Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
+            std::uint32_t seed, const std::atomic<bool>& stop);
+
+} // namespace rt::bench

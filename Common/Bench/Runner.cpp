@@ -1,0 +1,272 @@
+#include "Common/Bench/Runner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <tuple>
+
+#include "Common/App/SceneSource.h"
+#include "Common/App/Stopwatch.h"
+#include "Common/Bench/Analysis.h"
+#include "Common/Bench/Pictures.h"
+#include "Common/Core/Error.h"
+
+namespace rt::bench {
+namespace {
+
+using image::Image;
+
+std::string format(const char* pattern, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, pattern, value);
+    return text;
+}
+
+std::string describe(const Experiment& experiment, const Config& config) {
+    std::string text;
+    for (const Axis& axis : axes()) {
+        const auto varied = std::find_if(experiment.values.begin(), experiment.values.end(), [&](const auto& entry) {
+            return entry.first == &axis && entry.second.size() > 1;
+        });
+        const bool always = axis.name == "scene" || axis.name == "engine";
+        if (always || varied != experiment.values.end()) text += (text.empty() ? "" : ", ") + axis.get(config);
+    }
+    return text;
+}
+
+class SuiteRunner {
+  public:
+    SuiteRunner(const Suite& suite, Engines& engines, ReferenceStore& references, const RunnerHooks& hooks,
+                const std::atomic<bool>& stop)
+        : suite_(suite), engines_(engines), references_(references), hooks_(hooks), stop_(stop) {
+        results_.suite = suite.name;
+        results_.title = suite.title;
+    }
+
+    Results run() {
+        for (const Experiment& experiment : suite_.experiments) {
+            if (stop_) break;
+            runExperiment(experiment);
+        }
+        engines_.clear();
+        results_.complete = !stop_;
+        return std::move(results_);
+    }
+
+  private:
+    // Configurations that render one image, but for their errors.
+    struct Group {
+        std::string scene;
+        std::vector<Measured> measured;
+    };
+
+    void notice(const std::string& text) {
+        if (std::find(results_.notices.begin(), results_.notices.end(), text) != results_.notices.end()) return;
+        results_.notices.push_back(text);
+        hooks_.say(text);
+    }
+
+    void runExperiment(const Experiment& experiment);
+    std::vector<Group> groupsOf(const Experiment& experiment);
+    void runGroup(const Experiment& experiment, Group& group);
+    bool measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
+    Ladder ladderFor(const Experiment& experiment, const Config& config);
+    void loadScene(const std::string& source);
+    const image::Reference* provideReference(const Group& group, std::vector<std::vector<Row>>& rows);
+    void verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference);
+
+    const Suite& suite_;
+    Engines& engines_;
+    ReferenceStore& references_;
+    const RunnerHooks& hooks_;
+    const std::atomic<bool>& stop_;
+    Results results_;
+
+    std::string sceneSource_; // of scene_
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    double secondsLoad_ = 0;
+    Figure rayCeiling_;
+    image::Reference reference_;
+};
+
+// Tests and benchmarks use the generated assets even where the user has others, so that figures compare across machines.
+void SuiteRunner::loadScene(const std::string& source) {
+    if (source == sceneSource_) return;
+    engines_.clear();
+    sceneSource_.clear();
+    const app::Stopwatch watch;
+    scene_ = app::compile(app::loadScene(source), true, true);
+    secondsLoad_ = watch.seconds();
+    sceneSource_ = source;
+    rayCeiling_ = hooks_.rayCeiling ? hooks_.rayCeiling(*scene_) : std::nullopt;
+}
+
+std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experiment) {
+    std::vector<Group> groups;
+    const auto imageOf = [](const Config& c) {
+        return std::tuple(c.scene, c.settings.width, c.settings.height, c.settings.maxDepth);
+    };
+    const std::uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
+    for (const Config& config : combinations(experiment, threads)) {
+        if (const std::string why = engines_.missing(config.engine); !why.empty()) {
+            notice("Engine " + config.engine + " is left out: " + why + ".");
+            continue;
+        }
+        const auto same = [&](const Group& group) { return imageOf(group.measured.front().config) == imageOf(config); };
+        auto place = std::find_if(groups.begin(), groups.end(), same);
+        if (place == groups.end()) place = groups.insert(groups.end(), Group{config.scene, {}});
+        place->measured.push_back({config, 0, {}});
+    }
+    return groups;
+}
+
+void SuiteRunner::runExperiment(const Experiment& experiment) {
+    hooks_.say("# " + experiment.title);
+    std::vector<Group> groups = groupsOf(experiment);
+    const std::size_t firstRow = results_.rows.size();
+    for (Group& group : groups) {
+        if (stop_) break;
+        runGroup(experiment, group);
+        group.measured.clear(); // its images
+    }
+    std::vector<Row> rows(results_.rows.begin() + static_cast<std::ptrdiff_t>(firstRow), results_.rows.end());
+    addBaselines(experiment, rows);
+    std::copy(rows.begin(), rows.end(), results_.rows.begin() + static_cast<std::ptrdiff_t>(firstRow));
+}
+
+void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
+    loadScene(group.scene);
+    for (Measured& measured : group.measured) {
+        app::RenderSettings& settings = measured.config.settings;
+        measured.secondsLoad = secondsLoad_;
+        if (settings.height == 0)
+            settings.height = std::max(1u, static_cast<std::uint32_t>(std::lround(settings.width / scene_->defaults.aspect)));
+    }
+    // Turn by turn, so that a busy machine disturbs all alike.
+    for (std::uint32_t repeat = 0; repeat < experiment.repeats; ++repeat)
+        for (Measured& measured : group.measured)
+            if (!stop_ && !measureOnce(experiment, measured, repeat)) break;
+    std::erase_if(group.measured, [](const Measured& m) {
+        return std::all_of(m.runs.begin(), m.runs.end(), [](const Run& run) { return run.snapshots.empty(); });
+    });
+
+    std::vector<std::vector<Row>> rows;
+    for (const Measured& measured : group.measured) rows.push_back(makeRows(experiment, measured));
+    const image::Reference* reference = nullptr;
+    if (experiment.error && !group.measured.empty()) reference = provideReference(group, rows);
+    std::vector<Row> all;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        for (Row& row : rows[i]) {
+            if (!isGpuEngine(row.config.engine) && row.config.threads == 0 && row.config.engine == "multi" && rayCeiling_)
+                row.ceiling = row.raysPerSecond.value_or(0) / *rayCeiling_;
+            all.push_back(row);
+        }
+    for (const Series& series : makeSeries(experiment, all)) results_.series.push_back(series);
+    for (const SkipRow& skip : compareFeatures(experiment, group.measured)) results_.skips.push_back(skip);
+    if (reference != nullptr && experiment.images)
+        results_.grids.push_back(makeGrid(experiment, group.measured, *reference));
+    results_.rows.insert(results_.rows.end(), all.begin(), all.end());
+}
+
+Ladder SuiteRunner::ladderFor(const Experiment& experiment, const Config& config) {
+    Ladder ladder{experiment.spp, experiment.seconds, experiment.maxSeconds};
+    const auto most = experiment.maxSpp.find(config.engine);
+    if (most != experiment.maxSpp.end())
+        std::erase_if(ladder.spp, [&](std::uint32_t spp) { return spp > most->second; });
+    return ladder;
+}
+
+bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {
+    const std::string what = experiment.name + ": " + describe(experiment, measured.config);
+    app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
+    if (engine == nullptr) return false;
+    const Ladder ladder = ladderFor(experiment, measured.config);
+    measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_));
+    const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;
+    const std::size_t wanted = ladder.spp.size() + ladder.seconds.size();
+    if (snapshots.empty()) {
+        if (!stop_) notice(what + ": nothing within " + format("%g s", experiment.maxSeconds) + ".");
+        return !stop_;
+    }
+    const Snapshot& last = snapshots.back();
+    hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + format("%.3g s", last.seconds) + ", " +
+               format("%.3g M samples/s", static_cast<double>(last.rays.camera) / last.seconds * 1e-6));
+    if (snapshots.size() < wanted && !stop_)
+        notice(what + ": ends at " + std::to_string(last.spp) + " spp, as more would take above " +
+               format("%g s", experiment.maxSeconds) + ".");
+    return !stop_;
+}
+
+// By the engine that was fastest; null when stopped before there is one. Adds the errors to the rows.
+const image::Reference* SuiteRunner::provideReference(const Group& group, std::vector<std::vector<Row>>& rows) {
+    const Measured* fastest = nullptr;
+    double rate = 0;
+    ReferenceRequest request;
+    std::vector<const Image*> images;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Measured& measured = group.measured[i];
+        if (const double own = rows[i].back().samplesPerSecond.value_or(0); own >= rate) {
+            rate = own;
+            fastest = &measured;
+        }
+        for (const Run& run : measured.runs)
+            for (const Snapshot& snapshot : run.snapshots) {
+                images.push_back(&snapshot.image);
+                request.firstSpp = std::max(request.firstSpp, snapshot.spp);
+            }
+    }
+    const app::RenderSettings& settings = fastest->config.settings;
+    request.scene = scene_.get();
+    request.width = settings.width;
+    request.height = settings.height;
+    request.maxDepth = settings.maxDepth;
+    request.maxSeconds = suite_.referenceSeconds;
+    Config config = fastest->config;
+    config.settings.features.reset();
+    app::Engine* engine = engines_.prepare(config, scene_, stop_);
+    if (engine == nullptr) return nullptr;
+    auto made = references_.provide(request, images, *engine, stop_);
+    if (!made) {
+        if (!stop_) notice(group.scene + ": no reference within " + format("%g s", request.maxSeconds) + "; errors are not known.");
+        return nullptr;
+    }
+    reference_ = std::move(made->reference);
+    for (std::size_t i = 0; i < rows.size(); ++i) addErrors(rows[i], group.measured[i], reference_);
+
+    double variance = 0;
+    for (const float value : reference_.variance.data) variance += value;
+    ReferenceRow row{group.scene, request.width, request.height, request.maxDepth, config.engine, {}, {}, {}, false, false, "", {}};
+    row.spp = static_cast<double>(made->spp);
+    row.seconds = made->seconds;
+    row.rmse = std::sqrt(variance / static_cast<double>(reference_.variance.data.size()));
+    row.cached = made->cached;
+    row.sufficient = made->sufficient;
+    verifyReference(rows, row);
+    hooks_.say("reference of " + group.scene + ": " + std::to_string(made->spp) + " spp, " +
+               format("%.3g s", made->seconds) + (made->cached ? ", partly cached" : ""));
+    if (!made->sufficient && !stop_)
+        notice(group.scene + ": the reference's standard error is more than a third of the least error measured; its "
+                             "variance is subtracted, but intervals are wider.");
+    results_.references.push_back(row);
+    return &reference_;
+}
+
+// An engine of another kind finds the same image, or one of the two is wrong.
+void SuiteRunner::verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference) {
+    for (const std::vector<Row>& own : rows)
+        for (const Row& row : own) {
+            if (isGpuEngine(row.config.engine) == isGpuEngine(reference.engine) || !row.biasZ) continue;
+            reference.verifiedBy = row.config.engine;
+            if (!reference.verifiedZ || std::abs(*row.biasZ) > std::abs(*reference.verifiedZ)) reference.verifiedZ = row.biasZ;
+        }
+}
+
+} // namespace
+
+Results runSuite(const Suite& suite, Engines& engines, ReferenceStore& references, const RunnerHooks& hooks,
+                 const std::atomic<bool>& stop) {
+    return SuiteRunner(suite, engines, references, hooks, stop).run();
+}
+
+} // namespace rt::bench

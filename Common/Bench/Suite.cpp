@@ -1,0 +1,235 @@
+#include "Common/Bench/Suite.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "Common/App/OptionValues.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/ReadFile.h"
+#include "Common/Scene/JsonNode.h"
+
+namespace rt::bench {
+namespace {
+
+using scene::JsonNode;
+
+constexpr std::uint64_t kLargestFile = 16 << 20;
+constexpr double kLongest = 1e6; // seconds
+
+// Calls with each element of an array, or with the value itself.
+template <class Function> // (const JsonNode&)
+void forOneOrMore(const JsonNode& node, Function function) {
+    if (!node.value().is_array()) return function(node);
+    if (node.arraySize() == 0) node.fail("must not be empty");
+    node.forEachElement(function);
+}
+
+std::string textOf(const JsonNode& node) {
+    if (node.value().is_boolean()) return node.boolean() ? "on" : "off";
+    return node.value().is_number() ? node.value().dump() : node.string();
+}
+
+// The value of an axis, checked by setting it.
+std::string axisValue(const JsonNode& node, const Axis& axis) {
+    const std::string text = textOf(node);
+    Config scratch;
+    try {
+        axis.set(scratch, text);
+    } catch (const UsageError& error) {
+        node.fail(error.what());
+    }
+    return text;
+}
+
+template <class T, class Read> // (const JsonNode&) -> T
+std::vector<T> ascending(const JsonNode& node, Read read) {
+    std::vector<T> values;
+    forOneOrMore(node, [&](const JsonNode& element) {
+        const T value = read(element);
+        if (!(value > (values.empty() ? T{0} : values.back())))
+            element.fail("values must be positive and ascending");
+        values.push_back(value);
+    });
+    return values;
+}
+
+std::uint32_t wholeWithin(const JsonNode& node, std::uint32_t low, std::uint32_t high) {
+    const std::uint32_t value = node.unsignedInteger();
+    if (value < low || value > high)
+        node.failValue("a whole number from " + std::to_string(low) + " to " + std::to_string(high));
+    return value;
+}
+
+std::string engineName(const std::string& text, const JsonNode& node) {
+    Config scratch;
+    try {
+        findAxis("engine")->set(scratch, text);
+    } catch (const UsageError& error) {
+        node.fail(error.what());
+    }
+    return text;
+}
+
+constexpr NamedSuite kSuites[] = {
+#include <NamedSuites.inc> // Assets/bench/*.json
+};
+
+constexpr const char* kExperimentKeys[] = {"name",  "title",   "spp",    "seconds",  "repeats",
+                                           "error", "images", "max_spp", "max_seconds", "baseline"};
+
+void readKeys(const JsonNode& node, Experiment& experiment) {
+    if (const auto spp = node.find("spp"))
+        experiment.spp = ascending<std::uint32_t>(*spp, [](const JsonNode& n) { return wholeWithin(n, 1, 0x7fffffffu); });
+    if (const auto seconds = node.find("seconds"))
+        experiment.seconds = ascending<double>(*seconds, [](const JsonNode& n) { return n.within(1e-3, kLongest); });
+    if (experiment.spp.empty() == experiment.seconds.empty()) node.fail("needs either spp or seconds");
+    if (const auto repeats = node.find("repeats")) experiment.repeats = wholeWithin(*repeats, 1, 1000);
+    if (const auto error = node.find("error")) experiment.error = error->boolean();
+    if (const auto images = node.find("images")) experiment.images = images->boolean();
+    if (const auto most = node.find("max_seconds")) experiment.maxSeconds = most->within(1e-3, kLongest);
+    if (const auto most = node.find("max_spp"))
+        most->forEachMember([&](const std::string& engine, const JsonNode& value) {
+            experiment.maxSpp[engineName(engine, value)] = wholeWithin(value, 1, 0x7fffffffu);
+        });
+    if (const auto baseline = node.find("baseline"))
+        baseline->forEachMember([&](const std::string& name, const JsonNode& value) {
+            const Axis* axis = findAxis(name);
+            if (axis == nullptr) value.fail("no such axis");
+            experiment.baseline[axis] = axisValue(value, *axis);
+        });
+}
+
+std::string axisNames() {
+    std::vector<std::string> names;
+    for (const Axis& axis : axes()) names.emplace_back(axis.name);
+    return app::alternatives(names);
+}
+
+Experiment readExperiment(const JsonNode& node) {
+    Experiment experiment;
+    experiment.name = node.at("name").string();
+    experiment.title = node.has("title") ? node.at("title").string() : experiment.name;
+    node.forEachMember([&](const std::string& key, const JsonNode& value) {
+        if (std::find(std::begin(kExperimentKeys), std::end(kExperimentKeys), key) != std::end(kExperimentKeys)) return;
+        const Axis* axis = findAxis(key);
+        if (axis == nullptr) value.fail("neither a setting of an experiment nor an axis: " + axisNames());
+        std::vector<std::string> values;
+        forOneOrMore(value, [&](const JsonNode& element) { values.push_back(axisValue(element, *axis)); });
+        experiment.values.emplace_back(axis, std::move(values));
+    });
+    // In the order of the table, so that equal suites give equal reports.
+    std::sort(experiment.values.begin(), experiment.values.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    readKeys(node, experiment);
+    return experiment;
+}
+
+Published readPublished(const JsonNode& node) {
+    node.expectKeys({"name", "scene", "seconds"});
+    Published published{node.at("name").string(), node.at("scene").string(), {}};
+    node.at("seconds").forEachMember([&](const std::string& spp, const JsonNode& value) {
+        try {
+            published.seconds[app::parseWhole("spp", spp, 1, 0x7fffffffu)] = value.positive();
+        } catch (const UsageError& error) {
+            value.fail(error.what());
+        }
+    });
+    return published;
+}
+
+// The values of an axis, which gets its place in the order of the table.
+std::vector<std::string>& valuesOf(Experiment& experiment, const char* name) {
+    const Axis* axis = findAxis(name);
+    auto place = std::find_if(experiment.values.begin(), experiment.values.end(),
+                              [&](const auto& entry) { return entry.first >= axis; });
+    if (place == experiment.values.end() || place->first != axis)
+        place = experiment.values.insert(place, {axis, {axis->get(Config())}});
+    return place->second;
+}
+
+// What makes no difference gets its default.
+void removeMeaningless(Config& config, std::uint32_t hardwareThreads) {
+    const app::RenderSettings defaults;
+    app::RenderSettings& settings = config.settings;
+    if (config.engine != "multi" || config.threads == hardwareThreads) config.threads = 0;
+    if (settings.lightSampling != app::LightSampling::Bsdf) return;
+    settings.lightSelection = defaults.lightSelection;
+    settings.sphereLight = defaults.sphereLight;
+    settings.quadLight = defaults.quadLight;
+    settings.triangleLight = defaults.triangleLight;
+}
+
+} // namespace
+
+Suite parseSuite(const std::string& text, const std::string& file) {
+    const nlohmann::json document = scene::parseJson(text, file);
+    const JsonNode root(document, file);
+    root.expectKeys({"$schema", "version", "title", "reference_seconds", "experiments", "published"});
+    if (root.at("version").value() != 1) root.at("version").failValue("1");
+    Suite suite;
+    suite.name = std::filesystem::path(file).stem().string();
+    suite.title = root.has("title") ? root.at("title").string() : suite.name;
+    if (const auto seconds = root.find("reference_seconds")) suite.referenceSeconds = seconds->within(0.1, kLongest);
+    root.at("experiments").forEachElement([&](const JsonNode& node) { suite.experiments.push_back(readExperiment(node)); });
+    if (suite.experiments.empty()) root.at("experiments").fail("must not be empty");
+    for (std::size_t i = 0; i < suite.experiments.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (suite.experiments[i].name == suite.experiments[k].name)
+                root.at("experiments").element(i).at("name").fail("is the name of an earlier experiment");
+    if (const auto published = root.find("published"))
+        published->forEachElement([&](const JsonNode& node) { suite.published.push_back(readPublished(node)); });
+    return suite;
+}
+
+std::span<const NamedSuite> namedSuites() {
+    return kSuites;
+}
+
+Suite loadSuite(const std::string& nameOrFile) {
+    std::vector<std::string> names;
+    for (const NamedSuite& suite : namedSuites()) {
+        if (nameOrFile == suite.name) return parseSuite(suite.text, suite.name);
+        names.emplace_back(suite.name);
+    }
+    if (std::filesystem::path(nameOrFile).extension() != ".json")
+        throw InputError("suite \"" + nameOrFile + "\": must be " + app::alternatives(names) + ", or a .json file");
+    const std::vector<std::byte> bytes = readFile(nameOrFile, kLargestFile);
+    return parseSuite(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nameOrFile);
+}
+
+void replaceScenes(Suite& suite, const std::vector<std::string>& scenes) {
+    for (Experiment& experiment : suite.experiments) valuesOf(experiment, "scene") = scenes;
+}
+
+void restrictEngines(Suite& suite, const std::vector<std::string>& engines) {
+    for (Experiment& experiment : suite.experiments) {
+        std::vector<std::string>& values = valuesOf(experiment, "engine");
+        std::erase_if(values, [&](const std::string& engine) {
+            return std::find(engines.begin(), engines.end(), engine) == engines.end();
+        });
+    }
+    std::erase_if(suite.experiments, [](Experiment& experiment) { return valuesOf(experiment, "engine").empty(); });
+}
+
+std::vector<Config> combinations(const Experiment& experiment, std::uint32_t hardwareThreads) {
+    std::vector<Config> configs(1);
+    for (const auto& [axis, values] : experiment.values) {
+        std::vector<Config> more;
+        for (const Config& config : configs)
+            for (const std::string& value : values) {
+                more.push_back(config);
+                axis->set(more.back(), value);
+            }
+        configs = std::move(more);
+    }
+    std::vector<Config> distinct;
+    std::set<std::string> keys;
+    for (Config& config : configs) {
+        removeMeaningless(config, hardwareThreads);
+        if (config.threads <= hardwareThreads && keys.insert(keyOf(config)).second) distinct.push_back(config);
+    }
+    return distinct;
+}
+
+} // namespace rt::bench

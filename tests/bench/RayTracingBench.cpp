@@ -1,0 +1,145 @@
+// ray-tracing-bench: flags to a suite, a suite to results, and the engines that it drives.
+#include <algorithm>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interrupt.h"
+#include "Common/Bench/BenchOptions.h"
+#include "Common/Bench/Comparison.h"
+#include "Common/Bench/Machine.h"
+#include "Common/Bench/Report.h"
+#include "Common/Bench/Runner.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+#include "Common/Core/Paths.h"
+#include "Common/Core/RunMain.h"
+#include "RayTracingCPU/CpuEngine.h"
+#ifdef RT_HAS_GPU
+#include "RayTracingGPU/GpuEngine.h"
+#endif
+
+namespace {
+
+using namespace rt;
+
+constexpr const char* kProgram = "ray-tracing-bench";
+
+bench::EngineKind cpuKind(const char* name, cpu::Policy policy) {
+    return {name,
+            [policy](std::uint32_t threads) {
+                cpu::CpuEngineOptions options;
+                options.policy = policy;
+                options.threads = threads;
+                return cpu::makeCpuEngine(options);
+            },
+            ""};
+}
+
+// The engines of this machine, and the device that some of them share.
+class EngineList {
+  public:
+    explicit EngineList(const bench::BenchOptions& options) {
+        kinds_.push_back(cpuKind("single", cpu::Policy::Seq));
+        kinds_.push_back(cpuKind("multi", cpu::Policy::Par));
+#ifdef RT_HAS_GPU
+        addGpu(options);
+#else
+        (void)options;
+#endif
+    }
+
+    const std::vector<bench::EngineKind>& kinds() const { return kinds_; }
+    const std::vector<bench::Fact>& facts() const { return facts_; }
+
+  private:
+#ifdef RT_HAS_GPU
+    void addGpu(const bench::BenchOptions& options) {
+        try {
+            context_.emplace(vulkan::ContextOptions{options.device, false});
+        } catch (const Error& error) {
+            if (!options.device.empty()) throw;
+            kinds_.push_back({"pipeline", {}, error.what()});
+            return;
+        }
+        facts_.push_back({"GPU", context_->info().name});
+        facts_.push_back({"GPU driver", context_->info().driver});
+        kinds_.push_back({"pipeline", [this](std::uint32_t) { return gpu::makeGpuEngine(*context_); }, ""});
+    }
+
+    std::optional<vulkan::VulkanContext> context_;
+#endif
+    std::vector<bench::EngineKind> kinds_;
+    std::vector<bench::Fact> facts_;
+};
+
+std::filesystem::path referenceFolder() {
+    const std::filesystem::path cache = userCacheFolder();
+    return cache.empty() ? cache : cache / "references";
+}
+
+std::string noLinks(std::size_t) {
+    return {};
+}
+
+int compare(const bench::BenchOptions& options) {
+    const bench::Results before = bench::loadResults(options.compare[0]), after = bench::loadResults(options.compare[1]);
+    const bench::Comparison comparison = bench::compareResults(before, after);
+    if (comparison.changes.empty())
+        throw InputError(options.compare[0] + " and " + options.compare[1] + ": no row of one is in the other");
+    std::cout << toMarkdown(describe(comparison, before, after), noLinks);
+    return static_cast<int>(comparison.regressions() > 0 ? ExitCode::Different : ExitCode::Done);
+}
+
+int measure(const bench::BenchOptions& options) {
+    bench::Suite suite = bench::loadSuite(options.suite);
+    if (!options.scenes.empty()) replaceScenes(suite, options.scenes);
+    if (!options.engines.empty()) restrictEngines(suite, options.engines);
+    if (suite.experiments.empty()) throw UsageError("--engine: the suite " + options.suite + " has none of these engines");
+    if (!options.report.empty()) bench::checkReportFolder(options.report);
+
+    app::Interrupt interrupt;
+    const EngineList list(options);
+    bench::Engines engines(list.kinds());
+    bench::ReferenceStore references(referenceFolder(), options.freshReferences);
+    bench::RunnerHooks hooks;
+    hooks.say = [&](const std::string& text) {
+        if (!options.quiet) std::cerr << text << std::endl;
+    };
+    interrupt.defer(); // from here on there may be something to keep
+    bench::Results results = runSuite(suite, engines, references, hooks, interrupt.requested());
+    std::vector<bench::Fact> facts = bench::machineFacts();
+    facts.insert(facts.end(), list.facts().begin(), list.facts().end());
+    results.facts = std::move(facts);
+
+    std::cout << toMarkdown(makeReport(results, suite), noLinks);
+    if (!options.report.empty()) {
+        writeReport(options.report, results, suite);
+        hooks.say("written: " + (std::filesystem::path(options.report) / "report.html").string());
+    }
+    if (!results.complete) return static_cast<int>(ExitCode::Interrupted);
+    if (results.rows.empty()) throw RenderError("nothing was measured: none of the suite's engines is here");
+    return static_cast<int>(ExitCode::Done);
+}
+
+int listSuites() {
+    for (const bench::NamedSuite& suite : bench::namedSuites())
+        std::cout << suite.name << ": " << bench::loadSuite(suite.name).title << "\n";
+    return static_cast<int>(ExitCode::Done);
+}
+
+int run(const std::vector<std::string>& arguments) {
+    const auto options = bench::parseBenchOptions(arguments, std::cout);
+    if (!options) return 0; // --help, --version
+    setUpLog({kProgram, options->quiet, false, ""});
+    if (options->listSuites) return listSuites();
+    if (!options->compare.empty()) return compare(*options);
+    return measure(*options);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    return rt::runMain(kProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });
+}
