@@ -59,7 +59,8 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.lightShapes = last.lightSampling;
     row.spp = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.spp); });
     if (last.threads > 0) row.threadsUsed = last.threads;
-    const Summary seconds = image::summarise(values(measured, step, [](const Run&, const Snapshot& s) { return s.seconds; }));
+    const Summary seconds =
+        image::summarise(values(measured, step, [](const Run&, const Snapshot& s) { return s.seconds; }));
     row.repeats = static_cast<double>(seconds.count);
     row.seconds = seconds.median;
     row.secondsMin = seconds.min;

@@ -27,24 +27,32 @@ void checkEngines(const std::vector<std::string>& engines) {
 
 std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& arguments, std::ostream& out) {
     constexpr const char* kName = "ray-tracing-bench";
-    CLI::App app{"Measures run time against error: engines, estimators, samplers. Exit code 5: --compare found a regression.", kName};
+    CLI::App app{
+        "Measures run time against error: engines, estimators, samplers. Exit code 5: --compare found a regression.",
+        kName};
     app.set_version_flag("--version", std::string(kName) + " " RT_VERSION);
     BenchOptions options;
     bool quick = false;
-    auto* const suite = app.add_option("SUITE", options.suite, "quick (the default), predecessor, lights, samplers, scaling, full, or a .json file");
+    auto* const suite = app.add_option(
+        "SUITE", options.suite, "quick (the default), predecessor, lights, samplers, scaling, full, or a .json file");
     auto* const quickFlag = app.add_flag("--quick", quick, "the suite quick");
     app.add_flag("--list-suites", options.listSuites, "names and titles of the suites that come with the program");
-    app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")->type_name("S")->allow_extra_args(false);
+    app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")
+        ->type_name("S")
+        ->allow_extra_args(false);
     app.add_option("--engine", options.engines, "of the suite's engines only these: single, multi, pipeline, compute")
         ->type_name("E")
         ->allow_extra_args(false);
-    auto* const report = app.add_option("--report", options.report, "folder for report.html, report.md, results.json, results.csv and plots")->type_name("DIR");
+    auto* const report = app.add_option("--report", options.report,
+                                        "folder for report.html, report.md, results.json, results.csv and plots")
+                             ->type_name("DIR");
     app.add_option("--device", options.device, "Vulkan device by index or part of its name")->type_name("N|TEXT");
     app.add_flag("--fresh-references", options.freshReferences, "do not read references from the cache");
     app.add_flag("--stability", options.stability, "measure the numerical stability of light samplers instead");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
     auto* const compare =
-        app.add_option("--compare", options.compare, "compare two reports: folders or results.json; exits with 5 when B is worse than A beyond noise")
+        app.add_option("--compare", options.compare,
+                       "compare two reports: folders or results.json; exits with 5 when B is worse than A beyond noise")
             ->type_name("A B")
             ->expected(2)
             ->excludes(suite, quickFlag, report);
@@ -59,7 +67,8 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     } catch (const CLI::ParseError& error) {
         throw UsageError(oneLine(error.what()));
     }
-    if (quick && suite->count() > 0 && options.suite != "quick") throw UsageError("--quick: " + options.suite + " is another suite");
+    if (quick && suite->count() > 0 && options.suite != "quick")
+        throw UsageError("--quick: " + options.suite + " is another suite");
     checkEngines(options.engines);
     return options;
 }

@@ -8,7 +8,7 @@
 namespace rt::bench {
 
 struct BenchOptions {
-    std::string suite = "quick"; // name or file
+    std::string suite = "quick";      // name or file
     std::vector<std::string> scenes;  // instead of the suite's
     std::vector<std::string> engines; // of the suite's, only these
     std::string report;               // folder; empty: tables on standard output only

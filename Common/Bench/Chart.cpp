@@ -36,15 +36,17 @@ class SvgWriter {
     explicit SvgWriter(double height) {
         text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(kWidth) + " " + number(height) +
                 "\" width=\"" + number(kWidth) + "\" height=\"" + number(height) +
-                "\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+                "\" font-family=\"sans-serif\" font-size=\"12\" role=\"img\">\n<rect width=\"100%\" height=\"100%\" "
+                "fill=\"#fff\"/>\n";
     }
 
     void line(double x0, double y0, double x1, double y1, const std::string& style) {
-        text_ += "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) + "\" y2=\"" + number(y1) +
-                 "\" " + style + "/>\n";
+        text_ += "<line x1=\"" + number(x0) + "\" y1=\"" + number(y0) + "\" x2=\"" + number(x1) + "\" y2=\"" +
+                 number(y1) + "\" " + style + "/>\n";
     }
     void text(double x, double y, const std::string& content, const std::string& style) {
-        text_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" fill=\"#222\" " + style + ">" + escapeMarkup(content) + "</text>\n";
+        text_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" fill=\"#222\" " + style + ">" +
+                 escapeMarkup(content) + "</text>\n";
     }
     void polyline(const std::vector<std::pair<double, double>>& points, const std::string& style) {
         text_ += "<polyline fill=\"none\" points=\"";
@@ -112,8 +114,9 @@ void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Sc
     svg.polyline(points, "stroke=\"" + color + "\" stroke-width=\"1.6\"" +
                              (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
     const double legend = y.from + kBottom + kLegendLine * static_cast<double>(index);
-    svg.line(kLeft, legend - 4, kLeft + 26, legend - 4,
-             "stroke=\"" + color + "\" stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
+    svg.line(
+        kLeft, legend - 4, kLeft + 26, legend - 4,
+        "stroke=\"" + color + "\" stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
     svg.text(kLeft + 32, legend, line.name, "");
 }
 
@@ -122,8 +125,8 @@ void drawGuide(SvgWriter& svg, const ChartLine& line, const Scale& x, const Scal
     const double start = std::log10(line.points.front().y) + std::log10(line.points.front().x);
     const double from = std::max(x.low, start - y.high), to = std::min(x.high, start - y.low);
     if (!(to > from)) return;
-    svg.line(x(std::pow(10.0, from)), y(std::pow(10.0, start - from)), x(std::pow(10.0, to)), y(std::pow(10.0, start - to)),
-             "stroke=\"#999\" stroke-dasharray=\"1 4\"");
+    svg.line(x(std::pow(10.0, from)), y(std::pow(10.0, start - from)), x(std::pow(10.0, to)),
+             y(std::pow(10.0, start - to)), "stroke=\"#999\" stroke-dasharray=\"1 4\"");
 }
 
 } // namespace

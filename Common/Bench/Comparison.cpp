@@ -86,26 +86,33 @@ Document describe(const Comparison& comparison, const Results& before, const Res
     Document document{Heading{1, "Two runs of " + after.title}};
     Table machines{{"", "A", "B"}, {}};
     for (const Fact& fact : after.facts) {
-        const auto found =
-            std::find_if(before.facts.begin(), before.facts.end(), [&](const Fact& other) { return other.name == fact.name; });
+        const auto found = std::find_if(before.facts.begin(), before.facts.end(),
+                                        [&](const Fact& other) { return other.name == fact.name; });
         machines.rows.push_back({fact.name, found == before.facts.end() ? "–" : found->value, fact.value});
     }
     document.push_back(machines);
-    Table table{{"experiment", "configuration", "spp", "s, A", "s, B", "time B/A", "mse B/A", "efficiency B/A", ""}, {}};
+    Table table{{"experiment", "configuration", "spp", "s, A", "s, B", "time B/A", "mse B/A", "efficiency B/A", ""},
+                {}};
     for (const Change& change : comparison.changes) {
         std::string configuration = change.after->config.scene;
         for (const Axis& axis : axes())
             if (axis.name != "scene" && axis.get(change.after->config) != axis.get(Config()))
                 configuration += ", " + axis.get(change.after->config);
-        const std::string verdict = std::string(change.slower ? "SLOWER " : change.faster ? "faster " : "") +
-                                    (change.noisier ? "NOISIER" : change.lessNoisy ? "less noisy" : "");
+        const std::string verdict = std::string(change.slower   ? "SLOWER "
+                                                : change.faster ? "faster "
+                                                                : "") +
+                                    (change.noisier     ? "NOISIER"
+                                     : change.lessNoisy ? "less noisy"
+                                                        : "");
         table.rows.push_back({change.after->experiment, configuration, threeDigits(change.after->spp),
                               threeDigits(change.before->seconds), threeDigits(change.after->seconds),
-                              threeDigits(change.seconds), threeDigits(change.mse), threeDigits(change.efficiency), verdict});
+                              threeDigits(change.seconds), threeDigits(change.mse), threeDigits(change.efficiency),
+                              verdict});
     }
     document.push_back(table);
-    document.push_back(Paragraph{std::to_string(comparison.regressions()) + " of " + std::to_string(comparison.changes.size()) +
-                                 " rows are worse beyond noise; " + std::to_string(comparison.onlyBefore) + " are in A only, " +
+    document.push_back(Paragraph{std::to_string(comparison.regressions()) + " of " +
+                                 std::to_string(comparison.changes.size()) + " rows are worse beyond noise; " +
+                                 std::to_string(comparison.onlyBefore) + " are in A only, " +
                                  std::to_string(comparison.onlyAfter) + " in B only."});
     return document;
 }

@@ -12,7 +12,7 @@ namespace rt::bench {
 struct Change {
     const Row* before = nullptr;
     const Row* after = nullptr;
-    Figure seconds, mse, efficiency; // after / before
+    Figure seconds, mse, efficiency;     // after / before
     bool slower = false, faster = false; // beyond noise
     bool noisier = false, lessNoisy = false;
     bool regressed() const { return slower || noisier; }

@@ -13,7 +13,7 @@ namespace rt::bench {
 struct Config {
     std::string scene = "cornell-box-lights"; // id or file
     std::string engine = "multi";
-    std::uint32_t threads = 0;   // CPU engines: 0 means all
+    std::uint32_t threads = 0;    // CPU engines: 0 means all
     app::RenderSettings settings; // height 0: from the scene's aspect; spp and seed are no part of it
 
     Config() { settings.height = 0; }

@@ -28,7 +28,8 @@ std::string markdownTable(Table table) {
     std::vector<std::size_t> widths(table.header.size(), 3);
     std::vector<bool> right(table.header.size(), true);
     const auto lengthOf = [](const std::string& text) { // of UTF-8
-        return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
+        return static_cast<std::size_t>(
+            std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
     };
     for (std::size_t c = 0; c < table.header.size(); ++c) {
         widths[c] = std::max(widths[c], lengthOf(table.header[c]));
@@ -93,7 +94,8 @@ std::string toMarkdown(const Document& document, const std::function<std::string
         [&](const Paragraph& p) { text += p.text + "\n\n"; },
         [&](const Table& t) { text += markdownTable(t) + "\n"; },
         [&](const Chart& c) {
-            if (const std::string link = linkOf(charts++); !link.empty()) text += "![" + c.title + "](" + link + ")\n\n";
+            if (const std::string link = linkOf(charts++); !link.empty())
+                text += "![" + c.title + "](" + link + ")\n\n";
         },
         [](const PictureGrid&) {},
     };
@@ -102,8 +104,8 @@ std::string toMarkdown(const Document& document, const std::function<std::string
 }
 
 std::string toHtml(const Document& document, const std::string& title) {
-    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" + escapeMarkup(title) +
-                       "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
+    std::string text = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>" +
+                       escapeMarkup(title) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n";
     const auto write = Overloaded{
         [&](const Heading& h) {
             const std::string tag = "h" + std::to_string(h.level);

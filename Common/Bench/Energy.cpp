@@ -38,7 +38,8 @@ std::optional<double> EnergyMeter::joules() const {
     for (const Counter& counter : counters_) {
         const auto now = readNumber(counter.file);
         if (!now) return std::nullopt;
-        total += static_cast<double>(*now >= counter.start ? *now - counter.start : *now + counter.range - counter.start);
+        total +=
+            static_cast<double>(*now >= counter.start ? *now - counter.start : *now + counter.range - counter.start);
     }
     return total * 1e-6;
 }

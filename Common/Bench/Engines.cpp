@@ -8,7 +8,8 @@ namespace rt::bench {
 namespace {
 
 const EngineKind* find(const std::vector<EngineKind>& kinds, const std::string& name) {
-    const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const EngineKind& kind) { return kind.name == name; });
+    const auto found =
+        std::find_if(kinds.begin(), kinds.end(), [&](const EngineKind& kind) { return kind.name == name; });
     return found == kinds.end() ? nullptr : &*found;
 }
 

@@ -14,9 +14,9 @@
 namespace rt::bench {
 
 struct EngineKind {
-    std::string name; // one of kEngines
+    std::string name;                                                        // one of kEngines
     std::function<std::unique_ptr<app::Engine>(std::uint32_t threads)> make; // empty: there is none here
-    std::string missing;                                                   // and this is why
+    std::string missing;                                                     // and this is why
 };
 
 // Engines are made when first used and keep the scene that they have.

@@ -9,7 +9,7 @@ namespace rt::bench {
 namespace {
 
 constexpr double kWarmUpSeconds = 0.25;
-constexpr std::uint32_t kWarmUpSpp = 16;       // one block
+constexpr std::uint32_t kWarmUpSpp = 16;        // one block
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 
 app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
@@ -20,7 +20,11 @@ class Measurer {
   public:
     Measurer(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings,
              const std::atomic<bool>& stop)
-        : engine_(engine), scene_(scene), stop_(stop), silence_(nullptr), progress_(silence_, app::Progress::Style::Silent) {
+        : engine_(engine),
+          scene_(scene),
+          stop_(stop),
+          silence_(nullptr),
+          progress_(silence_, app::Progress::Style::Silent) {
         options_.settings = settings;
     }
 

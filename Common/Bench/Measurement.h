@@ -19,12 +19,12 @@ struct Ladder {
 };
 
 struct Snapshot {
-    std::uint64_t spp = 0;               // of each pixel; the least of all where time ran out
-    std::optional<double> timeBudget;    // seconds, where that was asked for
-    double seconds = 0;                  // wall time of sampling alone, warm-up excluded
-    double deviceSeconds = 0;            // in kernels
+    std::uint64_t spp = 0;            // of each pixel; the least of all where time ran out
+    std::optional<double> timeBudget; // seconds, where that was asked for
+    double seconds = 0;               // wall time of sampling alone, warm-up excluded
+    double deviceSeconds = 0;         // in kernels
     app::RayCounts rays;
-    std::optional<double> joules;        // of the processor package
+    std::optional<double> joules; // of the processor package
     image::Image image;
 };
 

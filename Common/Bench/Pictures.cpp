@@ -14,8 +14,8 @@ namespace {
 
 using image::Image;
 
-constexpr std::uint32_t kWidest = 180;    // pixels
-constexpr std::size_t kMostPictures = 8;  // configurations in a grid
+constexpr std::uint32_t kWidest = 180;   // pixels
+constexpr std::size_t kMostPictures = 8; // configurations in a grid
 
 // Means over squares of pixels of what a screen shows.
 Image shrunk(const Image& image) {
@@ -25,7 +25,8 @@ Image shrunk(const Image& image) {
     const float weight = 1.0f / static_cast<float>(factor * factor);
     for (std::uint32_t y = 0; y < small.height * factor; ++y)
         for (std::uint32_t x = 0; x < small.width * factor; ++x)
-            for (std::uint32_t c = 0; c < 3; ++c) small.pixel(x / factor, y / factor)[c] += weight * image.pixel(x, y)[c];
+            for (std::uint32_t c = 0; c < 3; ++c)
+                small.pixel(x / factor, y / factor)[c] += weight * image.pixel(x, y)[c];
     return small;
 }
 
@@ -62,7 +63,8 @@ std::string base64(const std::string& bytes) {
 
 } // namespace
 
-PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& measured, const image::Reference& reference) {
+PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& measured,
+                     const image::Reference& reference) {
     std::uint64_t spp = ~std::uint64_t{0};
     for (const Measured& one : measured)
         if (!one.runs.front().snapshots.empty()) spp = std::min(spp, one.runs.front().snapshots.back().spp);
@@ -71,7 +73,8 @@ PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& 
     for (std::size_t i = 0; i < std::min(measured.size(), kMostPictures); ++i) {
         const Snapshot* snapshot = atSpp(measured[i], spp);
         if (snapshot == nullptr) continue;
-        const std::string caption = captionOf(experiment, measured[i].config) + ", " + std::to_string(snapshot->spp) + " spp";
+        const std::string caption =
+            captionOf(experiment, measured[i].config) + ", " + std::to_string(snapshot->spp) + " spp";
         grid.pictures.push_back({caption, shown(snapshot->image)});
         grid.pictures.push_back({"its error", shrunk(image::heatMap(snapshot->image, reference.mean))});
     }

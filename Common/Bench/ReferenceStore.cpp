@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 using image::Film;
 
 constexpr double kVarianceShare = 1.0 / 9; // of the measured mse: a third in standard errors
-constexpr double kMostGrowth = 8;          // of the number of samples in one step, since the least error is only estimated
+constexpr double kMostGrowth = 8; // of the number of samples in one step, since the least error is only estimated
 constexpr std::uint64_t kMostSpp = 1u << 30;
 constexpr std::uint32_t kFormat = 1;
 
@@ -91,14 +91,14 @@ std::uint64_t roundedUp(double spp) {
 
 fs::path ReferenceStore::fileOf(const ReferenceRequest& request) const {
     if (folder_.empty()) return {};
-    const std::uint64_t parts[] = {kFormat,          request.scene->hash,       request.width,    request.height,
+    const std::uint64_t parts[] = {kFormat,          request.scene->hash,  request.width, request.height,
                                    request.maxDepth, kReferenceReplicates, kReferenceSeed};
     std::uint64_t hash = hashBytes(std::as_bytes(std::span(parts)));
     const std::string version = RT_VERSION;
     hash = hashBytes(std::as_bytes(std::span(version.data(), version.size())), hash);
     const scene::CameraDesc& c = request.scene->camera; // no part of the scene's hash
-    const double camera[] = {c.lookFrom.x, c.lookFrom.y,   c.lookFrom.z,   c.lookAt.x,      c.lookAt.y, c.lookAt.z, c.up.x,
-                             c.up.y,       c.up.z,         c.verticalFov,  c.defocusAngle, c.focusDistance};
+    const double camera[] = {c.lookFrom.x, c.lookFrom.y, c.lookFrom.z, c.lookAt.x,    c.lookAt.y,     c.lookAt.z,
+                             c.up.x,       c.up.y,       c.up.z,       c.verticalFov, c.defocusAngle, c.focusDistance};
     hash = hashBytes(std::as_bytes(std::span(camera)), hash);
     char name[32];
     std::snprintf(name, sizeof name, "%016llx.rtr", static_cast<unsigned long long>(hash));

@@ -20,21 +20,21 @@ struct ReferenceRequest {
     const scene::CompiledScene* scene = nullptr;
     std::uint32_t width = 0, height = 0;
     std::uint32_t maxDepth = 0;
-    double maxSeconds = 60; // of rendering
+    double maxSeconds = 60;       // of rendering
     std::uint64_t firstSpp = 256; // to begin with where nothing is cached
 };
 
 struct ReferenceResult {
     image::Reference reference;
     std::uint64_t spp = 0;
-    double seconds = 0;    // spent on it now
-    bool cached = false;   // a part of it was made earlier
+    double seconds = 0;  // spent on it now
+    bool cached = false; // a part of it was made earlier
     // Its standard error is at most a third of the least error measured against it; otherwise time ran out.
     bool sufficient = false;
 };
 
 inline constexpr std::uint32_t kReferenceSeed = 0x5eed0001; // measurements have 0, 1, ...
-inline constexpr std::uint32_t kReferenceReplicates = 4;   // which tell its variance
+inline constexpr std::uint32_t kReferenceReplicates = 4;    // which tell its variance
 
 class ReferenceStore {
   public:
@@ -43,8 +43,9 @@ class ReferenceStore {
 
     // Adds samples until every image of `measured` is at least three times as far off, standard error against error, both of
     // mse and of relmse. The engine has the scene. Nothing when stopped before there was anything.
-    std::optional<ReferenceResult> provide(const ReferenceRequest& request, std::span<const image::Image* const> measured,
-                                           app::Engine& engine, const std::atomic<bool>& stop);
+    std::optional<ReferenceResult> provide(const ReferenceRequest& request,
+                                           std::span<const image::Image* const> measured, app::Engine& engine,
+                                           const std::atomic<bool>& stop);
 
     // The file of a request: named after a hash of all that its image depends on.
     std::filesystem::path fileOf(const ReferenceRequest& request) const;

@@ -91,24 +91,25 @@ void append(std::vector<Column<T>>& to, std::vector<Column<T>> more) {
 
 Table rowTable(const std::vector<const Row*>& rows) {
     std::vector<Column<Row>> columns = axisColumns(rows);
-    append<Row>(columns, {
-                             {"threads", [](const Row& r) { return r.config.threads > 0 ? whole(r.threadsUsed) : kUnknown; }},
-                             {"spp", [](const Row& r) { return whole(r.spp); }},
-                             {"seconds", seconds},
-                             {"M samples/s", [](const Row& r) { return threeDigits(times(r.samplesPerSecond, 1e-6)); }},
-                             {"M rays/s", [](const Row& r) { return threeDigits(times(r.raysPerSecond, 1e-6)); }},
-                             {"of ceiling", [](const Row& r) { return r.ceiling ? percent(*r.ceiling, 0) : kUnknown; }},
-                             {"mse", [](const Row& r) { return withInterval(r.mse, r.mseCi); }},
-                             {"relmse", [](const Row& r) { return withInterval(r.relmse, r.relmseCi); }},
-                             {"psnr", [](const Row& r) { return threeDigits(r.psnr); }},
-                             {"FLIP", [](const Row& r) { return threeDigits(r.flip); }},
-                             {"bias z", [](const Row& r) { return threeDigits(r.biasZ); }},
-                             {"fireflies", [](const Row& r) { return whole(r.fireflies); }},
-                             {"1/(mse s)", [](const Row& r) { return threeDigits(r.efficiency); }},
-                             {"speed-up", [](const Row& r) { return threeDigits(r.speedup); }},
-                             {"gain", [](const Row& r) { return threeDigits(r.gain); }},
-                             {"joules", [](const Row& r) { return threeDigits(r.joules); }},
-                         });
+    append<Row>(columns,
+                {
+                    {"threads", [](const Row& r) { return r.config.threads > 0 ? whole(r.threadsUsed) : kUnknown; }},
+                    {"spp", [](const Row& r) { return whole(r.spp); }},
+                    {"seconds", seconds},
+                    {"M samples/s", [](const Row& r) { return threeDigits(times(r.samplesPerSecond, 1e-6)); }},
+                    {"M rays/s", [](const Row& r) { return threeDigits(times(r.raysPerSecond, 1e-6)); }},
+                    {"of ceiling", [](const Row& r) { return r.ceiling ? percent(*r.ceiling, 0) : kUnknown; }},
+                    {"mse", [](const Row& r) { return withInterval(r.mse, r.mseCi); }},
+                    {"relmse", [](const Row& r) { return withInterval(r.relmse, r.relmseCi); }},
+                    {"psnr", [](const Row& r) { return threeDigits(r.psnr); }},
+                    {"FLIP", [](const Row& r) { return threeDigits(r.flip); }},
+                    {"bias z", [](const Row& r) { return threeDigits(r.biasZ); }},
+                    {"fireflies", [](const Row& r) { return whole(r.fireflies); }},
+                    {"1/(mse s)", [](const Row& r) { return threeDigits(r.efficiency); }},
+                    {"speed-up", [](const Row& r) { return threeDigits(r.speedup); }},
+                    {"gain", [](const Row& r) { return threeDigits(r.gain); }},
+                    {"joules", [](const Row& r) { return threeDigits(r.joules); }},
+                });
     return makeTable(columns, rows);
 }
 
@@ -120,21 +121,22 @@ std::string until(const Series& series, const Figure& figure, double target) {
 
 Table seriesTable(const std::vector<const Series*>& rows) {
     std::vector<Column<Series>> columns = axisColumns(rows);
-    append<Series>(columns,
-                   {
-                       {"slope of mse", [](const Series& s) {
-                            return threeDigits(s.slope) + (s.slopeError ? " ± " + threeDigits(s.slopeError) : "");
-                        }},
-                       {"at the end", [](const Series& s) { return threeDigits(s.tailSlope); }},
-                       {"s to relmse 1e-2", [](const Series& s) { return until(s, s.secondsTo1e2, 1e-2); }},
-                       {"1e-3", [](const Series& s) { return until(s, s.secondsTo1e3, 1e-3); }},
-                       {"1e-4", [](const Series& s) { return until(s, s.secondsTo1e4, 1e-4); }},
-                       {"equal time, s", [](const Series& s) { return threeDigits(s.equalTime); }},
-                       {"relmse then", [](const Series& s) { return threeDigits(s.relmseAtEqualTime); }},
-                       {"equal relmse", [](const Series& s) { return threeDigits(s.equalError); }},
-                       {"seconds to it", [](const Series& s) { return threeDigits(s.secondsAtEqualError); }},
-                       {"gain", [](const Series& s) { return threeDigits(s.gain); }},
-                   });
+    append<Series>(columns, {
+                                {"slope of mse",
+                                 [](const Series& s) {
+                                     return threeDigits(s.slope) +
+                                            (s.slopeError ? " ± " + threeDigits(s.slopeError) : "");
+                                 }},
+                                {"at the end", [](const Series& s) { return threeDigits(s.tailSlope); }},
+                                {"s to relmse 1e-2", [](const Series& s) { return until(s, s.secondsTo1e2, 1e-2); }},
+                                {"1e-3", [](const Series& s) { return until(s, s.secondsTo1e3, 1e-3); }},
+                                {"1e-4", [](const Series& s) { return until(s, s.secondsTo1e4, 1e-4); }},
+                                {"equal time, s", [](const Series& s) { return threeDigits(s.equalTime); }},
+                                {"relmse then", [](const Series& s) { return threeDigits(s.relmseAtEqualTime); }},
+                                {"equal relmse", [](const Series& s) { return threeDigits(s.equalError); }},
+                                {"seconds to it", [](const Series& s) { return threeDigits(s.secondsAtEqualError); }},
+                                {"gain", [](const Series& s) { return threeDigits(s.gain); }},
+                            });
     return makeTable(columns, rows);
 }
 
@@ -149,10 +151,11 @@ Table skipTable(const std::vector<const SkipRow*>& rows) {
             {"s, all features", [](const SkipRow& s) { return threeDigits(s.secondsAll); }},
             {"time saved", [](const SkipRow& s) { return percent(*s.saved); }},
             {"least to most", [](const SkipRow& s) { return percent(*s.savedMin) + " to " + percent(*s.savedMax); }},
-            {"image", [](const SkipRow& s) {
+            {"image",
+             [](const SkipRow& s) {
                  if (*s.differingPixels == 0) return std::string("same, bit for bit");
-                 return percent(*s.differingPixels, 3) + " of the pixels differ, by " + threeDigits(s.largestDifference) +
-                        " at most";
+                 return percent(*s.differingPixels, 3) + " of the pixels differ, by " +
+                        threeDigits(s.largestDifference) + " at most";
              }},
         });
     return makeTable(columns, rows);
@@ -166,11 +169,14 @@ Table referenceTable(const std::vector<const ReferenceRow*>& rows) {
             {"depth", [](const ReferenceRow& r) { return std::to_string(r.maxDepth); }},
             {"engine", [](const ReferenceRow& r) { return r.engine; }},
             {"spp", [](const ReferenceRow& r) { return whole(r.spp); }},
-            {"seconds now", [](const ReferenceRow& r) { return threeDigits(r.seconds) + (r.cached ? ", part cached" : ""); }},
+            {"seconds now",
+             [](const ReferenceRow& r) { return threeDigits(r.seconds) + (r.cached ? ", part cached" : ""); }},
             {"standard error", [](const ReferenceRow& r) { return threeDigits(r.rmse); }},
             {"good enough", [](const ReferenceRow& r) { return std::string(r.sufficient ? "yes" : "no"); }},
-            {"other engine", [](const ReferenceRow& r) {
-                 return r.verifiedZ ? r.verifiedBy + ", z at most " + threeDigits(std::abs(*r.verifiedZ)) : std::string(kUnknown);
+            {"other engine",
+             [](const ReferenceRow& r) {
+                 return r.verifiedZ ? r.verifiedBy + ", z at most " + threeDigits(std::abs(*r.verifiedZ))
+                                    : std::string(kUnknown);
              }},
         },
         rows);
@@ -227,7 +233,8 @@ void appendExperiment(Document& document, const Experiment& experiment, const Re
     document.push_back(Heading{2, experiment.title});
     std::vector<std::string> scenes;
     for (const Row* row : rows)
-        if (std::find(scenes.begin(), scenes.end(), row->config.scene) == scenes.end()) scenes.push_back(row->config.scene);
+        if (std::find(scenes.begin(), scenes.end(), row->config.scene) == scenes.end())
+            scenes.push_back(row->config.scene);
     for (const std::string& scene : scenes)
         for (Block& block : publishedBlocks(suite, rows, scene)) document.push_back(std::move(block));
     for (Chart& chart : makeCharts(rows))
@@ -273,8 +280,9 @@ Document makeReport(const Results& results, const Suite& suite) {
         std::vector<const ReferenceRow*> rows;
         for (const ReferenceRow& row : results.references) rows.push_back(&row);
         document.push_back(Heading{2, "References"});
-        document.push_back(Paragraph{"Rendered with another seed; their time counts nowhere. Their variance is subtracted from mse, "
-                                     "rmse and relmse."});
+        document.push_back(
+            Paragraph{"Rendered with another seed; their time counts nowhere. Their variance is subtracted from mse, "
+                      "rmse and relmse."});
         document.push_back(referenceTable(rows));
     }
     return document;

@@ -29,7 +29,8 @@ std::string nameOf(const Row& row, const std::vector<const Axis*>& axes) {
 }
 
 ChartLine& lineNamed(Chart& chart, const std::string& name) {
-    const auto found = std::find_if(chart.lines.begin(), chart.lines.end(), [&](const ChartLine& l) { return l.name == name; });
+    const auto found =
+        std::find_if(chart.lines.begin(), chart.lines.end(), [&](const ChartLine& l) { return l.name == name; });
     return found == chart.lines.end() ? chart.lines.emplace_back(ChartLine{name, {}}) : *found;
 }
 
@@ -38,7 +39,8 @@ Chart errorChart(const Rows& rows, const std::string& scene, Figure Row::*x, con
     const std::vector<const Axis*> axes = varied(rows, {"scene", "height"});
     for (const Row* row : rows)
         if (row->*x && row->relmse)
-            lineNamed(chart, nameOf(*row, axes)).points.push_back({*(row->*x), *row->relmse, row->relmseCi.value_or(0)});
+            lineNamed(chart, nameOf(*row, axes))
+                .points.push_back({*(row->*x), *row->relmse, row->relmseCi.value_or(0)});
     return chart;
 }
 
@@ -56,7 +58,9 @@ struct NumberAxis {
 const std::vector<NumberAxis>& numberAxes() {
     static const std::vector<NumberAxis> all = {
         {"count of the scene", {"scene"}, [](const Row& r) { return countOf(r.config.scene); }},
-        {"pixels", {"width", "height"}, [](const Row& r) { return double(r.config.settings.width) * r.config.settings.height; }},
+        {"pixels",
+         {"width", "height"},
+         [](const Row& r) { return double(r.config.settings.width) * r.config.settings.height; }},
         {"threads", {"threads"}, [](const Row& r) { return r.threadsUsed.value_or(0); }},
     };
     return all;
@@ -71,9 +75,11 @@ std::vector<Chart> scalingCharts(const Rows& rows) {
         std::set<std::string_view> except = axis.axes;
         const std::vector<const Axis*> names = varied(rows, except);
         for (const Row* row : rows) {
-            const std::string family = axis.axes.count("scene") ? row->config.scene.substr(0, row->config.scene.find(':')) + ", " : "";
+            const std::string family =
+                axis.axes.count("scene") ? row->config.scene.substr(0, row->config.scene.find(':')) + ", " : "";
             if (row->samplesPerSecond)
-                lineNamed(chart, family + nameOf(*row, names)).points.push_back({axis.value(*row), *row->samplesPerSecond, 0});
+                lineNamed(chart, family + nameOf(*row, names))
+                    .points.push_back({axis.value(*row), *row->samplesPerSecond, 0});
         }
         for (ChartLine& line : chart.lines)
             std::sort(line.points.begin(), line.points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });

@@ -21,30 +21,30 @@ struct Row {
     std::string device, kernel, lightShapes;
 
     Figure spp, timeBudget, repeats, threadsUsed;
-    Figure seconds, secondsMin, secondsMax;                      // median, least and most over the repeats
+    Figure seconds, secondsMin, secondsMax;                           // median, least and most over the repeats
     Figure secondsDevice, secondsLoad, secondsBuild, secondsPipeline; // medians
     Figure samplesPerSecond, raysPerSecond, raysPerSample;
-    Figure mse, mseCi, rmse, relmse, relmseCi, mae, psnr, flip;  // means; Ci: half of the 95 % confidence interval
-    Figure referenceShare;                                       // variance of the reference / mse
-    Figure biasZ, fireflies, fireflyShare;                       // of the worst repeat; means
-    Figure nonfinite;                                            // samples
-    Figure efficiency;                                           // 1 / (mse seconds)
-    Figure speedup;                                              // samples/s over those of the baseline
-    Figure gain;                                                 // efficiency over that of the baseline
-    Figure joules;                                               // of the processor package
-    Figure ceiling;                                              // rays/s over what the hardware does with rays alone
+    Figure mse, mseCi, rmse, relmse, relmseCi, mae, psnr, flip; // means; Ci: half of the 95 % confidence interval
+    Figure referenceShare;                                      // variance of the reference / mse
+    Figure biasZ, fireflies, fireflyShare;                      // of the worst repeat; means
+    Figure nonfinite;                                           // samples
+    Figure efficiency;                                          // 1 / (mse seconds)
+    Figure speedup;                                             // samples/s over those of the baseline
+    Figure gain;                                                // efficiency over that of the baseline
+    Figure joules;                                              // of the processor package
+    Figure ceiling;                                             // rays/s over what the hardware does with rays alone
 };
 
 // One configuration over all its numbers of samples.
 struct Series {
     std::string experiment;
     Config config;
-    Figure slope, slopeError, tailSlope;    // of log mse over log spp: all points, the last two
+    Figure slope, slopeError, tailSlope;             // of log mse over log spp: all points, the last two
     Figure secondsTo1e2, secondsTo1e3, secondsTo1e4; // until relmse is 1e-2, 1e-3, 1e-4
-    Figure reached;                         // the least relmse measured: seconds below it are extrapolated
-    Figure equalTime, relmseAtEqualTime;    // seconds; one for all series of a scene
-    Figure equalError, secondsAtEqualError; // relmse; one for all series of a scene
-    Figure gain;                            // seconds to the equal error: the baseline's over ours
+    Figure reached;                                  // the least relmse measured: seconds below it are extrapolated
+    Figure equalTime, relmseAtEqualTime;             // seconds; one for all series of a scene
+    Figure equalError, secondsAtEqualError;          // relmse; one for all series of a scene
+    Figure gain;                                     // seconds to the equal error: the baseline's over ours
 };
 
 // The exact feature mask against the kernel that can do everything.
@@ -64,8 +64,8 @@ struct ReferenceRow {
     std::string engine;
     Figure spp, seconds, rmse; // rmse: its standard error
     bool cached = false, sufficient = false;
-    std::string verifiedBy;   // an engine of another kind whose rows were compared with it
-    Figure verifiedZ;         // the largest |z| of these rows' tests of the mean
+    std::string verifiedBy; // an engine of another kind whose rows were compared with it
+    Figure verifiedZ;       // the largest |z| of these rows' tests of the mean
 };
 
 // For the report's picture grids; display-referred.

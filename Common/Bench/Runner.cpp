@@ -141,7 +141,8 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
         app::RenderSettings& settings = measured.config.settings;
         measured.secondsLoad = secondsLoad_;
         if (settings.height == 0)
-            settings.height = std::max(1u, static_cast<std::uint32_t>(std::lround(settings.width / scene_->defaults.aspect)));
+            settings.height =
+                std::max(1u, static_cast<std::uint32_t>(std::lround(settings.width / scene_->defaults.aspect)));
     }
     // Turn by turn, so that a busy machine disturbs all alike.
     for (std::uint32_t repeat = 0; repeat < experiment.repeats; ++repeat)
@@ -158,7 +159,8 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     std::vector<Row> all;
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (Row& row : rows[i]) {
-            if (!isGpuEngine(row.config.engine) && row.config.threads == 0 && row.config.engine == "multi" && rayCeiling_)
+            if (!isGpuEngine(row.config.engine) && row.config.threads == 0 && row.config.engine == "multi" &&
+                rayCeiling_)
                 row.ceiling = row.raysPerSecond.value_or(0) / *rayCeiling_;
             all.push_back(row);
         }
@@ -228,7 +230,9 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     if (engine == nullptr) return nullptr;
     auto made = references_.provide(request, images, *engine, stop_);
     if (!made) {
-        if (!stop_) notice(group.scene + ": no reference within " + format("%g s", request.maxSeconds) + "; errors are not known.");
+        if (!stop_)
+            notice(group.scene + ": no reference within " + format("%g s", request.maxSeconds) +
+                   "; errors are not known.");
         return nullptr;
     }
     reference_ = std::move(made->reference);
@@ -236,7 +240,8 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
 
     double variance = 0;
     for (const float value : reference_.variance.data) variance += value;
-    ReferenceRow row{group.scene, request.width, request.height, request.maxDepth, config.engine, {}, {}, {}, false, false, "", {}};
+    ReferenceRow row{
+        group.scene, request.width, request.height, request.maxDepth, config.engine, {}, {}, {}, false, false, "", {}};
     row.spp = static_cast<double>(made->spp);
     row.seconds = made->seconds;
     row.rmse = std::sqrt(variance / static_cast<double>(reference_.variance.data.size()));
@@ -246,8 +251,9 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     hooks_.say("reference of " + group.scene + ": " + std::to_string(made->spp) + " spp, " +
                format("%.3g s", made->seconds) + (made->cached ? ", partly cached" : ""));
     if (!made->sufficient && !stop_)
-        notice(group.scene + ": the reference's standard error is more than a third of the least error measured; its "
-                             "variance is subtracted, but intervals are wider.");
+        notice(group.scene +
+               ": the reference's standard error is more than a third of the least error measured; its "
+               "variance is subtracted, but intervals are wider.");
     results_.references.push_back(row);
     return &reference_;
 }
@@ -258,7 +264,8 @@ void SuiteRunner::verifyReference(const std::vector<std::vector<Row>>& rows, Ref
         for (const Row& row : own) {
             if (isGpuEngine(row.config.engine) == isGpuEngine(reference.engine) || !row.biasZ) continue;
             reference.verifiedBy = row.config.engine;
-            if (!reference.verifiedZ || std::abs(*row.biasZ) > std::abs(*reference.verifiedZ)) reference.verifiedZ = row.biasZ;
+            if (!reference.verifiedZ || std::abs(*row.biasZ) > std::abs(*reference.verifiedZ))
+                reference.verifiedZ = row.biasZ;
         }
 }
 

@@ -47,8 +47,7 @@ std::vector<T> ascending(const JsonNode& node, Read read) {
     std::vector<T> values;
     forOneOrMore(node, [&](const JsonNode& element) {
         const T value = read(element);
-        if (!(value > (values.empty() ? T{0} : values.back())))
-            element.fail("values must be positive and ascending");
+        if (!(value > (values.empty() ? T{0} : values.back()))) element.fail("values must be positive and ascending");
         values.push_back(value);
     });
     return values;
@@ -75,12 +74,13 @@ constexpr NamedSuite kSuites[] = {
 #include <NamedSuites.inc> // Assets/bench/*.json
 };
 
-constexpr const char* kExperimentKeys[] = {"name",  "title",   "spp",    "seconds",  "repeats",
+constexpr const char* kExperimentKeys[] = {"name",  "title",  "spp",     "seconds",     "repeats",
                                            "error", "images", "max_spp", "max_seconds", "baseline"};
 
 void readKeys(const JsonNode& node, Experiment& experiment) {
     if (const auto spp = node.find("spp"))
-        experiment.spp = ascending<std::uint32_t>(*spp, [](const JsonNode& n) { return wholeWithin(n, 1, 0x7fffffffu); });
+        experiment.spp =
+            ascending<std::uint32_t>(*spp, [](const JsonNode& n) { return wholeWithin(n, 1, 0x7fffffffu); });
     if (const auto seconds = node.find("seconds"))
         experiment.seconds = ascending<double>(*seconds, [](const JsonNode& n) { return n.within(1e-3, kLongest); });
     if (experiment.spp.empty() == experiment.seconds.empty()) node.fail("needs either spp or seconds");
@@ -171,7 +171,9 @@ Suite parseSuite(const std::string& text, const std::string& file) {
     suite.name = std::filesystem::path(file).stem().string();
     suite.title = root.has("title") ? root.at("title").string() : suite.name;
     if (const auto seconds = root.find("reference_seconds")) suite.referenceSeconds = seconds->within(0.1, kLongest);
-    root.at("experiments").forEachElement([&](const JsonNode& node) { suite.experiments.push_back(readExperiment(node)); });
+    root.at("experiments").forEachElement([&](const JsonNode& node) {
+        suite.experiments.push_back(readExperiment(node));
+    });
     if (suite.experiments.empty()) root.at("experiments").fail("must not be empty");
     for (std::size_t i = 0; i < suite.experiments.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)

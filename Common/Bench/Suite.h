@@ -15,13 +15,13 @@ struct Experiment {
     std::string name;
     std::string title;
     std::vector<std::pair<const Axis*, std::vector<std::string>>> values; // axes not named have their default
-    std::vector<std::uint32_t> spp; // ascending; either these
-    std::vector<double> seconds;    // ascending; or these, of sampling
-    std::uint32_t repeats = 1;      // runs of each, with seeds 0, 1, ...
-    bool error = true;              // compare with a reference
-    bool images = true;             // show them in the report
-    std::map<std::string, std::uint32_t> maxSpp; // by engine: leave out what is above
-    double maxSeconds = 600;        // of sampling in one run; what would take longer is left out
+    std::vector<std::uint32_t> spp;                                       // ascending; either these
+    std::vector<double> seconds;                                          // ascending; or these, of sampling
+    std::uint32_t repeats = 1;                                            // runs of each, with seeds 0, 1, ...
+    bool error = true;                                                    // compare with a reference
+    bool images = true;                                                   // show them in the report
+    std::map<std::string, std::uint32_t> maxSpp;                          // by engine: leave out what is above
+    double maxSeconds = 600;                     // of sampling in one run; what would take longer is left out
     std::map<const Axis*, std::string> baseline; // row to compare with: the same but for these; empty: none
 };
 

@@ -13,8 +13,8 @@ struct CurvePoint {
 // log y = intercept + slope log x by least squares: mse falls with slope -1 for independent samples.
 struct LogFit {
     double slope = 0;
-    double intercept = 0;              // natural logarithm
-    std::optional<double> slopeError;  // standard error; from three points on
+    double intercept = 0;             // natural logarithm
+    std::optional<double> slopeError; // standard error; from three points on
 };
 std::optional<LogFit> fitLogLog(std::span<const CurvePoint> points); // nothing below two points
 

@@ -15,7 +15,7 @@ struct ErrorAnalysis {
     // As in ErrorFigures, but the reference's own variance is subtracted from mse, rmse and relmse: their expectations are
     // those against an exact reference. Chance may make them negative (rmse: 0) where the image is as good as the reference.
     double mse = 0, rmse = 0, relmse = 0;
-    double mae = 0, psnr = 0, flip = 0; // against the reference as it is
+    double mae = 0, psnr = 0, flip = 0;           // against the reference as it is
     double referenceMse = 0, referenceRelmse = 0; // what was subtracted
     // Standard error of mse from the spread of tiles of 8x8 pixels. Tiles also differ because the picture does, so this is an
     // upper bound.

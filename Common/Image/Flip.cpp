@@ -64,7 +64,7 @@ float hyab(vec3 a, vec3 b) {
 
 // ---- filters ---------------------------------------------------------------------------------------------------------
 
-using Plane = Image; // of one channel
+using Plane = Image;               // of one channel
 using Kernel = std::vector<float>; // of odd length, centred
 
 template <class Function> // (double x) -> double
@@ -79,7 +79,8 @@ Kernel sampled(int radius, Function function) {
 Kernel normalised(Kernel kernel) {
     double positive = 0, negative = 0;
     for (const float weight : kernel) (weight > 0 ? positive : negative) += weight;
-    for (float& weight : kernel) weight = static_cast<float>(weight > 0 ? weight / positive : weight / std::abs(negative));
+    for (float& weight : kernel)
+        weight = static_cast<float>(weight > 0 ? weight / positive : weight / std::abs(negative));
     return kernel;
 }
 
@@ -110,9 +111,15 @@ struct Gaussian {
     double a, b;
 };
 constexpr std::array<std::vector<Gaussian> (*)(), 3> kSensitivity = {
-    [] { return std::vector<Gaussian>{{1, 0.0047}}; },
-    [] { return std::vector<Gaussian>{{1, 0.0053}}; },
-    [] { return std::vector<Gaussian>{{34.1, 0.04}, {13.5, 0.025}}; },
+    [] {
+        return std::vector<Gaussian>{{1, 0.0047}};
+    },
+    [] {
+        return std::vector<Gaussian>{{1, 0.0053}};
+    },
+    [] {
+        return std::vector<Gaussian>{{34.1, 0.04}, {13.5, 0.025}};
+    },
 };
 constexpr double kWidestB = 0.04;
 
@@ -136,13 +143,13 @@ Plane filterBySensitivity(const Plane& in, const std::vector<Gaussian>& gaussian
 
 // ---- the two halves of the metric ------------------------------------------------------------------------------------
 
-constexpr float kColorExponent = 0.7f;    // q_c
-constexpr float kKnee = 0.4f;             // p_c: this share of the largest difference is mapped ...
-constexpr float kKneeValue = 0.95f;       // p_t: ... to this value
-constexpr double kFeatureWidth = 0.082;   // w, degrees
-constexpr float kFeatureExponent = 0.5f;  // q_f
+constexpr float kColorExponent = 0.7f;   // q_c
+constexpr float kKnee = 0.4f;            // p_c: this share of the largest difference is mapped ...
+constexpr float kKneeValue = 0.95f;      // p_t: ... to this value
+constexpr double kFeatureWidth = 0.082;  // w, degrees
+constexpr float kFeatureExponent = 0.5f; // q_f
 
-struct Seen { // of one image
+struct Seen {              // of one image
     std::vector<vec3> lab; // after what the eye blurs
     Plane edges, points;   // strength of features
 };
@@ -153,12 +160,13 @@ Seen see(const Image& image, double pixelsPerDegree) {
     Plane luminance(image.width, image.height, 1);
     for (std::size_t i = 0; i < luminance.data.size(); ++i) {
         const float* rgb = &image.data[3 * i];
-        const vec3 value =
-            opponentFromRgb({std::clamp(rgb[0], 0.0f, 1.0f), std::clamp(rgb[1], 0.0f, 1.0f), std::clamp(rgb[2], 0.0f, 1.0f)});
+        const vec3 value = opponentFromRgb(
+            {std::clamp(rgb[0], 0.0f, 1.0f), std::clamp(rgb[1], 0.0f, 1.0f), std::clamp(rgb[2], 0.0f, 1.0f)});
         for (std::size_t c = 0; c < 3; ++c) opponent[c].data[i] = value[static_cast<int>(c)];
         luminance.data[i] = (value.x + 16.0f) / 116.0f;
     }
-    for (std::size_t c = 0; c < 3; ++c) opponent[c] = filterBySensitivity(opponent[c], kSensitivity[c](), pixelsPerDegree);
+    for (std::size_t c = 0; c < 3; ++c)
+        opponent[c] = filterBySensitivity(opponent[c], kSensitivity[c](), pixelsPerDegree);
     Seen seen;
     seen.lab.resize(luminance.data.size());
     for (std::size_t i = 0; i < seen.lab.size(); ++i) {
@@ -171,7 +179,8 @@ Seen see(const Image& image, double pixelsPerDegree) {
     const auto gauss = [sigma](double x) { return std::exp(-x * x / (2 * sigma * sigma)); };
     const Kernel smooth = normalised(sampled(radius, gauss));
     const Kernel first = normalised(sampled(radius, [&](double x) { return -x * gauss(x); }));
-    const Kernel second = normalised(sampled(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gauss(x); }));
+    const Kernel second =
+        normalised(sampled(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gauss(x); }));
     const auto strength = [&](const Kernel& derivative) {
         Plane across = convolve(luminance, derivative, smooth);
         const Plane down = convolve(luminance, smooth, derivative);
@@ -200,8 +209,8 @@ Image flipMap(const Image& image, const Image& reference, double pixelsPerDegree
     const Seen a = see(image, pixelsPerDegree), b = see(reference, pixelsPerDegree);
     Image map(image.width, image.height, 1);
     for (std::size_t i = 0; i < map.data.size(); ++i) {
-        const float feature = std::max(std::abs(a.edges.data[i] - b.edges.data[i]),
-                                       std::abs(a.points.data[i] - b.points.data[i]));
+        const float feature =
+            std::max(std::abs(a.edges.data[i] - b.edges.data[i]), std::abs(a.points.data[i] - b.points.data[i]));
         const float featureDifference = std::min(std::pow(feature / std::sqrt(2.0f), kFeatureExponent), 1.0f);
         map.data[i] = std::pow(colorDifference(a.lab[i], b.lab[i]), 1.0f - featureDifference);
     }

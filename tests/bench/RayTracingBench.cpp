@@ -50,8 +50,12 @@ class EngineList {
 #endif
     }
 
-    const std::vector<bench::EngineKind>& kinds() const { return kinds_; }
-    const std::vector<bench::Fact>& facts() const { return facts_; }
+    const std::vector<bench::EngineKind>& kinds() const {
+        return kinds_;
+    }
+    const std::vector<bench::Fact>& facts() const {
+        return facts_;
+    }
 
   private:
 #ifdef RT_HAS_GPU
@@ -84,7 +88,8 @@ std::string noLinks(std::size_t) {
 }
 
 int compare(const bench::BenchOptions& options) {
-    const bench::Results before = bench::loadResults(options.compare[0]), after = bench::loadResults(options.compare[1]);
+    const bench::Results before = bench::loadResults(options.compare[0]),
+                         after = bench::loadResults(options.compare[1]);
     const bench::Comparison comparison = bench::compareResults(before, after);
     if (comparison.changes.empty())
         throw InputError(options.compare[0] + " and " + options.compare[1] + ": no row of one is in the other");
@@ -96,7 +101,8 @@ int measure(const bench::BenchOptions& options) {
     bench::Suite suite = bench::loadSuite(options.suite);
     if (!options.scenes.empty()) replaceScenes(suite, options.scenes);
     if (!options.engines.empty()) restrictEngines(suite, options.engines);
-    if (suite.experiments.empty()) throw UsageError("--engine: the suite " + options.suite + " has none of these engines");
+    if (suite.experiments.empty())
+        throw UsageError("--engine: the suite " + options.suite + " has none of these engines");
     if (!options.report.empty()) bench::checkReportFolder(options.report);
 
     app::Interrupt interrupt;
