@@ -29,7 +29,7 @@ double secondsSince(Clock::time_point start) {
 std::span<const Kernel> kernelTable(InstructionSet set) {
 #if defined(__x86_64__) || defined(_M_X64)
     switch (set) {
-        case InstructionSet::X86_64_v4: return {kernels_x86_64_v4(), kKernelCount};
+        case InstructionSet::X86_64_v4:
         case InstructionSet::X86_64_v3: return {kernels_x86_64_v3(), kKernelCount};
         case InstructionSet::X86_64_v2: return {kernels_x86_64_v2(), kKernelCount};
         case InstructionSet::Generic: break;
@@ -88,10 +88,11 @@ struct PreparedScene {
     CpuScene view;
 };
 
-CpuScene makeView(const PreparedScene& prepared) {
+CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     const scene::CompiledScene& s = *prepared.compiled;
     CpuScene view;
     view.accel = prepared.accel->view();
+    view.tracer = accel::rayQuery(set)->tracer(view.accel.kinds);
     view.spheres = s.spheres.data();
     view.sphereMotions = s.sphereMotions.empty() ? nullptr : s.sphereMotions.data();
     view.quads = s.quads.data();
@@ -136,7 +137,7 @@ class CpuEngine final : public app::Engine {
         if (!prepared->accel) return false;
         prepared->lightBounds = makeLightBoundsSoa(s);
         prepared->compiled = std::move(compiled);
-        prepared->view = makeView(*prepared);
+        prepared->view = makeView(*prepared, set_);
         scene_ = std::move(prepared);
         report_.accelBuildSeconds = secondsSince(start);
         return true;

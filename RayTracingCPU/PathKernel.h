@@ -4,6 +4,7 @@
 #include "RayTracingCPU/SceneAccess.h"
 
 #include "Common/Shared/PathStep.h"
+#include "RayTracingCPU/NumberTable.h"
 
 namespace rt::cpu {
 namespace {
@@ -12,14 +13,16 @@ using namespace rt::shared;
 
 // Advances the path by one vertex. False: it has ended and path.radiance is its estimate.
 template <std::uint32_t kFeatures>
-RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, PathState& path, KernelCounters& counters) {
+RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTable& numbers, PathState& path,
+                    KernelCounters& counters) {
     const CpuScene& scene = *context.scene;
-    const Hit hit = traceRay(kFeatures, scene, path.ray);
+    const Hit hit = traceRay(scene, path.ray);
     DirectLight direct = noDirectLight();
-    const bool goesOn = pathVertex(kFeatures, scene, context.params, smp, hit, path, direct);
+    const bool goesOn = pathVertex(kFeatures, scene, context.params, smp, numbers.vertexNumbers(smp, path.vertex), hit,
+                                   path, direct);
     if (direct.distance > 0.0f) {
         ++counters.shadow;
-        if (!isOccluded(kFeatures, scene, shadowRay(path, direct), direct.distance))
+        if (!isOccluded(scene, shadowRay(path, direct), direct.distance))
             addDirectLight(kFeatures, scene, direct, path);
     }
     return goesOn;
@@ -29,9 +32,11 @@ template <std::uint32_t kFeatures>
 void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum, KernelCounters& counters) {
     vec3 total(sum[0], sum[1], sum[2]);
     Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
+    NumberTable numbers(smp, task.count, has(kFeatures, kFeatureLights | kFeatureTargets));
     for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
-        PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel);
-        while (pathStep<kFeatures>(context, smp, path, counters)) {
+        PathState path =
+            startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
+        while (pathStep<kFeatures>(context, smp, numbers, path, counters)) {
         }
         counters.scattered += path.vertex - 1u;
         // A sample that is not a number is dropped and counted, and stays in the divisor.
@@ -66,8 +71,9 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         float depth = 0.0f;
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
-            const Ray ray = startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y)).ray;
-            const Hit hit = traceRay(kFeatures, scene, ray);
+            const Ray ray = startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y),
+                                      randomPair(smp, kPairPixel)).ray;
+            const Hit hit = traceRay(scene, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);
             const Material material = loadMaterial(scene, surface.material);

@@ -1,7 +1,6 @@
 // Gives Common/Shared its access to the scene on the CPU: SceneRef, every load...(), tracing. Include it before the headers
 // that fetch; everything here has internal linkage.
 #pragma once
-#include "Common/Accel/Traverse.h"
 #include "Common/Shared/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 
@@ -43,36 +42,12 @@ RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
                 scene.srgbToLinear[word >> 16u & 255u]);
 }
 
-// Traversal is compiled once for each of three sets of primitives, whatever the number of kernels: it is the largest part of
-// their code, and a call costs nothing beside it.
-const uint kTraceFeatures =
-    kFeatureSpheres | kFeatureMovingSpheres | kFeatureQuads | kFeatureTriangles | kFeatureInstances;
-const uint kTraceSimple = kFeatureSpheres | kFeatureQuads;
-const uint kTraceStill = kTraceSimple | kFeatureTriangles;
-
-template <uint kFeatures>
-RT_CALL Hit traceAmong(SceneRef scene, const Ray& ray) {
-    return accel::traceClosest(kFeatures, scene.accel, ray, kInfinity);
-}
-template <uint kFeatures>
-RT_CALL bool isOccludedAmong(SceneRef scene, const Ray& ray, float tMax) {
-    return accel::occluded(kFeatures, scene.accel, ray, tMax);
+RT_FN Hit traceRay(SceneRef scene, const Ray& ray) {
+    return scene.tracer.closest(scene.accel, ray, kInfinity);
 }
 
-RT_FN bool covers(uint set, uint features) {
-    return (features & kTraceFeatures & ~set) == 0u;
-}
-
-RT_FN Hit traceRay(uint features, SceneRef scene, const Ray& ray) {
-    if (covers(kTraceSimple, features)) return traceAmong<kTraceSimple>(scene, ray);
-    if (covers(kTraceStill, features)) return traceAmong<kTraceStill>(scene, ray);
-    return traceAmong<kTraceFeatures>(scene, ray);
-}
-
-RT_FN bool isOccluded(uint features, SceneRef scene, const Ray& ray, float tMax) {
-    if (covers(kTraceSimple, features)) return isOccludedAmong<kTraceSimple>(scene, ray, tMax);
-    if (covers(kTraceStill, features)) return isOccludedAmong<kTraceStill>(scene, ray, tMax);
-    return isOccludedAmong<kTraceFeatures>(scene, ray, tMax);
+RT_FN bool isOccluded(SceneRef scene, const Ray& ray, float tMax) {
+    return scene.tracer.occluded(scene.accel, ray, tMax);
 }
 
 // In whole vectors of lights; the entries that pad the table have no intensity and so no weight.

@@ -7,15 +7,15 @@ namespace rt::accel {
 
 struct AccelStorage {
     LargeArray<WideNode> nodes;
-    LargeArray<SphereBlock<kWidth>> spheres;
-    LargeArray<MovingSphereBlock<kWidth>> movingSpheres;
-    LargeArray<QuadBlock<kWidth>> quads;
-    LargeArray<TriangleBlock<kWidth>> triangles;
+    LargeArray<SphereBlock> spheres;
+    LargeArray<MovingSphereBlock> movingSpheres;
+    LargeArray<QuadBlock> quads;
+    LargeArray<TriangleBlock> triangles;
     LargeArray<PlacedGeometry> instances;
-    LargeArray<SphereBlock<kFlatWidth>> flatSpheres;
-    LargeArray<MovingSphereBlock<kFlatWidth>> flatMovingSpheres;
-    LargeArray<QuadBlock<kFlatWidth>> flatQuads;
-    LargeArray<TriangleBlock<kFlatWidth>> flatTriangles;
+    LargeArray<SphereBlock> flatSpheres;
+    LargeArray<MovingSphereBlock> flatMovingSpheres;
+    LargeArray<QuadBlock> flatQuads;
+    LargeArray<TriangleBlock> flatTriangles;
 };
 
 }  // namespace rt::accel

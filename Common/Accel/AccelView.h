@@ -8,7 +8,6 @@
 namespace rt::accel {
 
 inline constexpr std::uint32_t kWidth = 8;       // children of a node and lanes of a leaf block
-inline constexpr std::uint32_t kFlatWidth = 16;  // lanes of the blocks of a flat scene
 
 // Bounds of the depth of a tree, and so of the stack of a traversal.
 inline constexpr std::uint32_t kMaxTreeDepth = 64;
@@ -38,36 +37,32 @@ struct alignas(64) WideNode {
 };
 
 // Lanes without a primitive hold NaN, which no ray hits. Lanes are in order of primitive index.
-template <std::uint32_t N>
 struct alignas(32) SphereBlock {
-    float center[3][N];
-    float radius[N];
-    std::uint32_t primitive[N];  // index into the scene's array, kNone for an empty lane
+    float center[3][kWidth];
+    float radius[kWidth];
+    std::uint32_t primitive[kWidth];  // index into the scene's array, kNone for an empty lane
 };
 
-template <std::uint32_t N>
 struct alignas(32) MovingSphereBlock {
-    float center[3][N];  // at time 0
-    float motion[3][N];
-    float radius[N];
-    std::uint32_t primitive[N];
+    float center[3][kWidth];  // at time 0
+    float motion[3][kWidth];
+    float radius[kWidth];
+    std::uint32_t primitive[kWidth];
 };
 
 // See shared::QuadFrame.
-template <std::uint32_t N>
 struct alignas(32) QuadBlock {
-    float corner[3][N];
-    float normal[3][N];
-    float dualU[3][N];
-    float dualV[3][N];
-    float margin[N];
-    std::uint32_t primitive[N];
+    float corner[3][kWidth];
+    float normal[3][kWidth];
+    float dualU[3][kWidth];
+    float dualV[3][kWidth];
+    float margin[kWidth];
+    std::uint32_t primitive[kWidth];
 };
 
-template <std::uint32_t N>
 struct alignas(32) TriangleBlock {
-    float vertex[3][3][N];  // vertex, axis
-    std::uint32_t primitive[N];
+    float vertex[3][3][kWidth];  // vertex, axis
+    std::uint32_t primitive[kWidth];
 };
 
 struct PlacedGeometry {
@@ -81,7 +76,7 @@ struct PlacedGeometry {
 template <class Block>
 struct FlatList {
     const Block* blocks = nullptr;
-    std::uint32_t primitives = 0;  // in all blocks; the last block may have empty lanes
+    std::uint32_t count = 0;  // of blocks; the last may have empty lanes
 };
 
 inline constexpr std::uint32_t kFlatKindShift = 30;
@@ -96,17 +91,17 @@ struct AccelView {
     std::uint32_t kinds = 0;  // feature bits of the primitives that exist
     bool flat = false;        // the lists below hold everything; otherwise the tree does
 
-    FlatList<SphereBlock<kFlatWidth>> flatSpheres;
-    FlatList<MovingSphereBlock<kFlatWidth>> flatMovingSpheres;
-    FlatList<QuadBlock<kFlatWidth>> flatQuads;
-    FlatList<TriangleBlock<kFlatWidth>> flatTriangles;
+    FlatList<SphereBlock> flatSpheres;
+    FlatList<MovingSphereBlock> flatMovingSpheres;
+    FlatList<QuadBlock> flatQuads;
+    FlatList<TriangleBlock> flatTriangles;
 
     Reference root = 0;  // of the world: its own primitives and the instances
     const WideNode* nodes = nullptr;
-    const SphereBlock<kWidth>* spheres = nullptr;
-    const MovingSphereBlock<kWidth>* movingSpheres = nullptr;
-    const QuadBlock<kWidth>* quads = nullptr;
-    const TriangleBlock<kWidth>* triangles = nullptr;
+    const SphereBlock* spheres = nullptr;
+    const MovingSphereBlock* movingSpheres = nullptr;
+    const QuadBlock* quads = nullptr;
+    const TriangleBlock* triangles = nullptr;
     const PlacedGeometry* instances = nullptr;
 };
 

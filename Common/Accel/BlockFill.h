@@ -18,23 +18,20 @@ Block emptyBlock() {
     return block;
 }
 
-template <std::uint32_t N>
-void setLane(float (&components)[3][N], std::uint32_t lane, shared::vec3 v) {
+void setLane(float (&components)[3][kWidth], std::uint32_t lane, shared::vec3 v) {
     for (int a = 0; a < 3; ++a) {
         components[a][lane] = v[a];
     }
 }
 
-template <std::uint32_t N>
-void fillLane(SphereBlock<N>& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+void fillLane(SphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);
     block.radius[lane] = sphere.radius;
     block.primitive[lane] = index;
 }
 
-template <std::uint32_t N>
-void fillLane(MovingSphereBlock<N>& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+void fillLane(MovingSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);
     setLane(block.motion, lane, input.motions[index]);
@@ -42,8 +39,7 @@ void fillLane(MovingSphereBlock<N>& block, std::uint32_t lane, const AccelInput&
     block.primitive[lane] = index;
 }
 
-template <std::uint32_t N>
-void fillLane(QuadBlock<N>& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+void fillLane(QuadBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Quad& quad = input.quads[index];
     const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
     setLane(block.corner, lane, quad.corner);
@@ -54,8 +50,7 @@ void fillLane(QuadBlock<N>& block, std::uint32_t lane, const AccelInput& input, 
     block.primitive[lane] = index;
 }
 
-template <std::uint32_t N>
-void fillLane(TriangleBlock<N>& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::uvec3 vertices = input.triangles[index];
     for (int i = 0; i < 3; ++i) {
         setLane(block.vertex[i], lane, input.positions[vertices[i]]);

@@ -26,14 +26,14 @@ struct BuiltTree {
 template <class Block>
 FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
                          std::uint32_t count) {
-    blocks = LargeArray<Block>((count + kFlatWidth - 1) / kFlatWidth);
+    blocks = LargeArray<Block>((count + kWidth - 1) / kWidth);
     for (std::uint32_t i = 0; i < count; ++i) {
-        Block& block = blocks[i / kFlatWidth];
-        if (i % kFlatWidth == 0) block = emptyBlock<Block>();
-        fillLane(block, i % kFlatWidth, input, first + i);
-        block.primitive[i % kFlatWidth] = flatName(kind, first + i);
+        Block& block = blocks[i / kWidth];
+        if (i % kWidth == 0) block = emptyBlock<Block>();
+        fillLane(block, i % kWidth, input, first + i);
+        block.primitive[i % kWidth] = flatName(kind, first + i);
     }
-    return {blocks.data(), count};
+    return {blocks.data(), (count + kWidth - 1) / kWidth};
 }
 
 template <class Block>
@@ -148,10 +148,10 @@ void Assembly::fill(AccelStorage& storage) {
     const auto blocks = [&](LeafKind kind) { return wide_.blocks[static_cast<std::uint32_t>(kind)]; };
     storage.nodes = LargeArray<WideNode>(wide_.nodes.size());
     std::copy(wide_.nodes.begin(), wide_.nodes.end(), storage.nodes.data());
-    storage.spheres = LargeArray<SphereBlock<kWidth>>(blocks(LeafKind::Sphere));
-    storage.movingSpheres = LargeArray<MovingSphereBlock<kWidth>>(blocks(LeafKind::MovingSphere));
-    storage.quads = LargeArray<QuadBlock<kWidth>>(blocks(LeafKind::Quad));
-    storage.triangles = LargeArray<TriangleBlock<kWidth>>(blocks(LeafKind::Triangle));
+    storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
+    storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));
+    storage.quads = LargeArray<QuadBlock>(blocks(LeafKind::Quad));
+    storage.triangles = LargeArray<TriangleBlock>(blocks(LeafKind::Triangle));
     storage.instances = LargeArray<PlacedGeometry>(blocks(LeafKind::Instance));
     for (const BuiltTree& tree : trees_) {
         fillLeaves(tree, storage);

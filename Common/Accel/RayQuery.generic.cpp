@@ -3,6 +3,6 @@
 namespace rt::accel {
 
 extern const RayQuery kRayQuery_generic;
-const RayQuery kRayQuery_generic{closest, any};
+const RayQuery kRayQuery_generic{tracer, closest, any};
 
 }  // namespace rt::accel

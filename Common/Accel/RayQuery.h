@@ -1,5 +1,5 @@
-// Many rays at once through one acceleration structure, for callers that are not kernels themselves: tools, tests and
-// benchmarks. Kernels include Traverse.h.
+// Traversal, compiled once for each instruction set and each set of primitives that pays. It is the one part of rendering that
+// gains by the widest registers, so callers choose it at run time, and a call costs nothing beside it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -9,9 +9,19 @@
 
 namespace rt::accel {
 
+// One ray through a structure that holds no other kinds of primitives than those the functions were chosen for.
+struct Tracer {
+    // What the ray hits first with t in (0, tMax), as traceClosest() reports it.
+    shared::Hit (*closest)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
+    // Whether it hits anything there.
+    bool (*occluded)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
+};
+
 // Traversal compiled for one instruction set; arrays of `count` elements. (No spans: what a kernel's object file takes
 // from the standard library, it could hand to code for lesser processors.)
 struct RayQuery {
+    // `kinds`: AccelView::kinds, feature bits.
+    Tracer (*tracer)(std::uint32_t kinds);
     // hits[i]: what rays[i] hits first with t in (0, tMax[i]), as traceClosest() reports it.
     void (*closest)(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits,
                     std::size_t count);

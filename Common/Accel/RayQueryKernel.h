@@ -7,45 +7,42 @@ namespace rt::accel {
 namespace {
 
 template <shared::uint kFeatures>
-void closestHits(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits,
-                 std::size_t count) {
-    const AccelView local = view;
-    for (std::size_t i = 0; i < count; ++i) {
-        hits[i] = traceClosest(kFeatures, local, rays[i], tMax[i]);
-    }
+shared::Hit closestHit(const AccelView& view, const shared::Ray& ray, float tMax) {
+    return traceClosest(kFeatures, view, ray, tMax);
 }
 
 template <shared::uint kFeatures>
-void anyHits(const AccelView& view, const shared::Ray* rays, const float* tMax, std::uint8_t* hits, std::size_t count) {
-    const AccelView local = view;
-    for (std::size_t i = 0; i < count; ++i) {
-        hits[i] = occluded(kFeatures, local, rays[i], tMax[i]) ? 1 : 0;
-    }
+bool anyHit(const AccelView& view, const shared::Ray& ray, float tMax) {
+    return occluded(kFeatures, view, ray, tMax);
 }
 
-constexpr shared::uint kAllShapes = shared::kFeatureSpheres | shared::kFeatureMovingSpheres | shared::kFeatureQuads |
-                                    shared::kFeatureTriangles | shared::kFeatureInstances;
+template <shared::uint kFeatures>
+constexpr Tracer makeTracer() {
+    return {closestHit<kFeatures>, anyHit<kFeatures>};
+}
+
+// The leanest that covers the kinds.
+Tracer tracer(std::uint32_t kinds) {
+    using namespace shared;
+    constexpr std::uint32_t kBox = kFeatureSpheres | kFeatureQuads;
+    constexpr std::uint32_t kStill = kBox | kFeatureTriangles;
+    constexpr std::uint32_t kAll = kStill | kFeatureMovingSpheres | kFeatureInstances;
+    const auto covers = [kinds](std::uint32_t set) { return (kinds & ~set) == 0; };
+    if (covers(kFeatureSpheres)) return makeTracer<kFeatureSpheres>();
+    if (covers(kFeatureTriangles)) return makeTracer<kFeatureTriangles>();
+    if (covers(kBox)) return makeTracer<kBox>();
+    if (covers(kStill)) return makeTracer<kStill>();
+    return makeTracer<kAll>();
+}
 
 void closest(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits, std::size_t count) {
-    switch (view.kinds) {
-        case shared::kFeatureSpheres:
-            return closestHits<shared::kFeatureSpheres>(view, rays, tMax, hits, count);
-        case shared::kFeatureTriangles:
-            return closestHits<shared::kFeatureTriangles>(view, rays, tMax, hits, count);
-        default:
-            return closestHits<kAllShapes>(view, rays, tMax, hits, count);
-    }
+    const Tracer trace = tracer(view.kinds);
+    for (std::size_t i = 0; i < count; ++i) hits[i] = trace.closest(view, rays[i], tMax[i]);
 }
 
 void any(const AccelView& view, const shared::Ray* rays, const float* tMax, std::uint8_t* hits, std::size_t count) {
-    switch (view.kinds) {
-        case shared::kFeatureSpheres:
-            return anyHits<shared::kFeatureSpheres>(view, rays, tMax, hits, count);
-        case shared::kFeatureTriangles:
-            return anyHits<shared::kFeatureTriangles>(view, rays, tMax, hits, count);
-        default:
-            return anyHits<kAllShapes>(view, rays, tMax, hits, count);
-    }
+    const Tracer trace = tracer(view.kinds);
+    for (std::size_t i = 0; i < count; ++i) hits[i] = trace.occluded(view, rays[i], tMax[i]) ? 1 : 0;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Intersection of one ray with N primitives of one kind at a time: the formulas of Common/Shared/Shapes.h, lane by
+// Intersection of one ray with eight primitives of one kind at a time: the formulas of Common/Shared/Shapes.h, lane by
 // lane. Lanes hit for t > 0; the caller compares with the far end of its interval.
 #pragma once
 #include "Common/Accel/AccelView.h"
@@ -45,161 +45,144 @@ RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray, bool 
     return r;
 }
 
-template <int N>
 struct Vector {
-    Float<N> x, y, z;
+    Float8 x, y, z;
 };
 
-template <int N>
-RT_FN Vector<N> broadcast3(const float (&v)[3]) {
-    return {broadcast<N>(v[0]), broadcast<N>(v[1]), broadcast<N>(v[2])};
+RT_FN Vector broadcast3(const float (&v)[3]) {
+    return {broadcast(v[0]), broadcast(v[1]), broadcast(v[2])};
 }
 
-// Lanes `first` to `first` + N - 1 of three components.
-template <int N, std::uint32_t B>
-RT_FN Vector<N> load3(const float (&v)[3][B], unsigned first) {
-    return {load<N>(v[0] + first), load<N>(v[1] + first), load<N>(v[2] + first)};
+RT_FN Vector load3(const float (&v)[3][kWidth]) {
+    return {load(v[0]), load(v[1]), load(v[2])};
 }
 
-template <int N>
-RT_FN Vector<N> operator-(Vector<N> a, Vector<N> b) {
+RT_FN Vector operator-(Vector a, Vector b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
 // c + a b
-template <int N>
-RT_FN Vector<N> multiplyAdd(Vector<N> a, Float<N> b, Vector<N> c) {
+RT_FN Vector multiplyAdd(Vector a, Float8 b, Vector c) {
     return {multiplyAdd(a.x, b, c.x), multiplyAdd(a.y, b, c.y), multiplyAdd(a.z, b, c.z)};
 }
 
-template <int N>
-RT_FN Float<N> dot(Vector<N> a, Vector<N> b) {
+RT_FN Float8 dot(Vector a, Vector b) {
     return multiplyAdd(a.z, b.z, multiplyAdd(a.y, b.y, a.x * b.x));
 }
 
-template <int N>
 struct LaneHits {
-    Mask<N> mask;
-    Float<N> t, u, v; // meaningful where mask is set
+    Mask8 mask;
+    Float8 t, u, v; // meaningful where mask is set
 };
 
-template <int N>
-RT_FN LaneHits<N> intersectSpheres(const ShapeRay& ray, Vector<N> center, Float<N> radius) {
-    const Float<N> zero = broadcast<N>(0.0f);
-    const Float<N> inverseA = broadcast<N>(ray.inverseSquaredLength);
-    const Vector<N> d = broadcast3<N>(ray.direction);
-    const Vector<N> f = center - broadcast3<N>(ray.origin);
-    const Float<N> middle = dot(f, d) * inverseA;
-    const Float<N> x = negateMultiplyAdd(middle, d.x, f.x);
-    const Float<N> y = negateMultiplyAdd(middle, d.y, f.y);
-    const Float<N> z = negateMultiplyAdd(middle, d.z, f.z);
-    const Float<N> squaredHalf = negateMultiplyAdd(x, x, radius * radius) - multiplyAdd(y, y, z * z);
-    const Float<N> halfChord = squareRoot(squaredHalf * inverseA); // not a number beside the sphere
-    const Float<N> near = middle - halfChord;
-    const Float<N> t = select(zero < near, near, middle + halfChord);
+RT_FN LaneHits intersectSpheres(const ShapeRay& ray, Vector center, Float8 radius) {
+    const Float8 zero = broadcast(0.0f);
+    const Float8 inverseA = broadcast(ray.inverseSquaredLength);
+    const Vector d = broadcast3(ray.direction);
+    const Vector f = center - broadcast3(ray.origin);
+    const Float8 middle = dot(f, d) * inverseA;
+    const Float8 x = negateMultiplyAdd(middle, d.x, f.x);
+    const Float8 y = negateMultiplyAdd(middle, d.y, f.y);
+    const Float8 z = negateMultiplyAdd(middle, d.z, f.z);
+    const Float8 squaredHalf = negateMultiplyAdd(x, x, radius * radius) - multiplyAdd(y, y, z * z);
+    const Float8 halfChord = squareRoot(squaredHalf * inverseA); // not a number beside the sphere
+    const Float8 near = middle - halfChord;
+    const Float8 t = select(zero < near, near, middle + halfChord);
     return {zero < t, t, zero, zero};
 }
 
-template <int N, std::uint32_t B>
-RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const SphereBlock<B>& block, unsigned first) {
-    return intersectSpheres<N>(ray, load3<N>(block.center, first), load<N>(block.radius + first));
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const SphereBlock& block) {
+    return intersectSpheres(ray, load3(block.center), load(block.radius));
 }
 
-template <int N, std::uint32_t B>
-RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const MovingSphereBlock<B>& block, unsigned first) {
-    const Vector<N> center =
-        multiplyAdd(load3<N>(block.motion, first), broadcast<N>(ray.time), load3<N>(block.center, first));
-    return intersectSpheres<N>(ray, center, load<N>(block.radius + first));
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const MovingSphereBlock& block) {
+    const Vector center =
+        multiplyAdd(load3(block.motion), broadcast(ray.time), load3(block.center));
+    return intersectSpheres(ray, center, load(block.radius));
 }
 
-template <int N, std::uint32_t B>
-RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const QuadBlock<B>& block, unsigned first) {
-    const Float<N> half = broadcast<N>(0.5f);
-    const Vector<N> d = broadcast3<N>(ray.direction);
-    const Vector<N> f = load3<N>(block.corner, first) - broadcast3<N>(ray.origin);
-    const Vector<N> normal = load3<N>(block.normal, first);
-    const Vector<N> dualU = load3<N>(block.dualU, first);
-    const Vector<N> dualV = load3<N>(block.dualV, first);
-    const Float<N> t = dot(normal, f) / dot(normal, d);
-    const Float<N> u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half); // from the middle of the quad
-    const Float<N> v = multiplySubtract(t, dot(dualV, d), dot(dualV, f) + half);
-    const Float<N> margin = load<N>(block.margin + first) * broadcast<N>(ray.length);
-    const Float<N> reach = multiplyAdd(t, margin, broadcast<N>(0.5f + shared::kQuadError));
-    const Mask<N> inside = maximum(absolute(u), absolute(v)) <= reach;
-    return {inside & (broadcast<N>(0.0f) < t), t, u + half, v + half};
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const QuadBlock& block) {
+    const Float8 half = broadcast(0.5f);
+    const Vector d = broadcast3(ray.direction);
+    const Vector f = load3(block.corner) - broadcast3(ray.origin);
+    const Vector normal = load3(block.normal);
+    const Vector dualU = load3(block.dualU);
+    const Vector dualV = load3(block.dualV);
+    const Float8 t = dot(normal, f) / dot(normal, d);
+    const Float8 u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half); // from the middle of the quad
+    const Float8 v = multiplySubtract(t, dot(dualV, d), dot(dualV, f) + half);
+    const Float8 margin = load(block.margin) * broadcast(ray.length);
+    const Float8 reach = multiplyAdd(t, margin, broadcast(0.5f + shared::kQuadError));
+    const Mask8 inside = maximum(absolute(u), absolute(v)) <= reach;
+    return {inside & (broadcast(0.0f) < t), t, u + half, v + half};
 }
 
 // x of p times y of q minus y of p times x of q, for the three edges of triangles in the plane across the ray. Signs
 // are those of the exact values (unless those underflow), so the two triangles at an edge always agree on which side of
 // it the ray passes.
-template <int N>
 struct EdgeFunctions {
-    Float<N> a, b, c;
+    Float8 a, b, c;
 };
 
 // With fused multiply-add the error of one product is added back: Jeannerod, Louvet & Muller, "Further analysis of
 // Kahan's algorithm for the accurate computation of 2x2 determinants", 2013.
-template <int N>
-RT_FN Float<N> fusedDifference(Float<N> a, Float<N> b, Float<N> c, Float<N> d) {
-    const Float<N> cd = c * d;
+RT_FN Float8 fusedDifference(Float8 a, Float8 b, Float8 c, Float8 d) {
+    const Float8 cd = c * d;
     return multiplySubtract(a, b, cd) - multiplySubtract(c, d, cd);
 }
 
 // Products of floats are exact in double.
-template <int N>
-[[maybe_unused]] static EdgeFunctions<N> doubleEdgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)[3]) {
-    alignas(4 * N) float xs[3][N], ys[3][N], edges[3][N];
+[[maybe_unused]] static EdgeFunctions doubleEdgeFunctions(const Float8 (&x)[3], const Float8 (&y)[3]) {
+    alignas(32) float xs[3][kWidth], ys[3][kWidth], edges[3][kWidth];
     for (int vertex = 0; vertex < 3; ++vertex) {
         store(xs[vertex], x[vertex]);
         store(ys[vertex], y[vertex]);
     }
     for (int edge = 0; edge < 3; ++edge) {
         const int p = (edge + 2) % 3, q = (edge + 1) % 3;
-        for (int i = 0; i < N; ++i) {
+        for (int i = 0; i < static_cast<int>(kWidth); ++i) {
             const double e = double{xs[p][i]} * double{ys[q][i]} - double{ys[p][i]} * double{xs[q][i]};
             edges[edge][i] = static_cast<float>(e);
         }
     }
-    return {load<N>(edges[0]), load<N>(edges[1]), load<N>(edges[2])};
+    return {load(edges[0]), load(edges[1]), load(edges[2])};
 }
 
-template <int N>
-RT_FN EdgeFunctions<N> edgeFunctions(const Float<N> (&x)[3], const Float<N> (&y)[3]) {
+RT_FN EdgeFunctions edgeFunctions(const Float8 (&x)[3], const Float8 (&y)[3]) {
     if constexpr (kFusedMultiplyAdd) {
         return {fusedDifference(x[2], y[1], y[2], x[1]), fusedDifference(x[0], y[2], y[0], x[2]),
                 fusedDifference(x[1], y[0], y[1], x[0])};
     } else {
-        Float<N> e[3];
-        Mask<N> doubtful = x[0] < x[0]; // none yet: what rounding may have given the wrong sign
+        Float8 e[3];
+        Mask8 doubtful = x[0] < x[0]; // none yet: what rounding may have given the wrong sign
         for (int edge = 0; edge < 3; ++edge) {
             const int p = (edge + 2) % 3, q = (edge + 1) % 3;
-            const Float<N> left = x[p] * y[q], right = y[p] * x[q];
+            const Float8 left = x[p] * y[q], right = y[p] * x[q];
             e[edge] = left - right;
-            const Float<N> bound = (absolute(left) + absolute(right)) * broadcast<N>(2.0f * shared::kEpsilon);
+            const Float8 bound = (absolute(left) + absolute(right)) * broadcast(2.0f * shared::kEpsilon);
             doubtful = doubtful | (absolute(e[edge]) <= bound);
         }
         if (bits(doubtful) == 0) return {e[0], e[1], e[2]};
-        const EdgeFunctions<N> exact = doubleEdgeFunctions(x, y);
+        const EdgeFunctions exact = doubleEdgeFunctions(x, y);
         return {select(doubtful, exact.a, e[0]), select(doubtful, exact.b, e[1]), select(doubtful, exact.c, e[2])};
     }
 }
 
-template <int N, std::uint32_t B>
-RT_FN LaneHits<N> intersectBlock(const ShapeRay& ray, const TriangleBlock<B>& block, unsigned first) {
-    const Float<N> zero = broadcast<N>(0.0f);
-    Float<N> x[3], y[3], z[3];
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const TriangleBlock& block) {
+    const Float8 zero = broadcast(0.0f);
+    Float8 x[3], y[3], z[3];
     for (int vertex = 0; vertex < 3; ++vertex) {
-        z[vertex] = load<N>(block.vertex[vertex][ray.axis[2]] + first) - broadcast<N>(ray.origin[ray.axis[2]]);
-        x[vertex] = load<N>(block.vertex[vertex][ray.axis[0]] + first) - broadcast<N>(ray.origin[ray.axis[0]]);
-        y[vertex] = load<N>(block.vertex[vertex][ray.axis[1]] + first) - broadcast<N>(ray.origin[ray.axis[1]]);
-        x[vertex] = negateMultiplyAdd(broadcast<N>(ray.shear[0]), z[vertex], x[vertex]);
-        y[vertex] = negateMultiplyAdd(broadcast<N>(ray.shear[1]), z[vertex], y[vertex]);
+        z[vertex] = load(block.vertex[vertex][ray.axis[2]]) - broadcast(ray.origin[ray.axis[2]]);
+        x[vertex] = load(block.vertex[vertex][ray.axis[0]]) - broadcast(ray.origin[ray.axis[0]]);
+        y[vertex] = load(block.vertex[vertex][ray.axis[1]]) - broadcast(ray.origin[ray.axis[1]]);
+        x[vertex] = negateMultiplyAdd(broadcast(ray.shear[0]), z[vertex], x[vertex]);
+        y[vertex] = negateMultiplyAdd(broadcast(ray.shear[1]), z[vertex], y[vertex]);
     }
-    const EdgeFunctions<N> e = edgeFunctions(x, y);
-    const Mask<N> inside = (zero <= minimum(e.a, minimum(e.b, e.c))) | (maximum(e.a, maximum(e.b, e.c)) <= zero);
-    const Float<N> inverse = broadcast<N>(1.0f) / (e.a + e.b + e.c);
-    const Float<N> depth = multiplyAdd(e.a, z[0], multiplyAdd(e.b, z[1], e.c * z[2]));
-    const Float<N> t = depth * broadcast<N>(ray.shear[2]) * inverse;
+    const EdgeFunctions e = edgeFunctions(x, y);
+    const Mask8 inside = (zero <= minimum(e.a, minimum(e.b, e.c))) | (maximum(e.a, maximum(e.b, e.c)) <= zero);
+    const Float8 inverse = broadcast(1.0f) / (e.a + e.b + e.c);
+    const Float8 depth = multiplyAdd(e.a, z[0], multiplyAdd(e.b, z[1], e.c * z[2]));
+    const Float8 t = depth * broadcast(ray.shear[2]) * inverse;
     return {inside & (zero < t), t, e.b * inverse, e.c * inverse};
 }
 

@@ -1,15 +1,18 @@
-// Eight (with AVX-512 also sixteen) floats at a time, over whatever instruction set the translation unit is compiled
-// for.
+// Eight floats at a time, over whatever instruction set the translation unit is compiled for. (Sixteen lanes were measured
+// to lose: their divisions and their masks take longer than a second register of eight.)
 //
-//   Float<N>, Mask<N>   N lanes; plain aggregates that live in registers
+//   Float8, Mask8       eight lanes; plain aggregates that live in registers
 //   load, broadcast     from aligned memory; one value in all lanes
-//   + - * /, sqrt, abs  lane by lane, correctly rounded
-//   multiplyAdd(a,b,c)  a b + c; one rounding where the machine can. multiplySubtract: a b - c, negateMultiplyAdd: c -
-//   a b minimum, maximum    (a, b): b where either is not a number, as the x86 instruction < <= >= ==          Mask;
-//   false where either is not a number select(m, a, b)     a where m, else b bits(m)             lane i in bit i
+//   + - * /             lane by lane, correctly rounded; squareRoot, absolute
+//   multiplyAdd         (a, b, c): a b + c, one rounding where the machine can; multiplySubtract: a b - c,
+//                       negateMultiplyAdd: c - a b
+//   minimum, maximum    (a, b): b where either is not a number, as the x86 instruction
+//   < <= >= ==          Mask8; false where either is not a number
+//   select(m, a, b)     a where m, else b
+//   bits(m)             lane i in bit i
 //   lane(a, i), least(a)
 //   firstOf(m, a)       the lane of the lowest bit of m, of which one must be set
-//   Index<N>            N words, only carried along: loadIndex, select, firstOf
+//   Index8              eight words, only carried along: loadIndex, select, firstOf
 //
 // Everything has internal linkage: each instruction set's copy stays in its own object file.
 #pragma once
@@ -28,6 +31,3 @@
 #include "Common/Accel/SimdGeneric.h"
 #endif
 
-namespace rt::accel {
-namespace {}  // namespace
-}  // namespace rt::accel

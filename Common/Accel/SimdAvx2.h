@@ -9,40 +9,24 @@ namespace rt::accel {
 namespace {
 
 constexpr bool kFusedMultiplyAdd = true;
-constexpr int kLanes = 8;  // of the widest Float
 
-template <int N>
-struct Float;
-template <int N>
-struct Mask;
-template <>
-struct Float<8> {
+struct Float8 {
     __m256 v;
 };
-template <int N>
-struct Index;
-template <>
-struct Index<8> {
+struct Index8 {
     __m256i v;
 };
-template <>
-struct Mask<8> {
+struct Mask8 {
     __m256 v;
 };
-using Float8 = Float<8>;
-using Mask8 = Mask<8>;
-using Index8 = Index<8>;
 
-template <int N>
-RT_FN Float<N> load(const float* p) {
+RT_FN Float8 load(const float* p) {
     return {_mm256_load_ps(p)};
 }
-template <int N>
-RT_FN Float<N> broadcast(float x) {
+RT_FN Float8 broadcast(float x) {
     return {_mm256_set1_ps(x)};
 }
-template <int N>
-RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+RT_FN Index8 loadIndex(const std::uint32_t* p) {
     return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
 }
 RT_FN void store(float* p, Float8 a) {

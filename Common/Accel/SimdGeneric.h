@@ -13,23 +13,16 @@ constexpr bool kFusedMultiplyAdd = true;
 #else
 constexpr bool kFusedMultiplyAdd = false;
 #endif
-constexpr int kLanes = 8;  // of the widest Float
 
-template <int N>
-struct Float {
-    float v[N];
+struct Float8 {
+    float v[8];
 };
-template <int N>
-struct Index {
-    std::uint32_t v[N];
+struct Index8 {
+    std::uint32_t v[8];
 };
-template <int N>
-struct Mask {
-    bool v[N];
+struct Mask8 {
+    bool v[8];
 };
-using Float8 = Float<8>;
-using Mask8 = Mask<8>;
-using Index8 = Index<8>;
 
 // Lane by lane; `expression` names the lane i.
 #define RT_EACH_LANE(Result, expression) \
@@ -47,16 +40,13 @@ RT_FN float scalarMultiplyAdd(float a, float b, float c) {
     }
 }
 
-template <int N>
-RT_FN Float<N> load(const float* p) {
+RT_FN Float8 load(const float* p) {
     RT_EACH_LANE(Float8, p[i]);
 }
-template <int N>
-RT_FN Float<N> broadcast(float x) {
+RT_FN Float8 broadcast(float x) {
     RT_EACH_LANE(Float8, x);
 }
-template <int N>
-RT_FN Index<N> loadIndex(const std::uint32_t* p) {
+RT_FN Index8 loadIndex(const std::uint32_t* p) {
     RT_EACH_LANE(Index8, p[i]);
 }
 RT_FN void store(float* p, Float8 a) {

@@ -25,15 +25,14 @@ RT_FN bool comesBefore(shared::uint instance, shared::uint kind, shared::uint pr
     return kind != hit.kind ? kind < hit.kind : primitive < hit.primitive;
 }
 
-template <int N>
-RT_FN void acceptNearest(const LaneHits<N>& lanes, shared::uint kind, const std::uint32_t* primitives,
+RT_FN void acceptNearest(const LaneHits& lanes, shared::uint kind, const std::uint32_t* primitives,
                          shared::uint instance, shared::Hit& best) {
-    const Mask<N> mask = lanes.mask & (lanes.t <= broadcast<N>(best.t));
+    const Mask8 mask = lanes.mask & (lanes.t <= broadcast(best.t));
     unsigned hits = bits(mask);
     if (hits == 0) return;
     if ((hits & (hits - 1)) != 0) {
-        const float nearest = least(select(mask, lanes.t, broadcast<N>(kLargest)));
-        hits = bits(mask & (lanes.t == broadcast<N>(nearest)));
+        const float nearest = least(select(mask, lanes.t, broadcast(kLargest)));
+        hits = bits(mask & (lanes.t == broadcast(nearest)));
     }
     const unsigned i = lowestBit(hits);
     const float t = lane(lanes.t, i);
@@ -50,54 +49,34 @@ RT_FN void acceptNearest(const LaneHits<N>& lanes, shared::uint kind, const std:
 
 // The nearest hit in each lane, over all blocks so far.
 struct FlatBest {
-    Float<kLanes> t, u, v;
-    Index<kLanes> name;
+    Float8 t, u, v;
+    Index8 name;
 };
-
-template <int N, class Block>
-RT_FN LaneHits<kLanes> testLanes(const ShapeRay& ray, const Block& block, unsigned first) {
-    const LaneHits<N> lanes = intersectBlock<N>(ray, block, first);
-    if constexpr (N == kLanes) {
-        return lanes;
-    } else {
-        return {widen(lanes.mask), widen(lanes.t), widen(lanes.u), widen(lanes.v)};
-    }
-}
-
-// Tests the primitives of the list from number `first` on, kLanes of them, or the last eight: long registers divide
-// slowly.
-template <class Block>
-RT_FN LaneHits<kLanes> testChunk(const ShapeRay& ray, const FlatList<Block>& list, unsigned first) {
-    const Block& block = list.blocks[first / kFlatWidth];
-    if (kLanes > 8 && list.primitives - first <= 8) return testLanes<8>(ray, block, first % kFlatWidth);
-    return testLanes<kLanes>(ray, block, first % kFlatWidth);
-}
 
 template <class Block>
 RT_FN void testFlat(const ShapeRay& ray, const FlatList<Block>& list, FlatBest& best) {
-    for (unsigned i = 0; i < list.primitives; i += kLanes) {
-        const LaneHits<kLanes> lanes = testChunk(ray, list, i);
-        const Mask<kLanes> nearer = lanes.mask & (lanes.t < best.t);
-        const std::uint32_t* names = list.blocks[i / kFlatWidth].primitive + i % kFlatWidth;
+    for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) {
+        const LaneHits lanes = intersectBlock(ray, *block);
+        const Mask8 nearer = lanes.mask & (lanes.t < best.t);
         best.t = select(nearer, lanes.t, best.t);
         best.u = select(nearer, lanes.u, best.u);
         best.v = select(nearer, lanes.v, best.v);
-        best.name = select(nearer, loadIndex<kLanes>(names), best.name);
+        best.name = select(nearer, loadIndex(block->primitive), best.name);
     }
 }
 
 // Adds to `hits` the lanes in which something was hit before tMax.
 template <class Block>
-RT_FN void testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, Float<kLanes> tMax, Mask<kLanes>& hits) {
-    for (unsigned i = 0; i < list.primitives; i += kLanes) {
-        const LaneHits<kLanes> lanes = testChunk(ray, list, i);
+RT_FN void testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, Float8 tMax, Mask8& hits) {
+    for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) {
+        const LaneHits lanes = intersectBlock(ray, *block);
         hits = hits | (lanes.mask & (lanes.t < tMax));
     }
 }
 
 RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
-    const Float<kLanes> zero = broadcast<kLanes>(0.0f);
-    FlatBest best{broadcast<kLanes>(tMax), zero, zero, {}};
+    const Float8 zero = broadcast(0.0f);
+    FlatBest best{broadcast(tMax), zero, zero, {}};
     if (shared::has(features, shared::kFeatureSpheres)) testFlat(ray, view.flatSpheres, best);
     if (shared::has(features, shared::kFeatureMovingSpheres)) testFlat(ray, view.flatMovingSpheres, best);
     if (shared::has(features, shared::kFeatureQuads)) testFlat(ray, view.flatQuads, best);
@@ -106,7 +85,7 @@ RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const 
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
     const float t = least(best.t);
     if (!(t < tMax)) return hit;
-    const Mask<kLanes> nearest = best.t == broadcast<kLanes>(t);
+    const Mask8 nearest = best.t == broadcast(t);
     std::uint32_t name = firstOf(nearest, best.name);
     hit.t = t;
     hit.u = firstOf(nearest, best.u);
@@ -126,8 +105,8 @@ RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const 
 }
 
 RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
-    const Float<kLanes> end = broadcast<kLanes>(tMax);
-    Mask<kLanes> hits = end < end;
+    const Float8 end = broadcast(tMax);
+    Mask8 hits = end < end;
     if (shared::has(features, shared::kFeatureSpheres)) testFlatAny(ray, view.flatSpheres, end, hits);
     if (shared::has(features, shared::kFeatureMovingSpheres)) testFlatAny(ray, view.flatMovingSpheres, end, hits);
     if (shared::has(features, shared::kFeatureQuads)) testFlatAny(ray, view.flatQuads, end, hits);
@@ -163,14 +142,14 @@ RT_FN BoxRay makeBoxRay(const shared::Ray& ray) {
 // Bit i is set where the ray may meet child i within [0, tMax]; entry: where it enters each child. A ray that runs in
 // the plane of a slab gives 0 * infinity there; minimum and maximum pass over it because it is their first argument.
 RT_FN unsigned enterChildren(const WideNode& node, const BoxRay& ray, float tMax, Float8& entry) {
-    Float8 t0 = broadcast<8>(0.0f);
-    Float8 t1 = broadcast<8>(tMax);
+    Float8 t0 = broadcast(0.0f);
+    Float8 t1 = broadcast(tMax);
     for (unsigned a = 0; a < 3; ++a) {
-        const Float8 origin = broadcast<8>(ray.origin[a]);
-        const Float8 near = load<8>(node.planes[ray.nearPlane[a]]);
-        const Float8 far = load<8>(node.planes[ray.nearPlane[a] ^ 1u]);
-        t0 = maximum((near - origin) * broadcast<8>(ray.inverseNear[a]), t0);
-        t1 = minimum((far - origin) * broadcast<8>(ray.inverseFar[a]), t1);
+        const Float8 origin = broadcast(ray.origin[a]);
+        const Float8 near = load(node.planes[ray.nearPlane[a]]);
+        const Float8 far = load(node.planes[ray.nearPlane[a] ^ 1u]);
+        t0 = maximum((near - origin) * broadcast(ray.inverseNear[a]), t0);
+        t1 = minimum((far - origin) * broadcast(ray.inverseFar[a]), t1);
     }
     entry = t0;
     return bits(t0 <= t1);
@@ -225,7 +204,7 @@ RT_FN void testLeaf(const ShapeRay& ray, const Block* blocks, Reference leaf, sh
                     shared::Hit& best) {
     const Block* block = blocks + leafFirst(leaf);
     for (const Block* end = block + leafBlocks(leaf); block != end; ++block) {
-        acceptNearest(intersectBlock<8>(ray, *block, 0), kind, block->primitive, instance, best);
+        acceptNearest(intersectBlock(ray, *block), kind, block->primitive, instance, best);
     }
 }
 
@@ -233,8 +212,8 @@ template <class Block>
 RT_FN bool testLeafAny(const ShapeRay& ray, const Block* blocks, Reference leaf, float tMax) {
     const Block* block = blocks + leafFirst(leaf);
     for (const Block* end = block + leafBlocks(leaf); block != end; ++block) {
-        const LaneHits<8> lanes = intersectBlock<8>(ray, *block, 0);
-        if (bits(lanes.mask & (lanes.t < broadcast<8>(tMax))) != 0) return true;
+        const LaneHits lanes = intersectBlock(ray, *block);
+        if (bits(lanes.mask & (lanes.t < broadcast(tMax))) != 0) return true;
     }
     return false;
 }

@@ -53,15 +53,15 @@ struct Vertex {
     VertexNumbers numbers;
 };
 
+// The path of a sample, given randomPair(smp, kPairPixel).
 RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, RT_IN(Sampler) smp,
-                          uvec2 pixel) {
+                          uvec2 pixel, vec2 pixelNumbers) {
     vec2 lens = vec2(0.5f, 0.5f);
     if (has(features, kFeatureThinLens)) lens = randomPair(smp, kPairLens);
     float time = 0.0f;
     if (has(features, kFeatureMotion)) time = randomPair(smp, kPairTime).x;
     PathState s;
-    s.ray = generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), randomPair(smp, kPairPixel),
-                              lens, time);
+    s.ray = generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), pixelNumbers, lens, time);
     s.throughput = vec3(1.0f, 1.0f, 1.0f);
     s.radiance = vec3(0.0f, 0.0f, 0.0f);
     s.pdf = 0.0f;
@@ -429,10 +429,11 @@ RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT
     return v;
 }
 
-// Advances the path by one vertex, given what s.ray meets. False: it has ended, and s.radiance is its estimate once
+// Advances the path by one vertex, given what s.ray meets and vertexNumbers(smp, s.vertex). False: it has ended, and s.radiance is its estimate once
 // `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
-RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
-                      RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
+RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                      RT_IN(VertexNumbers) numbers, RT_IN(Hit) hit, RT_INOUT(PathState) s,
+                      RT_INOUT(DirectLight) direct) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
@@ -452,7 +453,7 @@ RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params,
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         v = surfaceVertex(features, scene, s, surface, material);
     }
-    v.numbers = vertexNumbers(smp, v.index);
+    v.numbers = numbers;
     return scatter(features, scene, params, smp, v, s, direct);
 }
 

@@ -6,7 +6,7 @@
 namespace rt::accel::testing {
 
 std::vector<NamedQuery> runnableQueries() {
-    static const RayQuery generic{closest, any};
+    static const RayQuery generic{tracer, closest, any};
     std::vector<NamedQuery> queries{{"generic", &generic}};
     for (InstructionSet set : {InstructionSet::X86_64_v2, InstructionSet::X86_64_v3, InstructionSet::X86_64_v4}) {
         const RayQuery* query = set <= bestInstructionSet() ? rayQuery(set) : nullptr;
