@@ -114,6 +114,8 @@ CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     view.lights = s.lights.data();
     view.lightBounds = s.lightBounds.data();
     view.lightBoundsSoa = &prepared.lightBounds;
+    view.lightNodes = s.lightNodes.data();
+    view.lightPlaces = s.lightPlaces.data();
     view.skyCdf = s.skyCdf.data();
     view.globals = s.globals;
     return view;

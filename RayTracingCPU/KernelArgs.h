@@ -47,6 +47,8 @@ struct CpuScene {
     const shared::Light* lights = nullptr;
     const shared::LightBound* lightBounds = nullptr;
     const LightBoundsSoa* lightBoundsSoa = nullptr;
+    const shared::LightNode* lightNodes = nullptr;
+    const std::uint32_t* lightPlaces = nullptr;
     const float* skyCdf = nullptr;
     shared::SceneGlobals globals{};
 };

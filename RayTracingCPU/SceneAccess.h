@@ -29,6 +29,22 @@ RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) { return scene.perlinPe
 RT_FN const Medium& loadMedium(SceneRef scene, uint i) { return scene.media[i]; }
 RT_FN const Light& loadLight(SceneRef scene, uint i) { return scene.lights[i]; }
 RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) { return scene.lightBounds[i]; }
+RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
+    const LightNode& n = scene.lightNodes[node];
+    LightCluster c;
+    c.center = vec3(n.centerX[i], n.centerY[i], n.centerZ[i]);
+    c.radius = n.radius[i];
+    c.axis = vec3(n.axisX[i], n.axisY[i], n.axisZ[i]);
+    c.alignment = n.alignment[i];
+    c.spreadCosine = n.spreadCosine[i];
+    c.spreadSine = n.spreadSine[i];
+    c.facing = n.facing[i];
+    c.around = n.around[i];
+    c.child = n.child[i];
+    return c;
+}
+RT_FN uint loadLightNodeParent(SceneRef scene, uint node) { return scene.lightNodes[node].parent; }
+RT_FN uint loadLightPlace(SceneRef scene, uint light) { return scene.lightPlaces[light]; }
 RT_FN float loadSkyCdf(SceneRef scene, uint i) { return scene.skyCdf[i]; }
 
 RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {

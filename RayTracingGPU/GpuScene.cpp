@@ -36,6 +36,8 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, std::shared_ptr<const scene::
     arrays_.media = add(context, s.media, "media");
     arrays_.lights = add(context, s.lights, "lights");
     arrays_.lightBounds = add(context, s.lightBounds, "lights");
+    arrays_.lightNodes = add(context, s.lightNodes, "the light tree");
+    arrays_.lightPlaces = add(context, s.lightPlaces, "the light tree");
     arrays_.skyCdf = add(context, s.skyCdf, "sky");
     accel_ = std::make_unique<AccelStructure>(context, s, arrays_);
 }

@@ -34,6 +34,7 @@ RT_ARRAY(ImageArray, Image)
 RT_ARRAY(MediumArray, Medium)
 RT_ARRAY(LightArray, Light)
 RT_ARRAY(LightBoundArray, LightBound)
+RT_ARRAY(LightNodeArray, LightNode)
 RT_ARRAY(VectorArray, vec3)
 RT_ARRAY(PairArray, vec2)
 RT_ARRAY(TripleArray, uvec3)
@@ -62,6 +63,8 @@ struct SceneArrays {
     MediumArray media;
     LightArray lights;
     LightBoundArray lightBounds;
+    LightNodeArray lightNodes;
+    WordArray lightPlaces;
     FloatArray skyCdf;
 };
 

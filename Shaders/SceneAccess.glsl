@@ -28,7 +28,25 @@ uint loadPerlinPermutation(SceneRef scene, uint i) { return constants.arrays.per
 Medium loadMedium(SceneRef scene, uint i) { return constants.arrays.media.at[i]; }
 Light loadLight(SceneRef scene, uint i) { return constants.arrays.lights.at[i]; }
 LightBound loadLightBound(SceneRef scene, uint i) { return constants.arrays.lightBounds.at[i]; }
+uint loadLightNodeParent(SceneRef scene, uint node) { return constants.arrays.lightNodes.at[node].parent; }
+uint loadLightPlace(SceneRef scene, uint light) { return constants.arrays.lightPlaces.at[light]; }
 float loadSkyCdf(SceneRef scene, uint i) { return constants.arrays.skyCdf.at[i]; }
+
+LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
+    LightCluster c;
+    c.center = vec3(constants.arrays.lightNodes.at[node].centerX[i], constants.arrays.lightNodes.at[node].centerY[i],
+                    constants.arrays.lightNodes.at[node].centerZ[i]);
+    c.radius = constants.arrays.lightNodes.at[node].radius[i];
+    c.axis = vec3(constants.arrays.lightNodes.at[node].axisX[i], constants.arrays.lightNodes.at[node].axisY[i],
+                  constants.arrays.lightNodes.at[node].axisZ[i]);
+    c.alignment = constants.arrays.lightNodes.at[node].alignment[i];
+    c.spreadCosine = constants.arrays.lightNodes.at[node].spreadCosine[i];
+    c.spreadSine = constants.arrays.lightNodes.at[node].spreadSine[i];
+    c.facing = constants.arrays.lightNodes.at[node].facing[i];
+    c.around = constants.arrays.lightNodes.at[node].around[i];
+    c.child = constants.arrays.lightNodes.at[node].child[i];
+    return c;
+}
 
 vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint texel = y * image.width + x;

@@ -5,6 +5,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/GridCdf.h"
+#include "Common/Scene/LightTree.h"
 #include "Common/Scene/TextureTable.h"
 
 namespace rt::scene {
@@ -31,6 +32,17 @@ double power(const shared::Light& light) {
     return luminance(light.emission) * kPi * light.area * sides;
 }
 
+// Centre of the least circle around the triangle (0, u, v): in its plane, so that a point is before the triangle if and
+// only if it is before the centre.
+glm::dvec3 enclosingCenter(const glm::dvec3& u, const glm::dvec3& v) {
+    const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v);
+    if (uv <= 0) return 0.5 * (u + v); // the angle at 0 is obtuse
+    if (uv >= uu) return 0.5 * v;      // at u
+    if (uv >= vv) return 0.5 * u;      // at v
+    const double scale = 0.5 / (uu * vv - uv * uv);
+    return scale * (vv * (uu - uv) * u + uu * (vv - uv) * v);
+}
+
 shared::LightBound boundOf(const shared::Light& light) {
     shared::LightBound bound{};
     const double luminous = luminance(light.emission);
@@ -40,16 +52,12 @@ shared::LightBound boundOf(const shared::Light& light) {
         bound.intensity = static_cast<float>(luminous * kPi * light.radius * light.radius);
         return bound;
     }
-    // A quad's vertices lie at corner + {0, U, V, U + V}; a triangle lacks the last. Half of its longest side is not
-    // always enough for a triangle, the distance from the middle of the box of its vertices is.
-    const bool isQuad = light.kind == shared::kLightQuad;
-    const shared::vec3 vertices[4] = {shared::vec3(0), light.edgeU, light.edgeV,
-                                      isQuad ? light.edgeU + light.edgeV : shared::vec3(0)};
-    shared::vec3 lower(0), upper(0);
-    for (const shared::vec3& v : vertices) lower = glm::min(lower, v), upper = glm::max(upper, v);
-    const shared::vec3 middle = isQuad ? 0.5f * vertices[3] : 0.5f * (lower + upper);
-    for (const shared::vec3& v : vertices) bound.radius = std::max(bound.radius, glm::length(v - middle));
-    bound.center = light.position + middle;
+    const glm::dvec3 u(light.edgeU), v(light.edgeV);
+    const glm::dvec3 middle = light.kind == shared::kLightQuad ? 0.5 * (u + v) : enclosingCenter(u, v);
+    double radius = 0;
+    for (const glm::dvec3& vertex : {glm::dvec3(0), u, v}) radius = std::max(radius, glm::length(vertex - middle));
+    bound.center = light.position + shared::vec3(middle);
+    bound.radius = static_cast<float>(radius);
     bound.radius *= 1 + 4 * shared::kEpsilon;
     bound.axis = light.normal;
     bound.twoSided = light.sides == shared::kSidesBoth ? 1.0f : 0.0f;
@@ -144,6 +152,7 @@ void finishLights(CompiledScene& out) {
         out.lights[i].selection = cdf[i + 1] - cdf[i];
     }
     out.globals.lightCount = static_cast<std::uint32_t>(out.lights.size());
+    buildLightTree(out);
 }
 
 void appendTarget(const shared::Light& target, CompiledScene& out) {

@@ -1,10 +1,12 @@
 // Which light a vertex samples, and with what probability.
 // The includer provides SceneRef, loadGlobals, loadLight and
 //   LightWeights loadContributions(scene, position, normal): lightContribution() of each light of a table of at most
-//   kContributionLights; the remaining weights are zero.
+//   kContributionLights; the remaining weights are zero;
+// and what LightTree.h names, for longer tables.
 #ifndef RT_SHARED_LIGHT_SELECTION_H
 #define RT_SHARED_LIGHT_SELECTION_H
 #include "Features.h"
+#include "LightTree.h"
 #include "Lights.h"
 #include "Random.h"
 
@@ -25,10 +27,9 @@ struct LightChoice {
     float u;            // the number that chose, stretched to [0,1) for further use
 };
 
-// `contribution` weighs every light of a short table; longer tables are chosen from by power.
-RT_FN uint selectionPolicy(RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals) {
-    bool tooMany = globals.lightCount > kContributionLights;
-    return params.lightSelection == kSelectContribution && tooMany ? kSelectPower : params.lightSelection;
+// A table that `contribution` does not weigh light by light.
+RT_FN bool usesLightTree(uint features, uint count) {
+    return has(features, kFeatureManyLights) && count > kContributionLights;
 }
 
 RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
@@ -50,21 +51,20 @@ RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
     return choice;
 }
 
-// Chooses among the lights proper and completes `context` with what lightProbability needs.
-RT_FN LightChoice chooseLight(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
-    context.total = 0.0f;
+RT_FN LightChoice chooseUniformly(uint count, float u) {
+    LightChoice choice;
+    choice.light = min(uint(u * float(count)), count - 1u);
+    choice.probability = 1.0f / float(count);
+    choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
+    return choice;
+}
+
+// In proportion to the contributions of a short table.
+RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
     LightChoice choice;
     choice.light = kNone;
     choice.probability = 0.0f;
     choice.u = 0.0f;
-    if (count == 0u) return choice;
-    if (context.policy == kSelectPower) return chooseByPower(scene, count, u);
-    if (context.policy == kSelectUniform) {
-        choice.light = min(uint(u * float(count)), count - 1u);
-        choice.probability = 1.0f / float(count);
-        choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
-        return choice;
-    }
     // Sums of the weights before each light; the choice is the last light whose sum is not above the target.
     LightWeights weights = loadContributions(scene, context.position, context.normal);
     LightWeights before;
@@ -89,11 +89,28 @@ RT_FN LightChoice chooseLight(SceneRef scene, uint count, float u, RT_INOUT(Ligh
     return choice;
 }
 
+// Chooses among the lights proper by u.x, or in a tree by both numbers, and completes `context` with what
+// lightProbability needs.
+RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
+    context.total = 0.0f;
+    if (count > 0u && context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
+    if (count > 0u && context.policy == kSelectUniform) return chooseUniformly(count, u.x);
+    if (!usesLightTree(features, count)) return chooseByContribution(scene, count, u.x, context);
+    TreeChoice drawn = chooseFromTree(scene, u, context.position, context.normal);
+    context.total = drawn.total;
+    LightChoice choice;
+    choice.light = drawn.light;
+    choice.probability = drawn.probability;
+    choice.u = 0.0f;
+    return choice;
+}
+
 // Probability with which chooseLight picks `light` in this context.
-RT_FN float lightProbability(SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
+RT_FN float lightProbability(uint features, SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
     if (context.policy == kSelectPower) return loadLight(scene, light).selection;
     if (context.policy == kSelectUniform) return 1.0f / float(count);
     if (!(context.total > 0.0f)) return 0.0f;
+    if (usesLightTree(features, count)) return treeProbability(scene, light, context.position, context.normal);
     return lightContribution(loadLightBound(scene, light), context.position, context.normal) / context.total;
 }
 

@@ -348,6 +348,14 @@ RT_FN vec3 lightPointError(RT_IN(Light) light) {
 
 // ---- choosing among lights ------------------------------------------------------------------------------------------
 
+// Mean of max(x, 0) over x uniform in [middle - spread, middle + spread], spread >= 0: `middle` where the interval is
+// positive, a parabola that reaches 0 with slope 0 where it sinks below 0.
+RT_FN float meanClamped(float middle, float spread) {
+    float above = max(middle + spread, 0.0f);
+    float clipped = above * above / (4.0f * max(spread, 1.0e-30f));
+    return middle >= spread ? middle : clipped;
+}
+
 // Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact
 // for small and distant lights, and 0 only where the light cannot contribute: wholly below the horizon of `normal`, or
 // the point is not in front of a one-sided flat light. `normal` as in sampleLight. Without a branch, for loops over
@@ -359,13 +367,7 @@ RT_FN float lightContribution(RT_IN(LightBound) bound, vec3 position, vec3 norma
     float r2 = r * r;
     float inverse2 = 1.0f / max(d2, 0.25f * r2);
     float inverse = sqrt(inverse2);
-    // Mean of the clamped cosine over the bounding sphere, times distance: the middle's where the sphere is above the
-    // horizon, a parabola that reaches 0 with slope 0 where the sphere sinks below it.
-    float rise = dot(normal, v);
-    float above = max(rise + r, 0.0f);
-    float clipped = above * above / (4.0f * max(r, 1.0e-30f));
-    float receiver = rise >= r ? rise : clipped;
-    receiver = isSurface(normal) ? receiver * inverse : 1.0f;
+    float receiver = isSurface(normal) ? meanClamped(dot(normal, v), r) * inverse : 1.0f;
     float facing = -dot(bound.axis, v);
     facing = bound.twoSided > 0.0f ? abs(facing) : max(facing, 0.0f);
     float emitter = dot(bound.axis, bound.axis) > 0.0f ? facing * inverse : 1.0f;

@@ -87,7 +87,7 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
     if (has(features, kFeatureSkyImage)) {
         SceneGlobals globals = loadGlobals(scene);
         if (globals.skyLight != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
-            float probability = lightProbability(scene, globals.lightCount, globals.skyLight, s.last);
+            float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
             weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
         }
     }
@@ -109,7 +109,7 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
     vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv);
     float weight = 1.0f;
     if (has(features, kFeatureLights) && surface.light != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
-        float probability = lightProbability(scene, loadGlobals(scene).lightCount, surface.light, s.last);
+        float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
         float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
                                  s.ray.time, s.ray.direction, distance, surface.normal);
         weight = emissionWeight(params, s.pdf, probability * density);
@@ -151,20 +151,20 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     return transmittance(depth);
 }
 
-RT_FN LightContext lightContext(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+RT_FN LightContext lightContext(RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     LightContext context;
     context.position = v.origin;
     context.normal = v.shading;
     context.total = 0.0f;
-    context.policy = selectionPolicy(params, loadGlobals(scene));
+    context.policy = params.lightSelection;
     return context;
 }
 
-// The number that chooses the light: the first of the pair that also places the point, unless there are so many lights
+// The numbers that choose the light: the first of the pair that also places the point, unless there are so many lights
 // that the choice would use up its bits.
-RT_FN float selectionNumber(RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, uint vertex, vec2 pair) {
-    if (globals.lightCount <= kContributionLights) return pair.x;
-    return randomPair(smp, vertexPair(vertex, kPairSelect)).x;
+RT_FN vec2 selectionNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v) {
+    if (!usesLightTree(features, globals.lightCount)) return v.numbers.light;
+    return smp.kind == kSamplerSobol ? v.numbers.select : randomPair(smp, vertexPair(v.index, kPairSelect));
 }
 
 RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
@@ -206,10 +206,11 @@ RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderP
     DirectLight direct = noDirectLight();
     SceneGlobals globals = loadGlobals(scene);
     vec2 u = v.numbers.light;
-    LightChoice choice = chooseLight(scene, globals.lightCount, selectionNumber(globals, smp, v.index, u), s.last);
+    LightChoice choice =
+        chooseLight(features, scene, globals.lightCount, selectionNumbers(features, globals, smp, v), s.last);
     if (choice.light == kNone) return direct;
     Light light = loadLight(scene, choice.light);
-    if (globals.lightCount <= kContributionLights) u.x = choice.u;
+    if (!usesLightTree(features, globals.lightCount)) u.x = choice.u;
     LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
     if (!(sampled.pdf > 0.0f)) return direct;
     vec4 f = evalScattering(features, v, sampled.wi);
@@ -250,10 +251,11 @@ RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(DirectLight) dire
 // ---- Shirley's mixture --------------------------------------------------------------------------------------------
 
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
-RT_FN float mixtureProbability(SceneRef scene, RT_IN(SceneGlobals) globals, uint i, RT_IN(LightContext) context) {
+RT_FN float mixtureProbability(uint features, SceneRef scene, RT_IN(SceneGlobals) globals, uint i,
+                               RT_IN(LightContext) context) {
     float all = float(globals.lightCount + globals.targetCount);
     if (i >= globals.lightCount) return 1.0f / all;
-    return float(globals.lightCount) / all * lightProbability(scene, globals.lightCount, i, context);
+    return float(globals.lightCount) / all * lightProbability(features, scene, globals.lightCount, i, context);
 }
 
 // Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
@@ -269,7 +271,7 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
         } else {
             density = lightPdfAlong(features, params, light, context.position, context.normal, time, wi);
         }
-        if (density > 0.0f) sum += density * mixtureProbability(scene, globals, i, context);
+        if (density > 0.0f) sum += density * mixtureProbability(features, scene, globals, i, context);
     }
     return sum;
 }
@@ -279,18 +281,19 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(Render
                                      RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v, float time,
                                      RT_INOUT(LightContext) context) {
     vec2 u = v.numbers.light;
-    float pick = selectionNumber(globals, smp, v.index, u);
+    vec2 pick = selectionNumbers(features, globals, smp, v);
     float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
     // The context is completed even when a target is chosen: the density of the direction sums over all of them.
-    LightChoice choice = chooseLight(scene, globals.lightCount, stretch(pick, split, 1.0f), context);
-    if (pick < split) {
-        float position = pick / split * float(globals.targetCount);
+    vec2 rest = vec2(stretch(pick.x, split, 1.0f), pick.y);
+    LightChoice choice = chooseLight(features, scene, globals.lightCount, rest, context);
+    if (pick.x < split) {
+        float position = pick.x / split * float(globals.targetCount);
         uint target = min(uint(position), globals.targetCount - 1u);
         choice.light = globals.lightCount + target;
         choice.u = clamp(position - float(target), 0.0f, 0.999999940395355f);
     }
     if (choice.light == kNone) return noLightSample();
-    if (globals.lightCount <= kContributionLights) u.x = choice.u;
+    if (!usesLightTree(features, globals.lightCount)) u.x = choice.u;
     return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, u);
 }
 
@@ -322,7 +325,7 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
 RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     bool delta = isDeltaVertex(features, v);
-    s.last = lightContext(scene, params, v);
+    s.last = lightContext(params, v);
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
     if (lights && params.lightSampling == kSampleMis) direct = sampleDirectLight(features, scene, params, smp, v, s);
 

@@ -16,7 +16,7 @@ const uint kPairsCamera = 4u;
 const uint kPairLight = 0u;   // choice of the light, stretched, and position on it
 const uint kPairBsdf = 1u;    // lobe or direction of the scattered ray
 const uint kPairChoice = 2u;  // x: survival of the roulette, y: technique of the mixture
-const uint kPairSelect = 3u;  // x: choice of the light where there are too many to stretch kPairLight
+const uint kPairSelect = 3u;  // choice of the light where there are too many to stretch kPairLight
 const uint kPairMedium = 4u;  // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
 const uint kPairsPerVertex = 8u;
 
@@ -180,9 +180,10 @@ struct VertexNumbers {
     vec2 light;
     vec2 bsdf;
     vec2 choice;
+    vec2 select; // Sobol's only
 };
 
-// randomPair() of kPairLight, kPairBsdf and kPairChoice. Sobol's take one call: C++ compilers work on the pairs side by
+// randomPair() of kPairLight, kPairBsdf and kPairChoice, and of kPairSelect where it costs nothing. Sobol's take one call: C++ compilers work on the pairs side by
 // side.
 RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
     VertexNumbers numbers;
@@ -190,6 +191,7 @@ RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
         numbers.light = randomPair(s, vertexPair(vertex, kPairLight));
         numbers.bsdf = randomPair(s, vertexPair(vertex, kPairBsdf));
         numbers.choice = randomPair(s, vertexPair(vertex, kPairChoice));
+        numbers.select = vec2(0.0f, 0.0f);
         return numbers;
     }
     uint first = vertexPair(vertex, 0u);
@@ -203,6 +205,7 @@ RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
     numbers.light = vec2(x[kPairLight], y[kPairLight]);
     numbers.bsdf = vec2(x[kPairBsdf], y[kPairBsdf]);
     numbers.choice = vec2(x[kPairChoice], y[kPairChoice]);
+    numbers.select = vec2(x[kPairSelect], y[kPairSelect]);
     return numbers;
 }
 

@@ -28,6 +28,9 @@ uint loadPerlinPermutation(SceneRef scene, uint i);
 Medium loadMedium(SceneRef scene, uint i);
 Light loadLight(SceneRef scene, uint i);
 LightBound loadLightBound(SceneRef scene, uint i);
+LightCluster loadLightCluster(SceneRef scene, uint node, uint i);
+uint loadLightNodeParent(SceneRef scene, uint node);
+uint loadLightPlace(SceneRef scene, uint light);
 LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal);
 float loadSkyCdf(SceneRef scene, uint i);
 

@@ -1,0 +1,133 @@
+// Choice among many lights: descent through a tree of bounds, after the importance sampling of Conty Estevez & Kulla,
+// "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, with eight children a node and estimates of
+// means where they use upper bounds.
+// The includer provides SceneRef and
+//   LightCluster loadLightCluster(scene, node, i)   child i of a node
+//   uint loadLightNodeParent(scene, node)           LightNode::parent
+//   uint loadLightPlace(scene, light)               node * kLightNodeChildren + child, kNone: not in the tree
+#ifndef RT_SHARED_LIGHT_TREE_H
+#define RT_SHARED_LIGHT_TREE_H
+#include "Lights.h"
+#include "Random.h"
+
+RT_SHARED_BEGIN
+
+// Estimate of the irradiance that the lights of a cluster cause without occluders. 0 only where none of them can
+// contribute: all below the horizon of `normal` (zero: in a medium), or all turned away from the point. Without a branch.
+RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 normal) {
+    vec3 v = c.center - position;
+    float d2 = dot(v, v);
+    float r2 = c.radius * c.radius;
+    float inverse2 = 1.0f / max(d2, 0.25f * r2);
+    float inverse = sqrt(inverse2);
+    float receiver = isSurface(normal) ? meanClamped(dot(normal, v), c.radius) * inverse : 1.0f;
+    // The cosines under which the flat lights emit: their mean, as seen from the middle, and their maximum, with the
+    // cone widened by the angle that the sphere fills.
+    float cosine = clamp(-dot(c.axis, v) / sqrt(max(d2, 1.0e-37f)), -1.0f, 1.0f);
+    float sine = sqrt((1.0f - cosine) * (1.0f + cosine));
+    bool leaf = (c.child & kLightLeaf) != 0u; // a plane is in front of a point or not, whatever the angle it fills
+    float fill2 = leaf ? 0.0f : min(r2 / max(d2, 1.0e-37f), 1.0f);
+    float fillSine = sqrt(fill2);
+    float fillCosine = sqrt(1.0f - fill2);
+    float wideCosine = c.spreadCosine * fillCosine - c.spreadSine * fillSine;
+    float wideSine = c.spreadSine * fillCosine + c.spreadCosine * fillSine;
+    // A hair wider than rounding.
+    float highest = cosine * wideCosine + sine * wideSine + 2.0e-6f;
+    highest = cosine >= wideCosine - 1.0e-6f ? 1.0f : highest;
+    highest = wideSine < 0.0f ? 1.0f : highest;
+    highest = fill2 >= 1.0f ? 1.0f : highest;
+    float mean = cosine * c.alignment;
+    highest = leaf ? mean : highest;
+    mean = c.facing < 0.0f ? abs(mean) : mean;
+    float emitter = meanClamped(mean, max(highest - mean, 0.0f));
+    return (c.around + abs(c.facing) * emitter) * receiver * inverse2;
+}
+
+// Of all children of a node.
+RT_FN ClusterWeights loadClusterWeights(SceneRef scene, uint node, vec3 position, vec3 normal) {
+    ClusterWeights w;
+    for (uint i = 0u; i < kLightNodeChildren; i++)
+        w.weight[i] = clusterContribution(loadLightCluster(scene, node, i), position, normal);
+    return w;
+}
+
+RT_FN float sumOf(RT_IN(ClusterWeights) w) {
+    float total = 0.0f;
+    for (uint i = 0u; i < kLightNodeChildren; i++)
+        total += w.weight[i];
+    return total;
+}
+
+// A light drawn from the tree.
+struct TreeChoice {
+    uint light;        // kNone: the descent ended where no light can contribute
+    float probability;
+    float total;       // weight of the root: 0 where no light at all can contribute
+};
+
+// Uses the numbers one after the other: each is stretched by choices until a thousandth is left of it, then the next
+// one serves; after both, hashes of them.
+RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, vec3 normal) {
+    TreeChoice choice;
+    choice.light = kNone;
+    choice.probability = 1.0f;
+    choice.total = 0.0f;
+    uint node = 0u;
+    uint used = 0u;
+    float u = numbers.x;
+    float left = 1.0f;
+    for (;;) {
+        ClusterWeights w = loadClusterWeights(scene, node, position, normal);
+        ClusterWeights before;
+        float total = 0.0f;
+        for (uint i = 0u; i < kLightNodeChildren; i++) {
+            before.weight[i] = total;
+            total += w.weight[i];
+        }
+        if (used == 0u && node == 0u) choice.total = total;
+        if (!(total > 0.0f)) return choice;
+        float target = u * total;
+        uint chosen = 0u;
+        for (uint i = 1u; i < kLightNodeChildren; i++)
+            chosen += before.weight[i] <= target ? 1u : 0u;
+        // As in a short table: only children without weight at the end can be met here.
+        while (w.weight[chosen] == 0.0f)
+            chosen--;
+        float share = w.weight[chosen] / total;
+        choice.probability *= share;
+        u = clamp((target - before.weight[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);
+        uint child = loadLightCluster(scene, node, chosen).child;
+        if ((child & kLightLeaf) != 0u) {
+            choice.light = child & ~kLightLeaf;
+            return choice;
+        }
+        node = child;
+        left *= share;
+        if (left < 1.0e-3f) {
+            used++;
+            left = 1.0f;
+            u = used == 1u ? numbers.y
+                           : toUniform(hash3(uvec3(floatBitsToUint(numbers.x), floatBitsToUint(numbers.y), used)).x);
+        }
+    }
+}
+
+// Probability with which chooseFromTree draws `light`: the product of the shares on the way from it to the root.
+RT_CALL float treeProbability(SceneRef scene, uint light, vec3 position, vec3 normal) {
+    float probability = 1.0f;
+    uint place = loadLightPlace(scene, light);
+    if (place == kNone) return 0.0f;
+    while (place != kNone) {
+        uint node = place / kLightNodeChildren;
+        ClusterWeights w = loadClusterWeights(scene, node, position, normal);
+        float own = w.weight[place % kLightNodeChildren];
+        if (!(own > 0.0f)) return 0.0f;
+        probability *= own / sumOf(w);
+        place = loadLightNodeParent(scene, node);
+    }
+    return probability;
+}
+
+RT_SHARED_END
+
+#endif
