@@ -53,7 +53,7 @@ class NumberTable {
     }
 
   private:
-    static constexpr std::uint32_t kVertices = 6;   // farther ones are rare
+    static constexpr std::uint32_t kVertices = 4;   // many paths end before farther ones
     static constexpr std::uint32_t kWorthwhile = 4; // samples
 
     struct Vertex {
