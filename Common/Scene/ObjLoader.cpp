@@ -4,6 +4,7 @@
 #include <cmath>
 #include <istream>
 #include <streambuf>
+#include <string_view>
 #include <system_error>
 #include <tiny_obj_loader.h>
 
@@ -37,6 +38,13 @@ class MemoryBuffer : public std::streambuf {
         const bool isMidLine = gptr() != eback() && gptr()[-1] != '\n';
         return std::max<std::ptrdiff_t>(1, ended + isMidLine);
     }
+    // The line read last, with its end.
+    std::string_view text() const {
+        const std::string_view all(eback(), static_cast<std::size_t>(gptr() - eback()));
+        const std::size_t last = all.find_last_not_of("\r\n");
+        const std::size_t before = last == all.npos ? last : all.find_last_of("\r\n", last);
+        return before == all.npos ? all : all.substr(before + 1);
+    }
 };
 
 std::string trimmed(std::string text) {
@@ -44,8 +52,7 @@ std::string trimmed(std::string text) {
     return text;
 }
 
-// ---- materials
-// -------------------------------------------------------------------------------------------------------
+// ---- materials -----------------------------------------------------------------------------------------------------
 
 glm::dvec3 color(const float (&rgb)[3], double high) {
     return glm::clamp(glm::dvec3(rgb[0], rgb[1], rgb[2]), 0.0, high);
@@ -101,8 +108,7 @@ MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& ke
     return material;
 }
 
-// ---- geometry
-// --------------------------------------------------------------------------------------------------------
+// ---- geometry ------------------------------------------------------------------------------------------------------
 
 // Receives the parser's events.
 class Builder : public tinyobj::MaterialReader {
@@ -115,12 +121,17 @@ class Builder : public tinyobj::MaterialReader {
     }
 
     void addPosition(float x, float y, float z) {
+        checkNumbers(3);
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail("a coordinate is too large");
         positions_.emplace_back(x, y, z);
         firstVertex_.push_back(shared::kNone);
     }
-    void addNormal(float x, float y, float z) { normals_.emplace_back(x, y, z); }
+    void addNormal(float x, float y, float z) {
+        checkNumbers(3);
+        normals_.emplace_back(x, y, z);
+    }
     void addUv(float x, float y) {
+        checkNumbers(1);
         if (!std::isfinite(x) || !std::isfinite(y)) fail("a texture coordinate is too large");
         uvs_.emplace_back(x, y);
     }
@@ -176,6 +187,22 @@ class Builder : public tinyobj::MaterialReader {
 
   private:
     static constexpr std::uint32_t kNone = shared::kNone;
+
+    // The parser takes what is no number for 0: the first `count` fields behind the keyword of the line at hand must be
+    // numbers.
+    void checkNumbers(int count) const {
+        constexpr const char* kSpace = " \t\r\n";
+        std::string_view rest = buffer_.text();
+        rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
+        for (int i = 0; i < count; ++i) {
+            rest.remove_prefix(std::min(rest.find_first_of(kSpace), rest.size()));
+            rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
+            const std::string_view field = rest.substr(0, rest.find_first_of(kSpace));
+            if (field.empty()) fail("a number is missing");
+            if (field.find_first_not_of("+-.0123456789eE") != field.npos)
+                fail("\"" + std::string(field) + "\" is not a finite number");
+        }
+    }
 
     // A combination of indices that some corner has; those of one position are chained.
     struct Vertex {

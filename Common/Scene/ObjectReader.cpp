@@ -13,8 +13,7 @@ namespace rt::scene {
 
 namespace {
 
-// ---- transforms
-// ------------------------------------------------------------------------------------------------------
+// ---- transforms ----------------------------------------------------------------------------------------------------
 
 Rotate readRotate(const JsonNode& node) {
     node.expectKeys({"axis", "degrees"});
@@ -51,8 +50,7 @@ Transform readTransform(const JsonNode& node) {
     return transform;
 }
 
-// ---- surfaces
-// --------------------------------------------------------------------------------------------------------
+// ---- surfaces ------------------------------------------------------------------------------------------------------
 
 template <typename Surface>
 Surface readSurface(Surface surface, const JsonNode& node, const SceneReferences& references) {
@@ -115,8 +113,7 @@ BoxDesc readBox(const JsonNode& node) {
     return box;
 }
 
-// ---- meshes
-// ----------------------------------------------------------------------------------------------------------
+// ---- meshes --------------------------------------------------------------------------------------------------------
 
 std::vector<glm::uvec3> readTriangles(const JsonNode& node, std::size_t vertexCount) {
     const std::size_t count = node.arraySize();
@@ -169,8 +166,7 @@ MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
     return mesh;
 }
 
-// ---- other objects
-// ---------------------------------------------------------------------------------------------------
+// ---- other objects -------------------------------------------------------------------------------------------------
 
 MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
     node.expectKeys({"type", "boundary", "density", "albedo"});

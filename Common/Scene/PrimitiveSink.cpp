@@ -77,8 +77,7 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
     return static_cast<std::uint32_t>(out_.lights.size() - 1);
 }
 
-// ---- spheres
-// ---------------------------------------------------------------------------------------------------------
+// ---- spheres -------------------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
     const glm::dvec3 motion = object.centerEnd ? *object.centerEnd - object.center : glm::dvec3(0);
@@ -130,8 +129,7 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
     bounds_.add(c + m, r);
 }
 
-// ---- quads
-// -----------------------------------------------------------------------------------------------------------
+// ---- quads ---------------------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const QuadDesc& desc, const Placement& at) {
     if (isExcluded(at.part, !emits(materials_.find(desc.material)))) return;
@@ -186,8 +184,7 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
     for (const glm::dvec3& vertex : {c, c + e, c + f, c + e + f}) bounds_.add(vertex);
 }
 
-// ---- meshes
-// ----------------------------------------------------------------------------------------------------------
+// ---- meshes --------------------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
     if (isExcluded(at.part, !emits(own))) return;
@@ -245,8 +242,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     out_.meshes.push_back(mesh);
 }
 
-// ---- totals
-// ----------------------------------------------------------------------------------------------------------
+// ---- totals --------------------------------------------------------------------------------------------------------
 
 Bounds PrimitiveSink::finishGeometry() {
     shared::Geometry geometry{};

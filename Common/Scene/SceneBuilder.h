@@ -28,8 +28,7 @@ class SceneRandom {
     std::uint32_t count_ = 0;
 };
 
-// ---- camera
-// ----------------------------------------------------------------------------------------------------------
+// ---- camera --------------------------------------------------------------------------------------------------------
 
 inline CameraDesc camera(const glm::dvec3& from, const glm::dvec3& at, double verticalFov) {
     CameraDesc camera;
@@ -44,8 +43,7 @@ inline double defocusAngle(double aperture, double focusDistance) {
     return 2 * std::atan(aperture / (2 * focusDistance)) * (180 / 3.14159265358979323846);
 }
 
-// ---- materials
-// -------------------------------------------------------------------------------------------------------
+// ---- materials -----------------------------------------------------------------------------------------------------
 
 inline MaterialDesc lambertian(ColorOrTexture albedo) {
     MaterialDesc material;
@@ -76,8 +74,7 @@ inline MaterialDesc emitter(const glm::dvec3& radiance, std::optional<Sides> sid
     return material;
 }
 
-// ---- objects
-// ---------------------------------------------------------------------------------------------------------
+// ---- objects -------------------------------------------------------------------------------------------------------
 
 inline SphereDesc sphere(const glm::dvec3& center, double radius, const std::string& material) {
     SphereDesc sphere;

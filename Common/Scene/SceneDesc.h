@@ -31,8 +31,7 @@ struct RenderDefaults {
     bool operator==(const RenderDefaults&) const = default;
 };
 
-// ---- background
-// ------------------------------------------------------------------------------------------------------
+// ---- background ----------------------------------------------------------------------------------------------------
 
 struct ConstantBackground {
     glm::dvec3 color{0, 0, 0};
@@ -52,8 +51,7 @@ struct ImageBackground {
 };
 using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground>;
 
-// ---- appearance
-// ------------------------------------------------------------------------------------------------------
+// ---- appearance ----------------------------------------------------------------------------------------------------
 
 using ColorOrTexture = std::variant<glm::dvec3, std::string>; // a constant, or the name of a texture
 
@@ -100,8 +98,7 @@ struct MaterialDesc {
     bool operator==(const MaterialDesc&) const = default;
 };
 
-// ---- objects
-// ---------------------------------------------------------------------------------------------------------
+// ---- objects -------------------------------------------------------------------------------------------------------
 
 struct Translate {
     glm::dvec3 offset{0, 0, 0};

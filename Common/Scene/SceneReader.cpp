@@ -91,8 +91,7 @@ SceneDesc readScene(const JsonNode& root, const SceneReferences& references) {
 
 } // namespace
 
-// ---- references
-// ------------------------------------------------------------------------------------------------------
+// ---- references ----------------------------------------------------------------------------------------------------
 
 std::string SceneReferences::name(const JsonNode& node, const char* section) const {
     const std::string text = node.string();
@@ -132,8 +131,7 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
     node.failValue("one of " + known);
 }
 
-// ---- interface
-// -------------------------------------------------------------------------------------------------------
+// ---- interface -----------------------------------------------------------------------------------------------------
 
 SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder) {
     const nlohmann::json document = parseJson(text, file);

@@ -13,8 +13,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLineWidth = 120;
 
-// ---- layout
-// ----------------------------------------------------------------------------------------------------------
+// ---- layout --------------------------------------------------------------------------------------------------------
 
 // Whole numbers without their fraction.
 std::string scalar(const Json& value) {
@@ -84,8 +83,7 @@ void write(const Json& value, const std::string& indent, std::string& out) {
     out += '\n' + indent + (value.is_object() ? '}' : ']');
 }
 
-// ---- values
-// ----------------------------------------------------------------------------------------------------------
+// ---- values --------------------------------------------------------------------------------------------------------
 
 Json json(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
@@ -133,8 +131,7 @@ Json json(const Background& background) {
     return out;
 }
 
-// ---- appearance
-// ------------------------------------------------------------------------------------------------------
+// ---- appearance ----------------------------------------------------------------------------------------------------
 
 const char* nameOf(NoiseKind kind) {
     switch (kind) {
@@ -194,8 +191,7 @@ Json json(const MaterialDesc& material) {
     return out;
 }
 
-// ---- objects
-// ---------------------------------------------------------------------------------------------------------
+// ---- objects -------------------------------------------------------------------------------------------------------
 
 Json json(const Transform& transform) {
     struct Step {

@@ -1,0 +1,103 @@
+// Scene files from the command line: every built-in scene survives its export, and every kind of mistake in a file is one
+// line and exit code 3.
+#include "tests/program/Program.h"
+
+namespace rt::test {
+namespace {
+
+class SceneFile : public ProgramTest {
+  protected:
+    // A lit room of one quad, with `objects` and `more` members of the scene added.
+    static std::string scene(const std::string& objects, const std::string& more = "") {
+        return R"({"materials": {"white": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}, "lamp": {"type": "emitter", "emission": [4, 4, 4]}},
+                   "objects": [{"type": "quad", "corner": [-1, 2, -3], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2],
+                                "material": "lamp"})" +
+               (objects.empty() ? "" : ", " + objects) + "]" + more + "}";
+    }
+    Outcome renderFile(const std::string& name, const std::string& content) const {
+        writeFile(name, content);
+        return render({"--scene", name, "--spp", "1"});
+    }
+};
+
+TEST_F(SceneFile, EveryBuiltinSceneSurvivesItsExport) {
+    const auto list = nlohmann::json::parse(cpu({"--list-scenes", "--json"}).out);
+    ASSERT_GE(list.size(), 20u);
+    for (const auto& row : list) {
+        std::string id = row["id"];
+        if (id == "white-spheres" || id == "many-lights") id += ":50";
+        const Arguments common = {"--width", "12", "--height", "8", "--spp", "2"};
+        const Outcome exported = cpu({"--scene", id, "--export-scene", "scene.json"});
+        ASSERT_EQ(exported.exitCode, 0) << id << ": " << exported.err;
+        EXPECT_EQ(exported.out + exported.err, "") << id;
+        const auto picture = [&](const std::string& source) {
+            Arguments all = common;
+            all.insert(all.end(), {"--scene", source});
+            return pixels(all);
+        };
+        EXPECT_TRUE(picture(id) == picture("scene.json")) << id;
+    }
+}
+
+TEST_F(SceneFile, ExportGoesThroughTheSameChecks) {
+    EXPECT_TRUE(failsWith(cpu({"--scene", "nothing", "--export-scene", "a.json"}), 3, "nothing"));
+    EXPECT_TRUE(failsWith(cpu({"--export-scene", "missing/a.json"}), 1, "missing/a.json"));
+    ASSERT_EQ(cpu({"--scene", "cornell-box-lights", "--export-scene", "a.json"}).exitCode, 0);
+    ASSERT_EQ(cpu({"--scene", "a.json", "--export-scene", "b.json"}).exitCode, 0);
+    EXPECT_EQ(bytesOf("a.json"), bytesOf("b.json"));
+}
+
+TEST_F(SceneFile, TheFileDecidesTheAspect) {
+    writeFile("wide.json", scene("", R"(, "render": {"aspect": 2})"));
+    ASSERT_EQ(cpu({"-q", "--scene", "wide.json", "--width", "32", "--spp", "1", "--stats", "s.json"}).exitCode, 0);
+    EXPECT_EQ(jsonOf("s.json")["height"], 16);
+}
+
+TEST_F(SceneFile, Mistakes) {
+    EXPECT_EQ(renderFile("good.json", scene("")).exitCode, 0);
+    const std::pair<const char*, std::string> cases[] = {
+        {"empty", ""},
+        {"truncated", scene("").substr(0, 200)},
+        {"not-json", "P6 32 32 255"},
+        {"array", "[1, 2, 3]"},
+        {"no-objects", "{}"},
+        {"number", scene(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1e999, "material": "white"})")},
+        {"negative-radius", scene(R"({"type": "sphere", "center": [0, 0, 0], "radius": -1, "material": "white"})")},
+        {"wrong-type", scene(R"({"type": "sphere", "center": "origin", "radius": 1, "material": "white"})")},
+        {"two-numbers", scene(R"({"type": "sphere", "center": [0, 0], "radius": 1, "material": "white"})")},
+        {"unknown-key", scene(R"({"type": "sphere", "centre": [0, 0, 0], "radius": 1, "material": "white"})")},
+        {"unknown-shape", scene(R"({"type": "teapot", "material": "white"})")},
+        {"unknown-material", scene(R"({"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "gold"})")},
+        {"zero-area", scene(R"({"type": "quad", "corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [2, 0, 0],
+                                "material": "white"})")},
+        {"empty-mesh", scene(R"({"type": "mesh", "positions": [], "triangles": [], "material": "white"})")},
+        {"index", scene(R"({"type": "mesh", "positions": [0, 0, 0, 1, 0, 0, 0, 1, 0], "triangles": [0, 1, 3],
+                            "material": "white"})")},
+        {"no-such-mesh", scene(R"({"type": "mesh", "file": "missing.obj", "material": "white"})")},
+        {"no-such-image", scene("", R"(, "textures": {"map": {"type": "image", "file": "missing.png"}})")},
+        {"cycle", scene(R"({"type": "instance", "prototype": "a"})",
+                        R"(, "prototypes": {"a": [{"type": "instance", "prototype": "b"}],
+                                            "b": [{"type": "instance", "prototype": "a"}]})")},
+        {"camera", scene("", R"(, "camera": {"look_from": [0, 0, 0], "look_at": [0, 0, 0]})")},
+        {"fov", scene("", R"(, "camera": {"vertical_fov": 180})")},
+    };
+    for (const auto& [name, content] : cases) {
+        const std::string file = name + std::string(".json");
+        EXPECT_TRUE(failsWith(renderFile(file, content), 3, file)) << name;
+    }
+    // Deep nesting must not exhaust the stack.
+    EXPECT_TRUE(failsWith(renderFile("deep.json", std::string(200'000, '[')), 3, "deep.json"));
+}
+
+TEST_F(SceneFile, ObjFiles) {
+    EXPECT_EQ(renderFile("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").exitCode, 0);
+    EXPECT_TRUE(failsWith(renderFile("empty.obj", ""), 3, "empty.obj"));
+    EXPECT_TRUE(failsWith(renderFile("no-faces.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), 3, "no-faces.obj"));
+    EXPECT_TRUE(failsWith(renderFile("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"), 3, "index.obj"));
+    EXPECT_TRUE(failsWith(renderFile("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), 3, "nan.obj:1"));
+    EXPECT_TRUE(failsWith(renderFile("short.obj", "v 0 0 0\nv 1 0\nv 0 1 0\nf 1 2 3\n"), 3, "short.obj:2"));
+    EXPECT_TRUE(failsWith(renderFile("word.obj", "v 0 0 0\r\nv 1 0 0\r\nv 0 one 0\r\nf 1 2 3\r\n"), 3, "word.obj:3"));
+}
+
+}  // namespace
+}  // namespace rt::test
