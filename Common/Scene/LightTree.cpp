@@ -120,7 +120,8 @@ void tryAxis(std::span<const Item> items, const Bounds& centers, int axis, Plane
     if (!(extent > 0)) return;
     const double scale = kBins / extent;
     std::array<Cluster, kBins> bins;
-    for (const Item& item : items) bins[static_cast<std::size_t>(binOf(item.center[axis], low, scale))].add(item.cluster);
+    for (const Item& item : items)
+        bins[static_cast<std::size_t>(binOf(item.center[axis], low, scale))].add(item.cluster);
     std::array<double, kBins> below{};
     Cluster sum;
     for (std::size_t i = 0; i + 1 < kBins; ++i) {

@@ -17,14 +17,14 @@ RT_SHARED_BEGIN
 struct LightContext {
     vec3 position;
     vec3 normal;
-    float total;  // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy;  // the selection in force: kSelect...
+    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy; // the selection in force: kSelect...
 };
 
 struct LightChoice {
-    uint light;         // kNone: nothing to choose
-    float probability;  // > 0 otherwise
-    float u;            // the number that chose, stretched to [0,1) for further use
+    uint light;        // kNone: nothing to choose
+    float probability; // > 0 otherwise
+    float u;           // the number that chose, stretched to [0,1) for further use
 };
 
 // A table that `contribution` does not weigh light by light.
@@ -77,12 +77,10 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
     if (!(total > 0.0f)) return choice;
     float target = u * total;
     uint chosen = 0u;
-    for (uint i = 1u; i < count; i++)
-        chosen += before.weight[i] <= target ? 1u : 0u;
+    for (uint i = 1u; i < count; i++) chosen += before.weight[i] <= target ? 1u : 0u;
     // Lights of no weight share their sum with the light that follows; only those at the end can be met here, by
     // rounding.
-    while (weights.weight[chosen] == 0.0f)
-        chosen--;
+    while (weights.weight[chosen] == 0.0f) chosen--;
     choice.light = chosen;
     choice.probability = weights.weight[chosen] / total;
     choice.u = clamp((target - before.weight[chosen]) / weights.weight[chosen], 0.0f, 0.999999940395355f);

@@ -53,16 +53,15 @@ RT_FN ClusterWeights loadClusterWeights(SceneRef scene, uint node, vec3 position
 
 RT_FN float sumOf(RT_IN(ClusterWeights) w) {
     float total = 0.0f;
-    for (uint i = 0u; i < kLightNodeChildren; i++)
-        total += w.weight[i];
+    for (uint i = 0u; i < kLightNodeChildren; i++) total += w.weight[i];
     return total;
 }
 
 // A light drawn from the tree.
 struct TreeChoice {
-    uint light;        // kNone: the descent ended where no light can contribute
+    uint light; // kNone: the descent ended where no light can contribute
     float probability;
-    float total;       // weight of the root: 0 where no light at all can contribute
+    float total; // weight of the root: 0 where no light at all can contribute
 };
 
 // Uses the numbers one after the other: each is stretched by choices until a thousandth is left of it, then the next
@@ -88,11 +87,9 @@ RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, v
         if (!(total > 0.0f)) return choice;
         float target = u * total;
         uint chosen = 0u;
-        for (uint i = 1u; i < kLightNodeChildren; i++)
-            chosen += before.weight[i] <= target ? 1u : 0u;
+        for (uint i = 1u; i < kLightNodeChildren; i++) chosen += before.weight[i] <= target ? 1u : 0u;
         // As in a short table: only children without weight at the end can be met here.
-        while (w.weight[chosen] == 0.0f)
-            chosen--;
+        while (w.weight[chosen] == 0.0f) chosen--;
         float share = w.weight[chosen] / total;
         choice.probability *= share;
         u = clamp((target - before.weight[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);

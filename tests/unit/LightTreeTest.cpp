@@ -21,9 +21,15 @@ RT_FN uint loadLightPlace(SceneRef table, uint light) {
 // Declared with LightCluster alone: LightTree.h below defines what uses it.
 static LightCluster loadLightCluster(SceneRef table, uint node, uint i) {
     const LightNode& n = table.scene.lightNodes[node];
-    return {vec3(n.centerX[i], n.centerY[i], n.centerZ[i]), n.radius[i],       vec3(n.axisX[i], n.axisY[i], n.axisZ[i]),
-            n.alignment[i],                                 n.spreadCosine[i], n.spreadSine[i],
-            n.facing[i],                                    n.around[i],       n.child[i]};
+    return {vec3(n.centerX[i], n.centerY[i], n.centerZ[i]),
+            n.radius[i],
+            vec3(n.axisX[i], n.axisY[i], n.axisZ[i]),
+            n.alignment[i],
+            n.spreadCosine[i],
+            n.spreadSine[i],
+            n.facing[i],
+            n.around[i],
+            n.child[i]};
 }
 
 } // namespace rt::shared
@@ -83,9 +89,9 @@ double irradianceOf(const Light& light, const dvec3& position, const dvec3& norm
     if (light.kind == kLightSphere) return test::sphereIrradiance(at, light.radius, normal);
     if (light.sides == kSidesFront && glm::dot(dvec3(light.normal), at) > -1e-6) return 0;
     const dvec3 u(light.edgeU), v(light.edgeV);
-    return test::polygonIrradiance(light.kind == kLightQuad ? std::vector{at, at + u, at + u + v, at + v}
-                                                            : std::vector{at, at + u, at + v},
-                                   normal);
+    return test::polygonIrradiance(
+        light.kind == kLightQuad ? std::vector{at, at + u, at + u + v, at + v} : std::vector{at, at + u, at + v},
+        normal);
 }
 
 class LightTree : public testing::TestWithParam<std::uint32_t> {};
@@ -113,7 +119,8 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
         for (std::uint32_t place = s.lightNodes[s.lightPlaces[i] / kLightNodeChildren].parent; place != kNone;
              place = s.lightNodes[place / kLightNodeChildren].parent) {
             const LightCluster c = loadLightCluster({s}, place / kLightNodeChildren, place % kLightNodeChildren);
-            ASSERT_LE(glm::length(dvec3(bound.center) - dvec3(c.center)) + double(bound.radius), double(c.radius) * (1 + 1e-6));
+            ASSERT_LE(glm::length(dvec3(bound.center) - dvec3(c.center)) + double(bound.radius),
+                      double(c.radius) * (1 + 1e-6));
             if (bound.axis == vec3(0) || bound.twoSided > 0) continue;
             ASSERT_GE(glm::dot(dvec3(bound.axis), dvec3(c.axis)), double(c.spreadCosine) - 1e-6);
         }
