@@ -30,9 +30,12 @@ RT_CALL void fillPairs(PairTable& table, const Sampler& first, std::uint32_t dim
 // numbers are those of Random.h, bit for bit.
 class NumberTable {
   public:
-    // For samples first.index .. first.index + count - 1; `needsLight`: whether kPairLight is read at all.
-    NumberTable(const Sampler& first, std::uint32_t count, bool needsLight)
-        : first_(first), tabulated_(first.kind == kSamplerSobol && count >= kWorthwhile), needsLight_(needsLight) {}
+    // For samples first.index .. first.index + count - 1 of a kernel with these features.
+    NumberTable(const Sampler& first, std::uint32_t count, std::uint32_t features)
+        : first_(first),
+          tabulated_(first.kind == kSamplerSobol && count >= kWorthwhile),
+          needsLight_(has(features, kFeatureLights | kFeatureTargets)),
+          needsSelect_(has(features, kFeatureManyLights)) {}
 
     vec2 pixelNumbers(const Sampler& smp) {
         if (!tabulated_) return randomPair(smp, kPairPixel);
@@ -49,6 +52,7 @@ class NumberTable {
         numbers.light = needsLight_ ? v.light.at(lane) : vec2(0.0f);
         numbers.bsdf = v.bsdf.at(lane);
         numbers.choice = v.choice.at(lane);
+        numbers.select = needsSelect_ ? v.select.at(lane) : vec2(0.0f);
         return numbers;
     }
 
@@ -57,18 +61,20 @@ class NumberTable {
     static constexpr std::uint32_t kWorthwhile = 4; // samples
 
     struct Vertex {
-        PairTable light, bsdf, choice;
+        PairTable light, bsdf, choice, select;
     };
 
     void fillVertex(std::uint32_t vertex) {
         if (needsLight_) fillPairs(vertices_[vertex].light, first_, vertexPair(vertex, kPairLight));
         fillPairs(vertices_[vertex].bsdf, first_, vertexPair(vertex, kPairBsdf));
         fillPairs(vertices_[vertex].choice, first_, vertexPair(vertex, kPairChoice));
+        if (needsSelect_) fillPairs(vertices_[vertex].select, first_, vertexPair(vertex, kPairSelect));
     }
 
     const Sampler first_;
     const bool tabulated_;
-    const bool needsLight_;
+    const bool needsLight_;  // whether kPairLight is read at all
+    const bool needsSelect_; // whether kPairSelect is
     std::uint32_t filled_ = 0; // vertices
     PairTable pixel_;
     Vertex vertices_[kVertices];

@@ -32,7 +32,7 @@ template <std::uint32_t kFeatures>
 void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum, KernelCounters& counters) {
     vec3 total(sum[0], sum[1], sum[2]);
     Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
-    NumberTable numbers(smp, task.count, has(kFeatures, kFeatureLights | kFeatureTargets));
+    NumberTable numbers(smp, task.count, kFeatures);
     for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
         PathState path =
             startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
