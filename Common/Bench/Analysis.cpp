@@ -70,7 +70,7 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.secondsBuild = report(&app::EngineReport::accelBuildSeconds);
     row.secondsPipeline = report(&app::EngineReport::pipelineSeconds);
     const double rays = median([](const Run&, const Snapshot& s) { return raysOf(s); });
-    const double samples = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.rays.camera); });
+    const double samples = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.samples); });
     row.samplesPerSecond = ratio(samples, row.seconds);
     row.raysPerSecond = ratio(rays, row.seconds);
     row.raysPerSample = ratio(rays, samples);

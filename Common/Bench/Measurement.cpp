@@ -89,6 +89,7 @@ class Measurer {
     void take(std::optional<double> timeBudget) {
         const image::Film& film = engine_.film();
         done_.spp = film.minSamples();
+        done_.samples = film.totalSamples();
         done_.timeBudget = timeBudget;
         run_.snapshots.push_back(done_);
         run_.snapshots.back().image = film.resolve();

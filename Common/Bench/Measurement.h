@@ -20,6 +20,7 @@ struct Ladder {
 
 struct Snapshot {
     std::uint64_t spp = 0;            // of each pixel; the least of all where time ran out
+    std::uint64_t samples = 0;        // over all pixels
     std::optional<double> timeBudget; // seconds, where that was asked for
     double seconds = 0;               // wall time of sampling alone, warm-up excluded
     double deviceSeconds = 0;         // in kernels

@@ -74,6 +74,7 @@ class SuiteRunner {
     Ladder ladderFor(const Experiment& experiment, const Config& config);
     void loadScene(const std::string& source);
     const image::Reference* provideReference(const Group& group, std::vector<std::vector<Row>>& rows);
+    void keep(const ReferenceRow& row);
     void verifyReference(const std::vector<std::vector<Row>>& rows, ReferenceRow& reference);
 
     const Suite& suite_;
@@ -193,7 +194,7 @@ bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, 
     }
     const Snapshot& last = snapshots.back();
     hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + format("%.3g s", last.seconds) + ", " +
-               format("%.3g M samples/s", static_cast<double>(last.rays.camera) / last.seconds * 1e-6));
+               format("%.3g M samples/s", static_cast<double>(last.samples) / last.seconds * 1e-6));
     if (snapshots.size() < wanted && !stop_)
         notice(what + ": ends at " + std::to_string(last.spp) + " spp, as more would take above " +
                format("%g s", experiment.maxSeconds) + ".");
@@ -254,8 +255,27 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
         notice(group.scene +
                ": the reference's standard error is more than a third of the least error measured; its "
                "variance is subtracted, but intervals are wider.");
-    results_.references.push_back(row);
+    keep(row);
     return &reference_;
+}
+
+// A row for each reference, however many experiments it serves.
+void SuiteRunner::keep(const ReferenceRow& row) {
+    for (ReferenceRow& earlier : results_.references) {
+        if (earlier.scene != row.scene || earlier.width != row.width || earlier.height != row.height ||
+            earlier.maxDepth != row.maxDepth)
+            continue;
+        ReferenceRow both = row;
+        both.seconds = earlier.seconds.value_or(0) + row.seconds.value_or(0);
+        both.cached = earlier.cached;
+        if (std::abs(earlier.verifiedZ.value_or(0)) >= std::abs(row.verifiedZ.value_or(0))) {
+            both.verifiedBy = earlier.verifiedBy;
+            both.verifiedZ = earlier.verifiedZ;
+        }
+        earlier = both;
+        return;
+    }
+    results_.references.push_back(row);
 }
 
 // An engine of another kind finds the same image, or one of the two is wrong.

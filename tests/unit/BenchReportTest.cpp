@@ -1,0 +1,182 @@
+// From results to files and back, and two results side by side.
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "Common/Bench/Chart.h"
+#include "Common/Bench/Comparison.h"
+#include "Common/Bench/Pictures.h"
+#include "Common/Bench/Report.h"
+#include "Common/Bench/ResultsJson.h"
+#include "Common/Core/Error.h"
+
+namespace rt::bench {
+namespace {
+
+Row rowWith(double spp, double seconds, double mse) {
+    Row row;
+    row.experiment = "e";
+    row.config.settings.height = 600;
+    row.device = "a \"processor\", fast";
+    row.kernel = "box";
+    row.spp = spp;
+    row.repeats = 3;
+    row.seconds = seconds;
+    row.secondsMin = 0.99 * seconds;
+    row.secondsMax = 1.01 * seconds;
+    row.samplesPerSecond = 360000 * spp / seconds;
+    row.mse = mse;
+    row.mseCi = 0.03 * mse;
+    row.relmse = 0.1 / 3;
+    row.efficiency = 1 / (mse * seconds);
+    return row;
+}
+
+Results someResults() {
+    Results results;
+    results.suite = "s";
+    results.title = "A title";
+    results.facts = {{"processor", "x"}, {"date", "today"}};
+    results.notices = {"One thing is missing."};
+    results.rows = {rowWith(4, 0.1, 0.3), rowWith(16, 0.4, 0.07)};
+    results.rows[1].config.settings.sampler = app::SamplerKind::Independent;
+    results.rows[1].config.settings.features = shared::kFeatureAll;
+    return results;
+}
+
+std::vector<std::string> fieldsOf(const std::string& line) { // of RFC 4180
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+            fields.back() += line[i++];
+        else if (line[i] == '"')
+            quoted = !quoted;
+        else if (line[i] == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += line[i];
+    }
+    return fields;
+}
+
+TEST(BenchResults, JsonReadsBackToTheSame) {
+    const Results results = someResults();
+    const Results back = parseResults(toJson(results), "r.json");
+    EXPECT_EQ(back.title, results.title);
+    EXPECT_EQ(back.notices, results.notices);
+    ASSERT_EQ(back.rows.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(keyOf(back.rows[i].config), keyOf(results.rows[i].config));
+        EXPECT_EQ(back.rows[i].device, results.rows[i].device);
+        for (const auto& column : rowColumns())
+            EXPECT_EQ(back.rows[i].*column.value, results.rows[i].*column.value) << column.name; // to the last bit
+    }
+    EXPECT_EQ(toJson(back).find("nan"), std::string::npos);
+}
+
+TEST(BenchResults, DamagedJsonIsAnError) {
+    const std::string json = toJson(someResults());
+    EXPECT_THROW(parseResults(json.substr(0, json.size() / 2), "r.json"), InputError);
+    EXPECT_THROW(parseResults("{}", "r.json"), InputError);
+    EXPECT_THROW(parseResults(R"({"version": 7})", "r.json"), InputError);
+    std::string wrong = json;
+    wrong.replace(wrong.find("\"independent\""), 13, "\"halton\"     ");
+    EXPECT_THROW(parseResults(wrong, "r.json"), InputError);
+}
+
+TEST(BenchResults, CsvHasTheSameFigures) {
+    const Results results = someResults();
+    std::istringstream csv(toCsv(results));
+    std::string line;
+    ASSERT_TRUE(std::getline(csv, line));
+    const std::vector<std::string> names = fieldsOf(line);
+    for (const Row& row : results.rows) {
+        ASSERT_TRUE(std::getline(csv, line));
+        const std::vector<std::string> fields = fieldsOf(line);
+        ASSERT_EQ(fields.size(), names.size());
+        const auto field = [&](std::string_view name) {
+            return fields[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+        };
+        for (const Axis& axis : axes()) EXPECT_EQ(field(axis.name), axis.get(row.config));
+        EXPECT_EQ(field("device"), row.device);
+        for (const auto& column : rowColumns()) {
+            const Figure& figure = row.*column.value;
+            EXPECT_EQ(field(column.name).empty(), !figure) << column.name;
+            EXPECT_EQ(figure ? std::stod(field(column.name)) : 0.0, figure.value_or(0)) << column.name;
+        }
+    }
+    EXPECT_FALSE(std::getline(csv, line));
+}
+
+TEST(BenchReport, MarkdownAndHtmlShowTheRows) {
+    const Suite suite =
+        parseSuite(R"({"version": 1, "experiments": [{"name": "e", "title": "The <first>", "spp": 4}]})", "s");
+    const Document document = makeReport(someResults(), suite);
+    const std::string markdown = toMarkdown(document, [](std::size_t) { return "plot.svg"; });
+    EXPECT_NE(markdown.find("## The <first>"), std::string::npos);
+    EXPECT_NE(markdown.find("independent"), std::string::npos);
+    EXPECT_NE(markdown.find("](plot.svg)"), std::string::npos);
+    const std::string html = toHtml(document, "t");
+    EXPECT_NE(html.find("The &lt;first&gt;"), std::string::npos);
+    EXPECT_NE(html.find("<svg"), std::string::npos);
+    for (const char* loading : {"src=\"http", "href=", "url(", "<script", "@import"}) // nothing comes from elsewhere
+        EXPECT_EQ(html.find(loading), std::string::npos) << loading;
+}
+
+TEST(BenchReport, ChartsLeaveOutWhatLogarithmsCannotShow) {
+    Chart chart{"t",
+                "x",
+                "y",
+                {{"a<b", {{1, 0.1, 0}, {0, 1, 0}, {10, -1, 0}, {100, 0.001, 0.0005}}}, {"none", {{1, 0, 0}}}},
+                true};
+    const std::string svg = toSvg(chart);
+    std::size_t dots = 0;
+    for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++dots;
+    EXPECT_EQ(dots, 2u);
+    EXPECT_NE(svg.find("a&lt;b"), std::string::npos);
+    EXPECT_EQ(svg.find("none</text>"), std::string::npos);
+    EXPECT_EQ(svg.find("nan"), std::string::npos);
+    EXPECT_TRUE(toSvg({"t", "x", "y", {}, false}).empty());
+}
+
+// 3 bytes give 4 digits; the first of a PNG file are 89 50 4e 47.
+TEST(BenchReport, PicturesBecomeDataUris) {
+    const std::string uri = dataUri(image::Image(2, 2, 3));
+    EXPECT_EQ(uri.rfind("data:image/png;base64,iVBORw0KGgo", 0), 0u) << uri.substr(0, 60);
+    EXPECT_EQ((uri.size() - 22) % 4, 0u);
+}
+
+TEST(BenchComparison, NoiseIsNoRegression) {
+    Results a = someResults(), b = someResults();
+    b.rows[0].seconds = 1.04 * *a.rows[0].seconds;
+    b.rows[1].mse = 1.02 * *a.rows[1].mse;
+    const Comparison same = compareResults(a, b);
+    ASSERT_EQ(same.changes.size(), 2u);
+    EXPECT_EQ(same.regressions(), 0u);
+}
+
+TEST(BenchComparison, WhatIsBeyondNoiseIs) {
+    Results a = someResults(), b = someResults();
+    b.rows[0].seconds = 1.2 * *a.rows[0].seconds;
+    b.rows[1].mse = 1.2 * *a.rows[1].mse;
+    b.rows.push_back(rowWith(64, 1, 0.01));
+    const Comparison worse = compareResults(a, b);
+    ASSERT_EQ(worse.changes.size(), 2u);
+    EXPECT_TRUE(worse.changes[0].slower);
+    EXPECT_FALSE(worse.changes[0].noisier);
+    EXPECT_TRUE(worse.changes[1].noisier);
+    EXPECT_EQ(worse.regressions(), 2u);
+    EXPECT_EQ(worse.onlyAfter, 1u);
+    const Comparison better = compareResults(b, a);
+    EXPECT_EQ(better.regressions(), 0u);
+    EXPECT_TRUE(better.changes[0].faster);
+    EXPECT_TRUE(better.changes[1].lessNoisy);
+    EXPECT_EQ(better.onlyBefore, 1u);
+    // A machine as restless as this explains the 20 %.
+    b.rows[0].secondsMax = 1.6 * *b.rows[0].seconds;
+    EXPECT_FALSE(compareResults(a, b).changes[0].slower);
+}
+
+} // namespace
+} // namespace rt::bench

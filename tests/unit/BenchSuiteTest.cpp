@@ -1,0 +1,144 @@
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "Common/Bench/BenchOptions.h"
+#include "Common/Bench/Suite.h"
+#include "Common/Core/Error.h"
+
+namespace rt::bench {
+namespace {
+
+std::string suiteWith(const std::string& experiment) {
+    return R"({"version": 1, "experiments": [{"name": "a", )" + experiment + "}]}";
+}
+
+std::string failureOf(const std::string& text) {
+    try {
+        parseSuite(text, "s.json");
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no failure";
+}
+
+TEST(BenchSuite, NamedOnesAreValidAndUseScenesAndAxesThatExist) {
+    std::set<std::string> names;
+    for (const NamedSuite& named : namedSuites()) {
+        const Suite suite = loadSuite(named.name);
+        EXPECT_FALSE(suite.title.empty());
+        for (const Experiment& experiment : suite.experiments)
+            EXPECT_GT(combinations(experiment, 8).size(), 0u) << named.name << " " << experiment.name;
+        names.insert(named.name);
+    }
+    EXPECT_EQ(names, (std::set<std::string>{"full", "lights", "predecessor", "quick", "samplers", "scaling"}));
+}
+
+TEST(BenchSuite, ThePredecessorsTableIsWhole) {
+    const Suite suite = loadSuite("predecessor");
+    const Experiment& table = suite.experiments.front();
+    EXPECT_EQ(table.spp.front(), 10u);
+    EXPECT_EQ(table.spp.back(), 20000u);
+    EXPECT_EQ(table.maxSpp.at("single"), 100u);
+    const Config config = combinations(table, 8).front();
+    EXPECT_EQ(config.settings.width, 600u);
+    EXPECT_EQ(config.settings.maxDepth, 50u);
+    for (const std::uint32_t spp : table.spp) EXPECT_TRUE(suite.published.front().seconds.count(spp)) << spp;
+}
+
+TEST(BenchSuite, CombinationsAreTheProductOfTheAxes) {
+    const Suite suite = parseSuite(suiteWith(R"("scene": ["furnace", "veach-mis"], "sampler": ["sobol", "independent"],
+        "light_sampling": "mixture", "width": 64, "spp": [1, 2])"),
+                                   "s.json");
+    const std::vector<Config> configs = combinations(suite.experiments.front(), 4);
+    ASSERT_EQ(configs.size(), 4u);
+    std::set<std::string> keys;
+    for (const Config& config : configs) {
+        keys.insert(keyOf(config));
+        EXPECT_EQ(config.settings.width, 64u);
+        EXPECT_EQ(config.settings.lightSampling, app::LightSampling::Mixture);
+    }
+    EXPECT_EQ(keys.size(), 4u);
+}
+
+TEST(BenchSuite, CombinationsThatMeanTheSameAreMadeOnce) {
+    const auto count = [](const std::string& text) {
+        return combinations(parseSuite(suiteWith(text), "s.json").experiments.front(), 4).size();
+    };
+    // How lights are chosen is of no meaning where none is sampled.
+    EXPECT_EQ(count(R"("light_sampling": ["mis", "bsdf"], "light_selection": ["power", "uniform"], "spp": 1)"), 3u);
+    // One thread is all that "single" has; 4 are all that there are, 8 are more.
+    EXPECT_EQ(count(R"("engine": ["single", "multi"], "threads": [1, 2, 4, 8, 0], "spp": 1)"), 1u + 3u);
+}
+
+TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
+    const auto expect = [](const std::string& text, const std::string& a, const std::string& b) {
+        const std::string failure = failureOf(text);
+        EXPECT_NE(failure.find("s.json"), std::string::npos) << failure;
+        EXPECT_NE(failure.find(a), std::string::npos) << failure;
+        EXPECT_NE(failure.find(b), std::string::npos) << failure;
+    };
+    expect("{", "1:2", "");
+    expect(R"({"version": 2, "experiments": []})", "/version", "1");
+    expect(R"({"version": 1, "experiments": []})", "/experiments", "empty");
+    expect(R"({"version": 1})", "experiments", "");
+    expect(suiteWith(R"("spp": [4, 2])"), "/experiments/0/spp/1", "ascending");
+    expect(suiteWith(R"("spp": [0])"), "/experiments/0/spp/0", "1 to 2147483647");
+    expect(suiteWith(R"("scene": "furnace")"), "/experiments/0", "spp or seconds");
+    expect(suiteWith(R"("spp": 1, "seconds": 1)"), "/experiments/0", "spp or seconds");
+    expect(suiteWith(R"("spp": 1, "sampler": ["sobol", "halton"])"), "/experiments/0/sampler/1", "stratified");
+    expect(suiteWith(R"("spp": 1, "engine": [])"), "/experiments/0/engine", "empty");
+    expect(suiteWith(R"("spp": 1, "smapler": "sobol")"), "/experiments/0/smapler", "sampler");
+    expect(suiteWith(R"("spp": 1, "repeats": 0)"), "/experiments/0/repeats", "1 to 1000");
+    expect(suiteWith(R"("spp": 1, "baseline": {"colour": 1})"), "/baseline/colour", "axis");
+    expect(suiteWith(R"("spp": 1, "max_spp": {"quantum": 1})"), "/max_spp/quantum", "pipeline");
+    expect(R"({"version": 1, "experiments": [{"name": "a", "spp": 1}, {"name": "a", "spp": 1}]})",
+           "/experiments/1/name", "earlier");
+}
+
+TEST(BenchSuite, UnknownNamesSayWhatThereIs) {
+    try {
+        loadSuite("quik");
+        FAIL();
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("quick"), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(loadSuite("/nowhere/suite.json"), InputError);
+}
+
+TEST(BenchSuite, ScenesAndEnginesOfTheCommandLine) {
+    Suite suite = loadSuite("quick");
+    replaceScenes(suite, {"furnace"});
+    restrictEngines(suite, {"single"});
+    ASSERT_FALSE(suite.experiments.empty());
+    for (const Experiment& experiment : suite.experiments)
+        for (const Config& config : combinations(experiment, 4)) {
+            EXPECT_EQ(config.scene, "furnace");
+            EXPECT_EQ(config.engine, "single");
+        }
+    restrictEngines(suite, {"compute"});
+    EXPECT_TRUE(suite.experiments.empty());
+}
+
+TEST(BenchSuite, CommandLine) {
+    std::ostringstream out;
+    const auto options = parseBenchOptions({"lights", "--scene", "a", "--scene", "b", "--report", "d", "-q"}, out);
+    ASSERT_TRUE(options);
+    EXPECT_EQ(options->suite, "lights");
+    EXPECT_EQ(options->scenes, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(options->report, "d");
+    EXPECT_EQ(parseBenchOptions({"--compare", "A", "B"}, out)->compare, (std::vector<std::string>{"A", "B"}));
+    EXPECT_EQ(parseBenchOptions({"--quick"}, out)->suite, "quick");
+    EXPECT_TRUE(out.str().empty());
+    EXPECT_FALSE(parseBenchOptions({"--help"}, out));
+    EXPECT_NE(out.str().find("--compare"), std::string::npos);
+    const std::vector<std::vector<std::string>> wrong = {{"--compare", "A"},
+                                                         {"--compare", "A", "B", "--report", "c"},
+                                                         {"--nonsense"},
+                                                         {"--engine", "quantum"},
+                                                         {"lights", "--quick"}};
+    for (const auto& arguments : wrong) EXPECT_THROW(parseBenchOptions(arguments, out), UsageError) << arguments[0];
+}
+
+} // namespace
+} // namespace rt::bench

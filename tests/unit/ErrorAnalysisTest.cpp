@@ -1,0 +1,85 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Error.h"
+#include "Common/Image/ErrorAnalysis.h"
+
+namespace rt::image {
+namespace {
+
+constexpr std::uint32_t kSide = 128;
+constexpr float kRadiance = 0.5f;
+
+Image constant(float value) {
+    Image image(kSide, kSide, 3);
+    image.data.assign(image.data.size(), value);
+    return image;
+}
+
+Image noisy(float sigma, std::uint32_t seed, float mean = kRadiance) {
+    Image image = constant(mean);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal(0, sigma);
+    for (float& value : image.data) value += normal(random);
+    return image;
+}
+
+// A tenth of the difference's variance is the reference's own; what is reported is the image's.
+TEST(ErrorAnalysis, TheReferencesVarianceIsSubtracted) {
+    const float sigma = 0.06f, own = 0.02f;
+    const Reference reference{noisy(own, 1), constant(own * own)};
+    const ErrorAnalysis error = analyseError(noisy(sigma, 2), reference);
+    const double expected = sigma * sigma;
+    const double tolerance = 4 * (expected + own * own) * std::sqrt(2.0 / (kSide * kSide * 3));
+    EXPECT_NEAR(error.mse, expected, tolerance);
+    EXPECT_NEAR(error.referenceMse, own * own, 1e-9);
+    EXPECT_NEAR(error.rmse, sigma, 0.01 * sigma);
+    EXPECT_NEAR(error.relmse, expected / (kRadiance * kRadiance + 0.01), 0.05 * expected / 0.26);
+    EXPECT_LT(std::abs(error.biasZ), 4);
+    EXPECT_EQ(error.fireflies, 0u);
+    EXPECT_EQ(error.fireflyShare, 0);
+}
+
+// The spread of the mse over independent images is what mseError says; these have nothing else that varies.
+TEST(ErrorAnalysis, TilesTellHowSureTheMseIs) {
+    const float sigma = 0.1f;
+    const Reference reference{constant(kRadiance), constant(0)};
+    const double mseError = analyseError(noisy(sigma, 3), reference).mseError;
+    const double expected = sigma * sigma * std::sqrt(2.0 / (kSide * kSide * 3));
+    EXPECT_NEAR(mseError, expected, 4 * expected / std::sqrt(2.0 * kSide * kSide / 64));
+}
+
+// A bias of 1.5 % of the noise in each pixel is found: 0.015 sqrt(16384) = 1.9 standard deviations is not yet, 8 % is.
+TEST(ErrorAnalysis, BiasOfTheMeanIsFound) {
+    const float sigma = 0.1f;
+    const Reference reference{constant(kRadiance), constant(0)};
+    EXPECT_LT(std::abs(analyseError(noisy(sigma, 4), reference).biasZ), 4);
+    EXPECT_GT(analyseError(noisy(sigma, 4, kRadiance + 0.08f * sigma), reference).biasZ, 5);
+    EXPECT_LT(analyseError(noisy(sigma, 4, kRadiance - 0.08f * sigma), reference).biasZ, -5);
+}
+
+TEST(ErrorAnalysis, FirefliesAndTheirShare) {
+    const Reference reference{constant(kRadiance), constant(0)};
+    Image image = noisy(0.01f, 5);
+    image.pixel(7, 9)[1] += 20;
+    image.pixel(100, 3)[0] += 20;
+    const ErrorAnalysis error = analyseError(image, reference);
+    EXPECT_EQ(error.fireflies, 2u);
+    const double rest = 1e-4 * kSide * kSide * 3;
+    EXPECT_NEAR(error.fireflyShare, 800 / (800 + rest), 1e-3);
+}
+
+TEST(ErrorAnalysis, AnImageThatIsTheReference) {
+    const Reference reference{noisy(0.1f, 6), constant(0)};
+    const ErrorAnalysis error = analyseError(reference.mean, reference);
+    EXPECT_EQ(error.mse, 0);
+    EXPECT_EQ(error.flip, 0);
+    EXPECT_EQ(error.biasZ, 0);
+    EXPECT_TRUE(std::isinf(error.psnr));
+    EXPECT_THROW(analyseError(Image(3, 3, 3), reference), InputError);
+}
+
+} // namespace
+} // namespace rt::image
