@@ -1,14 +1,19 @@
 // ray-tracing-cpu: flags to options, options to a session, and the engine it drives.
 #include <algorithm>
+#include <cstdint>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "Common/App/Options.h"
 #include "Common/App/Session.h"
+#include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
 #include "RayTracingCPU/CpuEngine.h"
+#ifdef RT_HAS_WINDOW
+#include "Common/Gui/App.h"
+#endif
 
 namespace {
 
@@ -30,13 +35,24 @@ int run(const std::vector<std::string>& arguments) {
     const auto options = rt::app::parseOptions(kProgram, arguments, std::cout);
     if (!options) return 0; // --help, --version
     rt::setUpLog({kProgram, options->quiet, options->verbose, options->logFile});
-    const auto makeEngine = [&options] {
+    const auto makeEngine = [](rt::app::Policy policy, std::uint32_t threads) {
         rt::cpu::CpuEngineOptions engine;
-        engine.policy = enginePolicy(options->policy);
-        engine.threads = options->threads;
+        engine.policy = enginePolicy(policy);
+        engine.threads = threads;
         return rt::cpu::makeCpuEngine(engine);
     };
-    return static_cast<int>(rt::app::runSession(*options, makeEngine));
+    if (options->window) {
+#ifdef RT_HAS_WINDOW
+        return static_cast<int>(rt::gui::runWindow(*options, {[&makeEngine](const rt::app::EngineChoice& choice) {
+                                                                  return makeEngine(choice.policy, choice.threads);
+                                                              },
+                                                              {}}));
+#else
+        throw rt::UsageError(rt::app::kNoWindow);
+#endif
+    }
+    return static_cast<int>(
+        rt::app::runSession(*options, [&] { return makeEngine(options->policy, options->threads); }));
 }
 
 } // namespace

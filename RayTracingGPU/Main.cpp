@@ -1,8 +1,12 @@
 // ray-tracing-gpu: flags to options, options to a session, and the engine it drives.
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/App/Options.h"
@@ -10,6 +14,9 @@
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
 #include "RayTracingGPU/GpuEngine.h"
+#ifdef RT_HAS_WINDOW
+#include "Common/Gui/App.h"
+#endif
 
 namespace {
 
@@ -28,6 +35,72 @@ rt::ExitCode render(const rt::app::Options& options) {
     return code;
 }
 
+#ifdef RT_HAS_WINDOW
+
+// An engine and the device that it alone uses.
+class OwningEngine final : public rt::app::Engine {
+  public:
+    explicit OwningEngine(const rt::vulkan::ContextOptions& options)
+        : context_(options), engine_(rt::gpu::makeGpuEngine(context_)) {}
+
+    bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
+        return engine_->setScene(std::move(scene), cancel);
+    }
+    void reset(const rt::scene::CameraDesc& camera, const rt::app::RenderSettings& settings) override {
+        engine_->reset(camera, settings);
+    }
+    void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
+    rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override {
+        const rt::app::RenderStatus status = engine_->renderSome(budget);
+        reportValidation();
+        return status;
+    }
+    const rt::image::Film& film() override { return engine_->film(); }
+    rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
+        return engine_->renderAovs(request, samples);
+    }
+    rt::app::EngineReport report() const override { return engine_->report(); }
+
+    static std::uint64_t validationMessages() { return allMessages_; }
+
+  private:
+    void reportValidation() {
+        allMessages_ += context_.validationMessages() - ownMessages_;
+        ownMessages_ = context_.validationMessages();
+    }
+
+    inline static std::atomic<std::uint64_t> allMessages_{0};
+    std::uint64_t ownMessages_ = 0;
+    rt::vulkan::VulkanContext context_;
+    std::unique_ptr<rt::app::Engine> engine_;
+};
+
+rt::ExitCode showWindow(const rt::app::Options& options) {
+    rt::gui::WindowProgram program;
+    program.makeEngine = [&options](const rt::app::EngineChoice& choice) {
+        return std::make_unique<OwningEngine>(rt::vulkan::ContextOptions{choice.device, options.validation});
+    };
+    {
+        const rt::vulkan::Instance instance(false);
+        for (const rt::vulkan::DeviceInfo& device : rt::vulkan::findDevices(instance)) {
+            if (device.suitable()) program.devices.push_back(device.name);
+        }
+    }
+    const rt::ExitCode code = rt::gui::runWindow(options, program);
+    if (const std::uint64_t messages = OwningEngine::validationMessages(); messages > 0) {
+        throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");
+    }
+    return code;
+}
+
+#else
+
+rt::ExitCode showWindow(const rt::app::Options&) {
+    throw rt::UsageError(rt::app::kNoWindow);
+}
+
+#endif
+
 int run(const std::vector<std::string>& arguments) {
     const auto options = rt::app::parseOptions(kGpuProgram, arguments, std::cout);
     if (!options) return 0;  // --help, --version
@@ -37,7 +110,7 @@ int run(const std::vector<std::string>& arguments) {
         std::cout << rt::vulkan::describeDevices(rt::vulkan::findDevices(instance));
         return 0;
     }
-    return static_cast<int>(render(*options));
+    return static_cast<int>(options->window ? showWindow(*options) : render(*options));
 }
 
 }  // namespace

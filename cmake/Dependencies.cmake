@@ -56,6 +56,10 @@ rt_require(tinyobjloader libtinyobjloader-dev tinyobjloader PACKAGE tinyobjloade
 # Headers only: Common/Image compiles the parts that it uses, as Debian's library would bring all of them and vcpkg has none.
 rt_require(stb libstb-dev stb HEADER stb_image.h)
 
+# Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.
+rt_dependency(glfw PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)
+rt_dependency(imgui PACKAGE imgui TARGETS imgui::imgui PKGCONFIG imgui)
+
 # libstdc++ runs std::execution::par serially unless oneTBB is there, and libc++ has no policies at all: only Microsoft's
 # library needs nothing.
 add_library(rt-parallel INTERFACE)

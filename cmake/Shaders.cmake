@@ -4,15 +4,23 @@ find_program(RT_SPIRV_VAL spirv-val)
 mark_as_advanced(RT_GLSLANG RT_SPIRV_VAL)
 find_package(Vulkan QUIET)
 set(RT_CAN_BUILD_GPU OFF)
+set(RT_CAN_BUILD_GUI OFF)
 if(Vulkan_FOUND AND RT_GLSLANG)
     set(RT_CAN_BUILD_GPU ON)
+    if(TARGET rt::glfw AND TARGET rt::imgui)
+        set(RT_CAN_BUILD_GUI ON)
+    endif()
 endif()
 
-# What a build with RT_BUILD_GPU=ON cannot do without.
-function(rt_require_gpu)
+# What a build with RT_BUILD_GPU=ON or RT_BUILD_GUI=ON cannot do without.
+function(rt_require_vulkan)
     if(NOT RT_CAN_BUILD_GPU)
-        message(FATAL_ERROR "RT_BUILD_GPU needs Vulkan's headers and loader and glslangValidator. "
+        message(FATAL_ERROR "RT_BUILD_GPU and RT_BUILD_GUI need Vulkan's headers and loader and glslangValidator. "
                             "Debian, Ubuntu: apt install libvulkan-dev glslang-tools spirv-tools.")
+    endif()
+    if(RT_BUILD_GUI AND NOT RT_CAN_BUILD_GUI)
+        message(FATAL_ERROR "RT_BUILD_GUI needs GLFW and Dear ImGui. Debian, Ubuntu: apt install libglfw3-dev "
+                            "libimgui-dev. vcpkg: vcpkg install glfw3 imgui[glfw-binding,vulkan-binding].")
     endif()
 endfunction()
 

@@ -19,12 +19,20 @@ constexpr std::uint32_t kMaxThreads = 4096;
 constexpr std::uint32_t kDefaultWidth = 600;
 constexpr double kMaxAspect = image::kMaxImageSide;
 
+// Flags that a window keeps in its settings.
+constexpr const char* kStoredFlags[] = {
+    "--scene",       "--width",      "--height",         "--aspect",         "--spp",     "--max-depth",
+    "--seed",        "--replicates", "--light-sampling", "--light-selection", "--sampler", "--sphere-light",
+    "--quad-light",  "--triangle-light", "--one-sided-lights", "--russian-roulette", "--exposure", "--tonemap",
+    "--threads",     "--policy",         "--engine"};
+
 // What the flags say before it is made consistent.
 struct Parsed {
     Options options;
     bool listScenes = false;
     bool listDevices = false;
     bool headless = false;
+    bool window = false;
     std::string engine;
 };
 
@@ -128,8 +136,9 @@ void addProcessor(FlagSet& flags, Parsed& parsed) {
                   if (text != "multi" && text != "single") refuseValue(flag, text, "multi or single");
                   parsed.engine = text;
               });
-    for (const char* flag : {"--device", "--list-devices", "--validation"})
-        flags.refuse(flag, "a flag of ray-tracing-gpu");
+    flags.addSwitch("--validation", parsed.options.validation,
+                    "check every Vulkan call of the window; a message makes exit code 1");
+    for (const char* flag : {"--device", "--list-devices"}) flags.refuse(flag, "a flag of ray-tracing-gpu");
 }
 
 void addDevice(FlagSet& flags, Parsed& parsed) {
@@ -155,7 +164,7 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
 void addProgram(FlagSet& flags, Parsed& parsed) {
     flags.group("Program");
     flags.addSwitch("--headless", parsed.headless, "no window; implied by --output, --stats and --time-limit");
-    flags.refuse("--window", "needs a window, which this program does not have; use --headless");
+    flags.addSwitch("--window", parsed.window, "a window, which is the default, even with those");
     flags.addSwitch("--quiet,-q", parsed.options.quiet, "no progress");
     flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
     flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
@@ -171,8 +180,12 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
     if (!options.exportFile.empty()) options.command = Command::ExportScene;
     if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
-    if (!parsed.headless && options.outputs.empty() && !flags.given("--stats") && !flags.given("--time-limit"))
-        throw UsageError("this program has no window: say --output FILE, --stats FILE or --headless");
+    if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");
+    const bool implied = !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit");
+    options.window = parsed.window || (!parsed.headless && !implied);
+    if (!options.window) return;
+    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error", "--aov"})
+        if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
 void checkEstimator(const RenderSettings& settings) {
@@ -217,6 +230,12 @@ void settlePolicy(const FlagSet& flags, Parsed& parsed) {
     if (single) policy = Policy::Seq;
 }
 
+void settleValidation(const Parsed& parsed) {
+    const Options& options = parsed.options;
+    if (options.program != kGpuProgram && options.validation && !options.window)
+        throw UsageError("--validation: a flag of ray-tracing-gpu, or of a window");
+}
+
 std::uint32_t rounded(double pixels, const std::string& what) {
     if (!(pixels < image::kMaxImageSide + 0.5))
         throw UsageError(what + ": makes an image larger than 16384 pixels a side");
@@ -245,6 +264,9 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
     settlePolicy(flags, parsed);
+    settleValidation(parsed);
+    for (const char* flag : kStoredFlags)
+        if (flags.given(flag)) parsed.options.given.insert(flag);
     return parsed.options;
 }
 

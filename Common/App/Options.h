@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,11 +19,13 @@ enum class Command { Render, ListScenes, ExportScene, ListDevices };
 struct SizeRequest {
     std::optional<std::uint32_t> width, height; // pixels
     std::optional<double> aspect;               // width / height
+    bool operator==(const SizeRequest&) const = default;
 };
 
 struct Options {
     std::string program; // "ray-tracing-cpu" or "ray-tracing-gpu"
     Command command = Command::Render;
+    bool window = false;    // of Command::Render
     bool json = false;      // of --list-scenes
     std::string exportFile; // of Command::ExportScene
 
@@ -47,15 +50,20 @@ struct Options {
     std::uint32_t threads = 0; // 0: all
     Policy policy = Policy::Par;
     std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
-    bool validation = false; // of ray-tracing-gpu: check every Vulkan call
+    bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
 
     bool quiet = false;
     bool verbose = false;
     std::string logFile;
 
+    std::set<std::string> given; // flags that something was said about, as "--spp": a window's stored settings give way
+
     bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
 };
 
+// What a program built without a window says when one is asked for.
+inline constexpr const char* kNoWindow =
+    "this program was built without a window: say --output FILE, --stats FILE or --headless";
 inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
 
 // Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is

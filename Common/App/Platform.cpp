@@ -1,7 +1,10 @@
 #include "Common/App/Platform.h"
 
+#include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <string>
+#include <system_error>
 
 #ifdef _WIN32
 #include <io.h>
@@ -9,9 +12,16 @@
 // After windows.h:
 #include <psapi.h>
 #else
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 #endif
+#ifdef __linux__
+#include <sys/syscall.h>
+#endif
+
+#include "Common/Core/Error.h"
 
 namespace rt::app {
 
@@ -24,6 +34,31 @@ std::uint64_t peakResidentBytes() {
 
 bool standardErrorIsTerminal() {
     return _isatty(2) != 0;
+}
+
+std::uint64_t residentBytes() {
+    PROCESS_MEMORY_COUNTERS counters{};
+    return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) ? counters.WorkingSetSize : 0;
+}
+
+void lowerThreadPriority() {
+    SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_BELOW_NORMAL);
+}
+
+FileLock::FileLock(const std::filesystem::path& file) {
+    const HANDLE handle = CreateFileW(file.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE,
+                                      nullptr, OPEN_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (handle == INVALID_HANDLE_VALUE) throw RenderError(file.string() + ": cannot be opened");
+    handle_ = reinterpret_cast<std::intptr_t>(handle);
+    OVERLAPPED start{};
+    if (!LockFileEx(handle, LOCKFILE_EXCLUSIVE_LOCK, 0, MAXDWORD, MAXDWORD, &start)) {
+        CloseHandle(handle);
+        throw RenderError(file.string() + ": cannot be locked");
+    }
+}
+
+FileLock::~FileLock() {
+    CloseHandle(reinterpret_cast<HANDLE>(handle_));
 }
 
 #else
@@ -40,6 +75,39 @@ std::uint64_t peakResidentBytes() {
 
 bool standardErrorIsTerminal() {
     return isatty(STDERR_FILENO) != 0;
+}
+
+std::uint64_t residentBytes() {
+    std::ifstream statm("/proc/self/statm"); // Linux only; elsewhere it does not exist
+    std::uint64_t total = 0, resident = 0;
+    return statm >> total >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+void lowerThreadPriority() {
+#ifdef __linux__
+    // Linux gives each thread a niceness of its own, and new threads that of the one that starts them.
+    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 5);
+#endif
+}
+
+FileLock::FileLock(const std::filesystem::path& file) {
+    const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    const auto fail = [&file](const char* what) {
+        throw RenderError(file.string() + ": " + what + ": " + std::generic_category().message(errno));
+    };
+    if (descriptor < 0) fail("cannot be opened");
+    int result = 0;
+    do result = flock(descriptor, LOCK_EX);
+    while (result != 0 && errno == EINTR);
+    if (result != 0) {
+        close(descriptor);
+        fail("cannot be locked");
+    }
+    handle_ = descriptor;
+}
+
+FileLock::~FileLock() {
+    close(static_cast<int>(handle_));
 }
 
 #endif

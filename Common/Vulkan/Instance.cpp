@@ -45,7 +45,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<std::uint64_t>& cou
 
 }  // namespace
 
-Instance::Instance(bool validation) {
+Instance::Instance(bool validation, std::vector<const char*> extensions) {
     if (validation && !hasValidationLayer()) {
         throw RenderError(std::string("--validation needs the layer ") + kValidationLayer +
                           "; Debian and Ubuntu: apt install vulkan-validationlayers");
@@ -62,14 +62,14 @@ Instance::Instance(bool validation) {
     VkValidationFeaturesEXT checks{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT, &messenger};
     checks.enabledValidationFeatureCount = static_cast<std::uint32_t>(enabled.size());
     checks.pEnabledValidationFeatures = enabled.data();
-    const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
     if (validation) {
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
         info.pNext = &checks;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kValidationLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw NoDeviceError("no Vulkan driver is installed; Mesa's software driver needs version 25.0 or newer "

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 #include <vulkan/vulkan.h>
 
@@ -13,7 +14,8 @@ class Instance {
   public:
     // With validation the Khronos validation layer checks every call, synchronization included; its messages are logged and
     // counted. Throws NoDeviceError where there is no driver at all, RenderError where the layer is not installed.
-    explicit Instance(bool validation);
+    // `extensions` are enabled besides, such as those of a window system.
+    explicit Instance(bool validation, std::vector<const char*> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;

@@ -86,6 +86,8 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     const std::string err = folder_.string() + ".err";
     std::string command =
         kEnterFolder + quoted(folder_.string()) + " && " + assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
+    // No window opens by mistake.
+    command += assignment("DISPLAY", "") + assignment("WAYLAND_DISPLAY", "");
     for (const auto& [name, value] : environment) command += assignment(name, value);
     command += quoted(programPath(program));
     for (const std::string& argument : arguments) command += " " + quoted(argument);

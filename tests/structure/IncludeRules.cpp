@@ -25,7 +25,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Bench", {"Common/App"}},
     {"Common/Tools", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
-    {"Common/Gui", {"Common/App", "Common/Vulkan"}},
+    {"Common/Gui", {"Common/App", "Common/Vulkan", "Shaders"}},
     {"RayTracingCPU", {"Common/App", "Common/Accel"}},
     {"RayTracingGPU", {"Common/App", "Common/Accel", "Common/Vulkan", "Shaders"}},
     {"Shaders", {"Common/Shared"}},

@@ -2,6 +2,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <set>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -210,16 +212,36 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
     EXPECT_NE(error({"--spp"}), "no error");  // the value is missing: --headless is taken for it
 }
 
+TEST_F(OptionsTest, AWindowIsTheDefaultUnlessAFileOrALimitIsAskedFor) {
+    const auto window = [](std::vector<std::string> arguments) {
+        return parseOptions("ray-tracing-cpu", std::move(arguments), std::cout).value().window;
+    };
+    EXPECT_TRUE(window({}));
+    EXPECT_TRUE(window({"--spp", "10"}));
+    EXPECT_TRUE(window({"--validation"}));
+    EXPECT_FALSE(window({"--headless"}));
+    EXPECT_FALSE(window({"-o", "a.png"}));
+    EXPECT_FALSE(window({"--stats", "-"}));
+    EXPECT_FALSE(window({"--time-limit", "1"}));
+    EXPECT_TRUE(window({"-o", "a.png", "--window"}));
+    EXPECT_TRUE(window({"--time-limit", "1", "--window"}));
+    EXPECT_THROW(window({"--resume", "a.rtc"}), UsageError);
+    EXPECT_THROW(window({"--target-error", "1", "--window"}), UsageError);
+}
+
+TEST_F(OptionsTest, TellsWhichSettingsWereGiven) {
+    const Options options = parseOptions("ray-tracing-cpu", {"--spp", "100", "--scene", "veach-mis"}, std::cout).value();
+    EXPECT_EQ(options.given, (std::set<std::string>{"--spp", "--scene"}));
+}
+
 TEST_F(OptionsTest, FlagsThatMakeNoSenseSaySo) {
     EXPECT_EQ(error({"--device", "0"}), "--device: a flag of ray-tracing-gpu");
     EXPECT_EQ(error({"--list-devices"}), "--list-devices: a flag of ray-tracing-gpu");
-    EXPECT_EQ(error({"--validation"}), "--validation: a flag of ray-tracing-gpu");
-    EXPECT_EQ(error({"--window"}), "--window: needs a window, which this program does not have; use --headless");
+    EXPECT_EQ(error({"--validation"}), "--validation: a flag of ray-tracing-gpu, or of a window");
+    EXPECT_EQ(error({"--window"}), "--window: contradicts --headless");
     EXPECT_EQ(error({"--engine", "compute"}), "--engine compute: must be multi or single");
     EXPECT_EQ(error({"--sphere-light", "projected"}),
               "--sphere-light projected: not available yet; must be auto, cone or area");
-    EXPECT_THROW(read({}), UsageError);
-    EXPECT_THROW(read({"--spp", "3"}), UsageError);
     for (const auto& implied :
          std::vector<std::vector<std::string>>{{"-o", "a.png"}, {"--stats", "-"}, {"--time-limit", "1"}})
         EXPECT_TRUE(read(implied).has_value()) << implied[0];

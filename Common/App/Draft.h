@@ -1,0 +1,16 @@
+// Pictures of low resolution, shown until there are samples.
+#pragma once
+#include <cstdint>
+
+#include "Common/Image/Film.h"
+#include "Common/Image/Image.h"
+
+namespace rt::app {
+
+// Bilinear.
+image::Image enlarge(const image::Image& image, std::uint32_t width, std::uint32_t height);
+
+// Replaces the pixels of tiles that have no samples yet.
+void fillFromDraft(image::Image& picture, const image::Film& film, const image::Image& draft);
+
+} // namespace rt::app

@@ -1,0 +1,207 @@
+// A render that a window watches and steers. The engine lives on a worker thread; the window posts what it wants and reads
+// what there is, and neither waits for the other.
+#pragma once
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "Common/App/Engine.h"
+#include "Common/App/Names.h"
+#include "Common/App/Options.h"
+#include "Common/App/RunHistory.h"
+#include "Common/App/SceneLoader.h"
+#include "Common/App/Settings.h"
+#include "Common/App/Statistics.h"
+#include "Common/App/Stopwatch.h"
+
+namespace rt::app {
+
+// Which engine on what; a change makes another one.
+struct EngineChoice {
+    std::string kind;   // of ray-tracing-gpu: "auto", "pipeline", "compute"
+    std::string device; // of ray-tracing-gpu, as --device takes it
+    Policy policy = Policy::Par;
+    std::uint32_t threads = 0;
+    bool operator==(const EngineChoice&) const = default;
+};
+using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
+
+// What is to be rendered and how; a change starts the film anew.
+struct RenderRequest {
+    RenderSettings settings; // width and height follow from size and scene
+    SizeRequest size;
+    bool oneSidedLights = true;
+    bool accumulate = true;               // false: every frame is an image of its own, with other random numbers
+    std::uint32_t samplesPerFrame = 25;   // of a frame that is not accumulated
+    bool loop = false;                    // begin again when done, with the next seed
+    std::optional<double> timeLimit;      // seconds of sampling
+    bool operator==(const RenderRequest&) const = default;
+};
+
+enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
+
+// What is shown: linear radiance of the whole image.
+struct Picture {
+    std::shared_ptr<const image::Image> image;
+    std::uint64_t serial = 0; // grows with each new picture
+    std::uint64_t spp = 0;    // of the pixel with the fewest samples; 0: partly a draft of lower resolution
+};
+
+struct ErrorPoint {
+    double seconds = 0; // of sampling
+    double spp = 0;
+    double relmse = 0; // against the reference
+};
+
+// The last render that ended.
+struct LastRun {
+    Seconds seconds;
+    double accelBuild = 0;
+    double pipeline = 0;
+    std::uint64_t spp = 0;
+};
+
+// All that the window shows of the session, copied at one moment.
+struct SessionState {
+    Activity activity = Activity::Preparing;
+    std::string stage;       // what keeps the user waiting; empty: nothing
+    double stageSeconds = 0; // how long it has
+    std::string error;       // of the last request that failed
+    std::uint64_t errorSerial = 0;
+    std::string message; // what was last written
+    std::uint64_t messageSerial = 0;
+    std::exception_ptr fatal; // nothing can be rendered: no engine, or no scene ever
+
+    std::uint64_t sceneSerial = 0; // grows with each scene; 0: none yet
+    std::string source;            // of the scene, as it was asked for
+    std::shared_ptr<const scene::CompiledScene> scene;
+
+    RenderSettings settings; // of the film
+    Picture picture;
+    RenderStatus status;
+    double renderSeconds = 0;
+    Seconds seconds;
+    EngineReport report;
+    std::optional<LastRun> lastRun;
+    std::uint64_t historySerial = 0; // grows when a run is added to the history
+};
+
+struct SaveRequest {
+    std::vector<std::string> files; // the extension decides the format
+    float exposure = 0;
+    Tonemap tonemap = Tonemap::None;
+};
+
+class InteractiveSession {
+  public:
+    struct Setup {
+        std::string program;
+        EngineMaker makeEngine;
+        EngineChoice engine;
+        RenderRequest request;
+        SceneRequest scene;
+        double sliceSeconds = 0.03;     // of one call of the engine
+        RunHistory* history = nullptr;  // gets the runs that end; may be none
+        std::function<void()> onChange; // called on other threads when there is something new to show
+    };
+    explicit InteractiveSession(Setup setup);
+    ~InteractiveSession(); // stops within 100 ms, or when a scene that is being loaded is ready
+    InteractiveSession(const InteractiveSession&) = delete;
+    InteractiveSession& operator=(const InteractiveSession&) = delete;
+
+    // Requests. None of them waits; the last of a kind counts.
+    void open(const std::string& source);
+    void change(const RenderRequest& request);
+    void choose(const EngineChoice& engine);
+    void moveCamera(const scene::CameraDesc& camera, std::uint64_t sceneSerial); // ignored if the scene is another by now
+    void render(); // from the beginning when ended, else goes on
+    void pause();
+    void stop();
+    void reset(); // begins anew
+    void save(SaveRequest request);
+
+    SessionState state() const;
+
+  private:
+    enum class Command { Render, Pause, Stop, Reset };
+    struct Requests {
+        bool quit = false;
+        std::optional<EngineChoice> engine;
+        std::optional<RenderRequest> request;
+        std::optional<LoadedScene> scene;
+        std::optional<std::pair<std::uint64_t, scene::CameraDesc>> camera;
+        std::optional<Command> command;
+        std::vector<SaveRequest> saves;
+        bool any() const { return quit || engine || request || scene || camera || command || !saves.empty(); }
+    };
+
+    template <class Change>
+    void post(bool interrupt, Change change);
+    template <class Change>
+    void update(Change change);
+    void setStage(const std::string& stage);
+
+    // On the worker thread.
+    void work();
+    Requests take();
+    void apply(Requests requests);
+    void makeEngine();
+    void adopt(LoadedScene loaded);
+    void obey(Command command);
+    void fail(const std::exception_ptr& failure, bool fatal);
+    bool isActive() const { return activity_ == Activity::Rendering; }
+    void setActivity(Activity activity);
+    void startFilm();
+    void renderDraft(const RenderSettings& settings);
+    void renderSlice();
+    void finish(StopReason reason);
+    void publish();
+    void write(const SaveRequest& request);
+
+    Setup setup_;
+
+    mutable std::mutex mutex_; // guards what follows
+    std::condition_variable wake_;
+    Requests requests_;
+    SceneRequest wantedScene_;
+    bool oneSidedLights_ = true;
+    SessionState state_;
+    Stopwatch stageWatch_;
+    std::atomic<bool> cancelRender_{false};
+    std::atomic<bool> cancelBuild_{false};
+
+    // Of the worker alone.
+    EngineChoice choice_;
+    std::unique_ptr<Engine> engine_;
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    std::uint64_t sceneSerial_ = 0;
+    scene::CameraDesc camera_;
+    RenderRequest request_;
+    RenderSettings settings_; // of the film
+    Activity activity_ = Activity::Preparing;
+    bool filmIsStale_ = true;
+    bool filmIsNew_ = true; // for this scene and engine
+    std::uint32_t round_ = 0; // films since the last change: added to the seed
+    RenderStatus status_;
+    double renderSeconds_ = 0;
+    double loadSeconds_ = 0;
+    double samplesPerSecond_ = 2e5; // for the size of drafts; a cautious guess at first
+    image::Image draft_;
+    Stopwatch sinceStart_;
+    Stopwatch sincePublished_;
+    double publishSeconds_ = 0;
+
+    SceneLoader loader_; // last: its thread posts to the worker's members
+    std::thread worker_;
+};
+
+} // namespace rt::app

@@ -1,0 +1,59 @@
+// The runs of both programs on this machine, in one file that both read and append to.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rt::app {
+
+// One render. Figures that are not known are 0.
+struct RunRecord {
+    std::string time; // UTC, "2026-01-31T12:00:00Z"
+    std::string app;  // "ray-tracing-cpu"
+    std::string engine, device, scene;
+    std::string lightSampling, sampler;
+    std::uint32_t width = 0, height = 0, maxDepth = 0, threads = 0;
+    std::uint64_t spp = 0; // samples that every pixel has
+    double loadSeconds = 0, buildSeconds = 0, pipelineSeconds = 0, renderSeconds = 0;
+    double samplesPerSecond = 0, raysPerSecond = 0;
+    double relmse = 0;
+    bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
+    struct Point {
+        double seconds = 0, relmse = 0;
+        bool operator==(const Point&) const = default;
+    };
+    std::vector<Point> curve; // error against time, with a reference
+    bool operator==(const RunRecord&) const = default;
+
+    double efficiency() const { return relmse > 0 && renderSeconds > 0 ? 1 / (relmse * renderSeconds) : 0; }
+};
+
+// history.jsonl: a JSON object with "version" a line. Lines that are damaged or of a later version are kept but not shown.
+class RunHistory {
+  public:
+    static constexpr std::size_t kMostLines = 10'000; // kept in the file
+
+    // An empty path: nothing is kept from one program to the next.
+    explicit RunHistory(std::filesystem::path file) : file_(std::move(file)) {}
+
+    // Under a lock that both programs respect. Throws RenderError. The oldest lines go when there are too many.
+    void append(const RunRecord& record);
+    // The records of the file, oldest first; read again only when the file has changed.
+    const std::vector<RunRecord>& records();
+
+    static std::filesystem::path userFile(); // empty where there is no place for it
+
+  private:
+    std::filesystem::path file_;
+    std::vector<RunRecord> records_;
+    std::filesystem::file_time_type readTime_{};
+    std::uintmax_t readSize_ = 0;
+    bool wasRead_ = false;
+};
+
+std::string toJsonLine(const RunRecord& record); // without the line's end
+std::string toCsv(const std::vector<RunRecord>& records);
+std::string utcNow();
+
+} // namespace rt::app

@@ -1,0 +1,75 @@
+#include "Common/App/SceneLoader.h"
+
+#include <utility>
+
+#include "Common/App/Platform.h"
+#include "Common/App/SceneSource.h"
+#include "Common/App/Stopwatch.h"
+
+namespace rt::app {
+namespace {
+
+LoadedScene load(const SceneRequest& request) {
+    LoadedScene result;
+    result.request = request;
+    const Stopwatch watch;
+    try {
+        result.scene = compile(loadScene(request.source), request.oneSidedLights);
+    } catch (...) {
+        result.failure = std::current_exception();
+    }
+    result.seconds = watch.seconds();
+    return result;
+}
+
+} // namespace
+
+SceneLoader::SceneLoader(std::function<void(LoadedScene)> onLoaded)
+    : onLoaded_(std::move(onLoaded)), thread_([this] { work(); }) {}
+
+SceneLoader::~SceneLoader() {
+    {
+        const std::scoped_lock lock(mutex_);
+        quit_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void SceneLoader::request(SceneRequest request) {
+    {
+        const std::scoped_lock lock(mutex_);
+        next_ = std::move(request);
+    }
+    wake_.notify_one();
+}
+
+std::optional<std::string> SceneLoader::busyWith() const {
+    const std::scoped_lock lock(mutex_);
+    if (next_) return next_->source;
+    if (current_) return current_->source;
+    return std::nullopt;
+}
+
+void SceneLoader::work() {
+    lowerThreadPriority();
+    std::unique_lock lock(mutex_);
+    while (true) {
+        wake_.wait(lock, [this] { return quit_ || next_; });
+        if (quit_) return;
+        current_ = std::exchange(next_, std::nullopt);
+        const SceneRequest request = *current_;
+        lock.unlock();
+        LoadedScene loaded = load(request);
+        lock.lock();
+        const bool wanted = !quit_ && !next_;
+        if (wanted) {
+            lock.unlock();
+            onLoaded_(std::move(loaded));
+            lock.lock();
+        }
+        current_.reset();
+    }
+}
+
+} // namespace rt::app

@@ -1,0 +1,69 @@
+// The device that draws the window: any Vulkan device that can, whether or not it traces rays. Engines have their own.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "Common/Gui/Window.h"
+#include "Common/Vulkan/Handle.h"
+#include "Common/Vulkan/Instance.h"
+
+namespace rt::gui {
+
+class GraphicsDevice {
+  public:
+    // Prefers the device with `preferred` in its name. Throws NoDeviceError where none can draw to the window.
+    GraphicsDevice(const Window& window, bool validation, const std::string& preferred);
+    ~GraphicsDevice();
+    GraphicsDevice(const GraphicsDevice&) = delete;
+    GraphicsDevice& operator=(const GraphicsDevice&) = delete;
+
+    VkInstance instance() const { return instance_.get(); }
+    VkPhysicalDevice physicalDevice() const { return physical_; }
+    VkDevice device() const { return device_; }
+    VkQueue queue() const { return queue_; }
+    std::uint32_t queueFamily() const { return queueFamily_; }
+    VkSurfaceKHR surface() const { return surface_; }
+    const std::string& name() const { return name_; }
+    VkDeviceSize maxStorageBytes() const { return maxStorageBytes_; }
+    std::uint64_t validationMessages() const { return instance_.validationMessages(); }
+
+    void renewSurface(const Window& window); // after it was lost; nothing may use it any more
+    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
+    // Runs commands and waits for them.
+    void run(const std::function<void(VkCommandBuffer)>& record);
+
+  private:
+    void choose(const std::string& preferred);
+    void createDevice();
+
+    vulkan::Instance instance_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    std::string name_;
+    VkDeviceSize maxStorageBytes_ = 0;
+    VkPhysicalDeviceMemoryProperties memory_{};
+    std::uint32_t queueFamily_ = 0;
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE;
+};
+
+// A buffer with memory of its own; mapped if the host can see it.
+class GraphicsBuffer {
+  public:
+    GraphicsBuffer() = default;
+    GraphicsBuffer(const GraphicsDevice& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags memory);
+    VkBuffer get() const { return buffer_.get(); }
+    VkDeviceSize bytes() const { return bytes_; }
+    void* mapped() const { return mapped_; }
+
+  private:
+    vulkan::Handle<VkDeviceMemory> memory_;
+    vulkan::Handle<VkBuffer> buffer_;
+    VkDeviceSize bytes_ = 0;
+    void* mapped_ = nullptr;
+};
+
+} // namespace rt::gui

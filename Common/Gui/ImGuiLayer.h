@@ -1,0 +1,79 @@
+// Dear ImGui in a window. What differs between its versions is in the source of this file and nowhere else.
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+#include <vulkan/vulkan.h>
+
+#include "Common/App/GuiSettings.h"
+#include "Common/Gui/GraphicsDevice.h"
+#include "Common/Gui/Window.h"
+
+namespace rt::gui {
+
+struct FontFile {
+    std::string name;
+    std::filesystem::path file; // empty: ImGui's own, of fixed size
+};
+// Those that this machine has; ImGui's own comes last.
+const std::vector<FontFile>& availableFonts();
+
+struct Style {
+    app::ColorMode colorMode = app::ColorMode::Dark;
+    float scale = 1;
+    std::string font;
+    bool operator==(const Style&) const = default;
+};
+
+// A part of the interface. Docked where ImGui docks, else at a fixed place.
+struct Panel {
+    enum class Place { Side, Bottom };
+    const char* title;
+    Place place;
+    bool initiallyOpen;
+    std::function<void()> draw;
+};
+
+struct Rect {
+    float x = 0, y = 0, width = 0, height = 0;
+    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
+};
+
+class ImGuiLayer {
+  public:
+    // `layoutFile` keeps the layout; empty: nowhere.
+    ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPass renderPass, std::uint32_t imageCount,
+               const std::filesystem::path& layoutFile);
+    ~ImGuiLayer();
+    ImGuiLayer(const ImGuiLayer&) = delete;
+    ImGuiLayer& operator=(const ImGuiLayer&) = delete;
+
+    void setStyle(const Style& style); // takes effect at the next beginFrame; costs nothing when it is the same
+    float scale() const { return style_.scale; }
+    void beginFrame();
+    // Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the
+    // side, `status` in a line at the bottom.
+    Rect layOut(std::span<const Panel> panels, const std::function<void()>& header, const std::function<void()>& status);
+    void endFrame();
+    void draw(VkCommandBuffer commands); // what endFrame left
+
+  private:
+    void startRenderer();
+    void applyStyle();
+
+    GraphicsDevice& device_;
+    VkRenderPass renderPass_;
+    std::uint32_t imageCount_;
+    vulkan::Handle<VkDescriptorPool> descriptorPool_;
+    std::string layoutFile_; // ImGui keeps a pointer to it
+    Style style_;
+    Style wanted_;
+    bool started_ = false;
+};
+
+} // namespace rt::gui

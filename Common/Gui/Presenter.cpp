@@ -1,0 +1,287 @@
+#include "Common/Gui/Presenter.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "Common/Vulkan/Check.h"
+
+namespace rt::gui {
+namespace {
+
+using vulkan::check;
+using vulkan::Handle;
+
+constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
+
+Handle<VkSemaphore> createSemaphore(VkDevice device) {
+    const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    check(vkCreateSemaphore(device, &info, nullptr, &semaphore), "Creating a semaphore");
+    return {device, semaphore, vkDestroySemaphore};
+}
+
+} // namespace
+
+Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(device), window_(window) {
+    chooseFormat();
+    createRenderPass();
+    createFrames();
+    film_ = std::make_unique<FilmPass>(device, renderPass_.get());
+    provideSwapchain();
+}
+
+Presenter::~Presenter() {
+    vkDeviceWaitIdle(device_.device());
+}
+
+// Bytes that are shown as they are: the shader and the interface encode sRGB themselves.
+void Presenter::chooseFormat() {
+    std::uint32_t count = 0;
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physicalDevice(), device_.surface(), &count, nullptr),
+          "Asking for the window's formats");
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device_.physicalDevice(), device_.surface(), &count, formats.data()),
+          "Asking for the window's formats");
+    if (formats.empty()) throw RenderError(device_.name() + " has no format for the window");
+    format_ = formats.front();
+    for (const VkFormat wanted : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_UNORM}) { // the last one found counts
+        for (const VkSurfaceFormatKHR& format : formats) {
+            if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) format_ = format;
+        }
+    }
+}
+
+void Presenter::createRenderPass() {
+    VkAttachmentDescription attachment{};
+    attachment.format = format_.format;
+    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the picture and its surroundings cover everything
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    attachment.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    // The layout changes only once the swapchain has given the image.
+    VkSubpassDependency dependency{};
+    dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
+    dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    dependency.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    dependency.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT;
+    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
+    info.attachmentCount = 1;
+    info.pAttachments = &attachment;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    info.dependencyCount = 1;
+    info.pDependencies = &dependency;
+    VkRenderPass renderPass = VK_NULL_HANDLE;
+    check(vkCreateRenderPass(device_.device(), &info, nullptr, &renderPass), "Creating a render pass");
+    renderPass_ = {device_.device(), renderPass, vkDestroyRenderPass};
+}
+
+void Presenter::createFrames() {
+    const VkDevice device = device_.device();
+    for (Frame& frame : frames_) {
+        VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+        poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
+        poolInfo.queueFamilyIndex = device_.queueFamily();
+        VkCommandPool pool = VK_NULL_HANDLE;
+        check(vkCreateCommandPool(device, &poolInfo, nullptr, &pool), "Creating a command pool");
+        frame.pool = {device, pool, vkDestroyCommandPool};
+        VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+        allocation.commandPool = pool;
+        allocation.commandBufferCount = 1;
+        check(vkAllocateCommandBuffers(device, &allocation, &frame.commands), "Creating a command buffer");
+        VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+        fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+        VkFence fence = VK_NULL_HANDLE;
+        check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
+        frame.done = {device, fence, vkDestroyFence};
+        frame.acquired = createSemaphore(device);
+    }
+}
+
+void Presenter::dropSwapchain() {
+    vkDeviceWaitIdle(device_.device());
+    images_.clear();
+    swapchain_ = {};
+    // An image may have been acquired without being drawn to: its semaphore cannot be used again.
+    for (Frame& frame : frames_) frame.acquired = createSemaphore(device_.device());
+}
+
+void Presenter::createImage(VkImage image, SwapImage& to) {
+    const VkDevice device = device_.device();
+    to.image = image;
+    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    viewInfo.image = image;
+    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    viewInfo.format = format_.format;
+    viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    check(vkCreateImageView(device, &viewInfo, nullptr, &view), "Drawing to the window");
+    to.view = {device, view, vkDestroyImageView};
+    VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    framebufferInfo.renderPass = renderPass_.get();
+    framebufferInfo.attachmentCount = 1;
+    framebufferInfo.pAttachments = &view;
+    framebufferInfo.width = extent_.width;
+    framebufferInfo.height = extent_.height;
+    framebufferInfo.layers = 1;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    check(vkCreateFramebuffer(device, &framebufferInfo, nullptr, &framebuffer), "Drawing to the window");
+    to.framebuffer = {device, framebuffer, vkDestroyFramebuffer};
+    to.rendered = createSemaphore(device);
+}
+
+// False where the window has no area.
+bool Presenter::provideSwapchain() {
+    const auto [width, height] = window_.framebufferSize();
+    if (width <= 0 || height <= 0) return false;
+    if (surfaceLost_) {
+        dropSwapchain();
+        device_.renewSurface(window_);
+        surfaceLost_ = false;
+    }
+    const bool fits = swapchain_ && extent_.width == static_cast<std::uint32_t>(width) &&
+                      extent_.height == static_cast<std::uint32_t>(height);
+    if (fits) return true;
+
+    VkSurfaceCapabilitiesKHR able{};
+    const VkResult asked = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physicalDevice(), device_.surface(), &able);
+    if (asked == VK_ERROR_SURFACE_LOST_KHR) {
+        surfaceLost_ = true;
+        return false;
+    }
+    check(asked, "Asking for the window's size");
+    VkExtent2D extent = able.currentExtent;
+    if (extent.width == std::numeric_limits<std::uint32_t>::max()) {
+        extent.width = std::clamp(static_cast<std::uint32_t>(width), able.minImageExtent.width, able.maxImageExtent.width);
+        extent.height =
+            std::clamp(static_cast<std::uint32_t>(height), able.minImageExtent.height, able.maxImageExtent.height);
+    }
+    if (extent.width == 0 || extent.height == 0) return false;
+    // The window system may be ahead of or behind the window library: what the swapchain has is what counts.
+    if (swapchain_ && extent_.width == extent.width && extent_.height == extent.height) return true;
+    dropSwapchain();
+
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = device_.surface();
+    info.minImageCount = std::max(able.minImageCount, 2u);
+    if (able.maxImageCount > 0) info.minImageCount = std::min(info.minImageCount, able.maxImageCount);
+    info.imageFormat = format_.format;
+    info.imageColorSpace = format_.colorSpace;
+    info.imageExtent = extent;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    info.imageSharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.preTransform = able.currentTransform;
+    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+    if ((able.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) == 0) {
+        info.compositeAlpha = VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
+    }
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
+    info.clipped = VK_TRUE;
+    VkSwapchainKHR swapchain = VK_NULL_HANDLE;
+    const VkResult created = vkCreateSwapchainKHR(device_.device(), &info, nullptr, &swapchain);
+    if (created == VK_ERROR_SURFACE_LOST_KHR || created == VK_ERROR_NATIVE_WINDOW_IN_USE_KHR) {
+        surfaceLost_ = true;
+        return false;
+    }
+    check(created, "Drawing to the window");
+    swapchain_ = {device_.device(), swapchain, vkDestroySwapchainKHR};
+    extent_ = extent;
+
+    std::uint32_t count = 0;
+    check(vkGetSwapchainImagesKHR(device_.device(), swapchain, &count, nullptr), "Drawing to the window");
+    std::vector<VkImage> images(count);
+    check(vkGetSwapchainImagesKHR(device_.device(), swapchain, &count, images.data()), "Drawing to the window");
+    images_.resize(count);
+    for (std::uint32_t i = 0; i < count; ++i) createImage(images[i], images_[i]);
+    return true;
+}
+
+void Presenter::setPicture(std::shared_ptr<const image::Image> picture) {
+    newPicture_ = std::move(picture);
+}
+void Presenter::setHeld(std::shared_ptr<const image::Image> held) {
+    newHeld_ = std::move(held);
+}
+
+bool Presenter::present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface) {
+    if (!provideSwapchain()) return false;
+    const VkDevice device = device_.device();
+    Frame& frame = frames_[frame_];
+    const VkFence done = frame.done.get();
+    check(vkWaitForFences(device, 1, &done, VK_TRUE, kForever), "Drawing on " + device_.name());
+
+    std::uint32_t index = 0;
+    const VkResult acquired =
+        vkAcquireNextImageKHR(device, swapchain_.get(), kForever, frame.acquired.get(), VK_NULL_HANDLE, &index);
+    if (acquired == VK_ERROR_SURFACE_LOST_KHR) surfaceLost_ = true;
+    if (acquired == VK_ERROR_OUT_OF_DATE_KHR || acquired == VK_ERROR_SURFACE_LOST_KHR) {
+        dropSwapchain();
+        return false;
+    }
+    if (acquired != VK_SUBOPTIMAL_KHR) check(acquired, "Drawing to the window");
+
+    const SwapImage& target = images_[index];
+    record(frame, target, constants, drawInterface);
+    check(vkResetFences(device, 1, &done), "Drawing on " + device_.name());
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const VkSemaphore wait = frame.acquired.get();
+    const VkSemaphore signal = target.rendered.get();
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.waitSemaphoreCount = 1;
+    submit.pWaitSemaphores = &wait;
+    submit.pWaitDstStageMask = &stage;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &frame.commands;
+    submit.signalSemaphoreCount = 1;
+    submit.pSignalSemaphores = &signal;
+    check(vkQueueSubmit(device_.queue(), 1, &submit, done), "Drawing on " + device_.name());
+
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    const VkSwapchainKHR swapchain = swapchain_.get();
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &signal;
+    info.swapchainCount = 1;
+    info.pSwapchains = &swapchain;
+    info.pImageIndices = &index;
+    const VkResult presented = vkQueuePresentKHR(device_.queue(), &info);
+    frame_ = (frame_ + 1) % kFramesInFlight;
+    if (presented == VK_ERROR_SURFACE_LOST_KHR) surfaceLost_ = true;
+    if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR || presented == VK_ERROR_SURFACE_LOST_KHR) {
+        dropSwapchain();
+    } else {
+        check(presented, "Drawing to the window");
+    }
+    return true;
+}
+
+void Presenter::record(Frame& frame, const SwapImage& target, const PresentConstants& constants,
+                       const std::function<void(VkCommandBuffer)>& drawInterface) {
+    check(vkResetCommandPool(device_.device(), frame.pool.get(), 0), "Recording commands");
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(frame.commands, &begin), "Recording commands");
+    if (newPicture_) film_->upload(frame.commands, frame_, FilmPass::Slot::Picture, *newPicture_);
+    if (newHeld_) film_->upload(frame.commands, frame_, FilmPass::Slot::Held, *newHeld_);
+    newPicture_ = nullptr;
+    newHeld_ = nullptr;
+
+    VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    pass.renderPass = renderPass_.get();
+    pass.framebuffer = target.framebuffer.get();
+    pass.renderArea.extent = extent_;
+    vkCmdBeginRenderPass(frame.commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+    film_->draw(frame.commands, extent_, constants);
+    drawInterface(frame.commands);
+    vkCmdEndRenderPass(frame.commands);
+    check(vkEndCommandBuffer(frame.commands), "Recording commands");
+}
+
+} // namespace rt::gui

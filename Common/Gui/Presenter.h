@@ -1,0 +1,76 @@
+// The swapchain: pictures and user interface on the window, whatever becomes of its size and surface.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "Common/Gui/FilmPass.h"
+#include "Common/Gui/GraphicsDevice.h"
+#include "Common/Gui/Window.h"
+#include "Common/Image/Image.h"
+
+namespace rt::gui {
+
+class Presenter {
+  public:
+    Presenter(GraphicsDevice& device, const Window& window);
+    ~Presenter();
+    Presenter(const Presenter&) = delete;
+    Presenter& operator=(const Presenter&) = delete;
+
+    VkRenderPass renderPass() const { return renderPass_.get(); }
+    std::uint32_t imageCount() const { return static_cast<std::uint32_t>(images_.size()); }
+
+    // Are shown from the next frame on. The image must have three channels.
+    void setPicture(std::shared_ptr<const image::Image> picture);
+    void setHeld(std::shared_ptr<const image::Image> held);
+
+    // Shows a frame: the picture, then what `drawInterface` draws over it. False where there is nothing to draw on, as while
+    // the window is minimised. Throws RenderError or DeviceLostError.
+    bool present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface);
+
+
+  private:
+    struct Frame {
+        vulkan::Handle<VkCommandPool> pool;
+        VkCommandBuffer commands = VK_NULL_HANDLE;
+        vulkan::Handle<VkFence> done;
+        vulkan::Handle<VkSemaphore> acquired;
+    };
+    struct SwapImage {
+        VkImage image = VK_NULL_HANDLE;
+        vulkan::Handle<VkImageView> view;
+        vulkan::Handle<VkFramebuffer> framebuffer;
+        vulkan::Handle<VkSemaphore> rendered;
+    };
+
+    void chooseFormat();
+    void createRenderPass();
+    void createFrames();
+    bool provideSwapchain();
+    void dropSwapchain();
+    void createImage(VkImage image, SwapImage& to);
+    void record(Frame& frame, const SwapImage& target, const PresentConstants& constants,
+                const std::function<void(VkCommandBuffer)>& drawInterface);
+
+    GraphicsDevice& device_;
+    const Window& window_;
+    VkSurfaceFormatKHR format_{};
+    vulkan::Handle<VkRenderPass> renderPass_;
+    std::unique_ptr<FilmPass> film_;
+    std::array<Frame, kFramesInFlight> frames_;
+    std::uint32_t frame_ = 0;
+
+    vulkan::Handle<VkSwapchainKHR> swapchain_;
+    VkExtent2D extent_{};
+    std::vector<SwapImage> images_;
+    bool surfaceLost_ = false;
+
+    std::shared_ptr<const image::Image> newPicture_, newHeld_; // to be uploaded
+};
+
+} // namespace rt::gui

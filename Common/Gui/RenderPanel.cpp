@@ -1,0 +1,141 @@
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <thread>
+
+#include "Common/Gui/Panels.h"
+#include "Common/Gui/Widgets.h"
+#include "Common/Image/Film.h"
+
+namespace rt::gui {
+namespace {
+
+using app::LightSampling;
+using app::LightSelection;
+using app::Named;
+using app::SamplerKind;
+using app::ShapeSampling;
+
+constexpr Named<LightSampling> kLightSamplingNames[] = {{"Light sampling with MIS", LightSampling::Mis},
+                                                        {"Mixture PDF (PDF on)", LightSampling::Mixture},
+                                                        {"Scattering only (PDF off)", LightSampling::Bsdf}};
+constexpr Named<LightSelection> kSelectionNames[] = {{"By contribution", LightSelection::Contribution},
+                                                     {"By power", LightSelection::Power},
+                                                     {"Uniform", LightSelection::Uniform}};
+constexpr Named<ShapeSampling> kSphereNames[] = {
+    {"Automatic", ShapeSampling::Auto}, {"Cone", ShapeSampling::SolidAngle}, {"Area", ShapeSampling::Area}};
+constexpr Named<ShapeSampling> kFlatNames[] = {
+    {"Automatic", ShapeSampling::Auto}, {"Solid angle", ShapeSampling::SolidAngle}, {"Area", ShapeSampling::Area}};
+constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
+                                                {"Stratified", SamplerKind::Stratified},
+                                                {"Normal (independent)", SamplerKind::Independent}};
+constexpr Named<app::Policy> kPolicyNames[] = {{"Multi core: par", app::Policy::Par},
+                                               {"Multi core: par_unseq", app::Policy::ParUnseq},
+                                               {"Single core: seq", app::Policy::Seq}};
+
+void drawSize(Gui& gui) {
+    app::SizeRequest& size = gui.settings.request.size;
+    std::uint32_t width = gui.state.settings.width;
+    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, image::kMaxImageSide, 20)) {
+        if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
+        size.width = width;
+        size.height.reset();
+    }
+    struct Aspect {
+        const char* name;
+        double value; // 0: the scene's
+    };
+    constexpr Aspect kAspects[] = {{"As the scene", 0}, {"1:1", 1},           {"5:4", 1.25},     {"4:3", 4.0 / 3},
+                                   {"3:2", 1.5},        {"16:10", 1.6},       {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
+                                   {"3:4", 0.75},       {"9:16", 9.0 / 16}};
+    const double ratio = size.aspect ? *size.aspect
+                         : size.width && size.height ? static_cast<double>(*size.width) / *size.height
+                                                     : 0;
+    char current[32];
+    std::snprintf(current, sizeof current, "%.3g : 1", ratio);
+    const char* name = current;
+    for (const Aspect& aspect : kAspects)
+        if (std::abs(aspect.value - ratio) < 1e-9) name = aspect.name;
+    row("Aspect ratio", "Width by height");
+    if (ImGui::BeginCombo("##aspect", name, ImGuiComboFlags_HeightLarge)) {
+        for (const Aspect& aspect : kAspects) {
+            if (!ImGui::Selectable(aspect.name, name == aspect.name)) continue;
+            if (!size.width) size.width = gui.state.settings.width;
+            size.height.reset();
+            size.aspect.reset();
+            if (aspect.value > 0) size.aspect = aspect.value;
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
+    combo("Light sampling",
+          "MIS: light and scattering are both sampled and weighted against each other. Mixture: one sample from half light, "
+          "half scattering, the predecessors' 'PDF on'. Scattering only: light is found by chance, 'PDF off'. All have the "
+          "same mean; their noise differs.",
+          kLightSamplingNames, settings.lightSampling);
+    if (settings.lightSampling != LightSampling::Bsdf) {
+        combo("Light selection",
+              "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or all alike",
+              kSelectionNames, settings.lightSelection);
+        combo("Sphere lights", "Where on a sphere: automatic takes the cone of directions that it is seen in", kSphereNames,
+              settings.sphereLight);
+        combo("Quad lights", "Where on a quad: in the solid angle that it is seen in, or on its area", kFlatNames,
+              settings.quadLight);
+        combo("Triangle lights", "Where on a triangle: in the solid angle that it is seen in, or on its area", kFlatNames,
+              settings.triangleLight);
+    }
+    checkbox("Unidirectional light",
+             "One-sided lights: flat lights emit from their front only. Off: from both sides. A light whose scene says which "
+             "side it emits from is not concerned.",
+             request.oneSidedLights);
+}
+
+void drawEngine(Gui& gui) {
+    app::EngineChoice& engine = gui.settings.engine;
+    if (!gui.isGpu) {
+        combo("Engine", "std::execution policy that the workers run under", kPolicyNames, engine.policy);
+        if (engine.policy != app::Policy::Seq) {
+            inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
+        }
+        return;
+    }
+    row("Device", "Vulkan devices that can trace rays");
+    const std::string shown = engine.device.empty() ? "Best suitable" : engine.device;
+    if (ImGui::BeginCombo("##device", shown.c_str())) {
+        if (ImGui::Selectable("Best suitable", engine.device.empty())) engine.device.clear();
+        for (const std::string& device : gui.devices) {
+            if (ImGui::Selectable(device.c_str(), engine.device == device)) engine.device = device;
+        }
+        ImGui::EndCombo();
+    }
+}
+
+} // namespace
+
+void drawRenderPanel(Gui& gui) {
+    app::RenderRequest& request = gui.settings.request;
+    app::RenderSettings& settings = request.settings;
+    inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
+    inputCount("Depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawSize(gui);
+    drawLights(settings, request);
+    combo("Pixel sampling",
+          "Where random numbers come from. Sobol: well spread in many dimensions. Stratified: one in each cell of a grid. "
+          "Normal: independent.",
+          kSamplerNames, settings.sampler);
+    checkbox("Accumulate", "On: samples add up in one image. Off: every frame is an image of its own, with other random numbers",
+             request.accumulate);
+    if (!request.accumulate) {
+        inputCount("Samples per frame", "Samples per pixel of each frame", request.samplesPerFrame, 1, 65536, 5);
+    }
+    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
+    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
+    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
+    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates", settings.replicates,
+               1, 1024, 1);
+    drawEngine(gui);
+}
+
+} // namespace rt::gui

@@ -1,0 +1,42 @@
+#include "Common/Gui/SavePaths.h"
+
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+namespace rt::gui {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path defaultFolder() {
+    std::error_code none;
+    if (const char* pictures = std::getenv("XDG_PICTURES_DIR"); pictures != nullptr && fs::is_directory(pictures, none)) {
+        return pictures;
+    }
+    for (const char* variable : {"HOME", "USERPROFILE"}) {
+        const char* home = std::getenv(variable);
+        if (home == nullptr || *home == '\0') continue;
+        const fs::path pictures = fs::path(home) / "Pictures";
+        return fs::is_directory(pictures, none) ? pictures : fs::path(home);
+    }
+    return fs::temp_directory_path(none);
+}
+
+} // namespace
+
+std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state) {
+    const fs::path place = folder.empty() ? defaultFolder() : fs::path(folder);
+    std::string name = state.scene->id;
+    for (char& c : name)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '-';
+    name += "-" + std::to_string(state.picture.spp) + "spp";
+    for (int i = 1;; ++i) {
+        const fs::path png = place / (name + (i > 1 ? "-" + std::to_string(i) : "") + ".png");
+        const fs::path exr = fs::path(png).replace_extension(".exr");
+        std::error_code none;
+        if (!fs::exists(png, none) && !fs::exists(exr, none)) return {png.string(), exr.string()};
+    }
+}
+
+} // namespace rt::gui

@@ -1,0 +1,52 @@
+#include <cstdio>
+
+#include "Common/App/FeatureNames.h"
+#include "Common/App/Platform.h"
+#include "Common/Gui/Panels.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+void figure(const char* label, const char* tip, const std::string& text) {
+    row(label, tip);
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text.empty() ? "none" : text;
+}
+
+} // namespace
+
+void drawStatisticsPanel(Gui& gui) {
+    const app::SessionState& state = gui.state;
+    const app::EngineReport& report = state.report;
+    char text[64];
+    std::snprintf(text, sizeof text, "%.1f fps, longest turn %.0f ms", gui.figures.framesPerSecond,
+                  1000 * gui.figures.longestStall);
+    figure("Window", "Frames of the last second; the longest time that the window's thread was busy, of the last 10 s", text);
+    const double seconds = state.renderSeconds;
+    const auto perSecond = [seconds](double count) { return seconds > 0 ? withPrefix(count / seconds) + "/s" : "-"; };
+    const app::RayCounts& rays = report.rays;
+    figure("Samples", "Paths from the camera", perSecond(static_cast<double>(state.status.samplesDone)));
+    figure("Rays", "All of them, camera, scattered and shadow",
+           perSecond(static_cast<double>(rays.camera + rays.scattered + rays.shadow)));
+    figure("Rendering for", nullptr, shortDuration(seconds));
+    figure("Memory", "Of this process; and what the engine holds of scene and film",
+           bytesText(app::residentBytes()) + ", engine " + bytesText(report.deviceBytes));
+    figure("Engine", nullptr,
+           report.engine + (report.threads > 0 ? ", " + std::to_string(report.threads) + " threads" : std::string()));
+    figure("Device", nullptr, report.device);
+    figure("Kernel", "The specialisation that runs", report.kernel);
+    figure("Lights", "How the shapes of light are sampled", report.lightSampling);
+    figure("In force", "What the scene needs", joined(app::featureNames(report.features)));
+    figure("Skipped", "What it does not need, and no code runs for", joined(app::absentFeatureNames(report.features)));
+    figure("Not finite", "Samples that were no number; they count as black", std::to_string(report.nonfiniteSamples));
+}
+
+} // namespace rt::gui

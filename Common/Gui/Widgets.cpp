@@ -1,0 +1,180 @@
+#include "Common/Gui/Widgets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace rt::gui {
+namespace {
+
+constexpr float kLabelShare = 0.40f; // of a row
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+    char text[128];
+    std::snprintf(text, sizeof text, pattern, values...);
+    return text;
+}
+
+// Edits a copy until the field is left. `edit` draws the field and returns whether it changed the copy.
+template <class T, class Edit>
+bool editLater(T& value, Edit edit) {
+    static ImGuiID active = 0; // only one field is edited at a time
+    static T draft{};
+    const ImGuiID id = ImGui::GetID("##value");
+    T shown = active == id ? draft : value;
+    edit(shown);
+    const bool isActive = ImGui::IsItemActive();
+    const bool left = ImGui::IsItemDeactivatedAfterEdit();
+    if (isActive) {
+        active = id;
+        draft = shown;
+    } else if (active == id) {
+        active = 0;
+    }
+    if (!left || shown == value) return false;
+    value = shown;
+    return true;
+}
+
+} // namespace
+
+void tooltip(const char* text) {
+    if (text == nullptr || !ImGui::IsItemHovered()) return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 26);
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void row(const char* label, const char* tip) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(label);
+    tooltip(tip);
+    ImGui::SameLine(ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x);
+    ImGui::SetNextItemWidth(-1);
+}
+
+void note(const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::PushTextWrapPos(0);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                std::uint32_t step) {
+    row(label, tip);
+    ImGui::PushID(label);
+    const bool changed = editLater(value, [&](std::uint32_t& shown) {
+        ImGui::InputScalar("##value", ImGuiDataType_U32, &shown, step > 0 ? &step : nullptr);
+        if (!ImGui::IsItemActive()) shown = std::clamp(shown, min, max);
+    });
+    ImGui::PopID();
+    return changed;
+}
+
+bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* pattern) {
+    row(label, tip);
+    ImGui::PushID(label);
+    const bool changed = editLater(value, [&](double& shown) {
+        ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, pattern);
+        if (ImGui::IsItemActive()) return;
+        shown = std::isfinite(shown) ? std::clamp(shown, min, max) : value;
+    });
+    ImGui::PopID();
+    return changed;
+}
+
+bool inputVector(const char* label, const char* tip, double (&value)[3]) {
+    row(label, tip);
+    ImGui::PushID(label);
+    bool changed = false;
+    const float space = ImGui::GetStyle().ItemInnerSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
+    for (int i = 0; i < 3; ++i) {
+        ImGui::PushID(i);
+        if (i > 0) ImGui::SameLine(0, space);
+        ImGui::SetNextItemWidth(width);
+        changed |= editLater(value[i], [&](double& shown) {
+            ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, "%.6g");
+            if (!ImGui::IsItemActive() && !std::isfinite(shown)) shown = value[i];
+        });
+        ImGui::PopID();
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+bool sliderReal(const char* label, const char* tip, double& value, double min, double max, const char* pattern,
+                bool logarithmic) {
+    row(label, tip);
+    ImGui::PushID(label);
+    double shown = value;
+    const ImGuiSliderFlags flags = (logarithmic ? ImGuiSliderFlags_Logarithmic : 0) | ImGuiSliderFlags_AlwaysClamp;
+    const bool changed = ImGui::SliderScalar("##value", ImGuiDataType_Double, &shown, &min, &max, pattern, flags);
+    ImGui::PopID();
+    if (!changed || !std::isfinite(shown) || shown == value) return false;
+    value = std::clamp(shown, min, max);
+    return true;
+}
+
+bool inputText(const char* id, const char* hint, std::string& text) {
+    const auto resize = [](ImGuiInputTextCallbackData* data) {
+        if (data->EventFlag != ImGuiInputTextFlags_CallbackResize) return 0;
+        auto& string = *static_cast<std::string*>(data->UserData);
+        string.resize(static_cast<std::size_t>(data->BufTextLen));
+        data->Buf = string.data();
+        return 0;
+    };
+    return ImGui::InputTextWithHint(id, hint, text.data(), text.capacity() + 1,
+                                    ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue, resize, &text);
+}
+
+bool checkbox(const char* label, const char* tip, bool& value) {
+    row(label, tip);
+    ImGui::PushID(label);
+    const bool changed = ImGui::Checkbox("##value", &value);
+    tooltip(tip);
+    ImGui::PopID();
+    return changed;
+}
+
+bool button(const char* label, const char* tip, bool enabled, float width) {
+    if (!enabled) ImGui::BeginDisabled();
+    const bool pressed = ImGui::Button(label, {width, 0});
+    if (!enabled) ImGui::EndDisabled();
+    tooltip(tip);
+    return pressed;
+}
+
+std::string withPrefix(double value) {
+    if (value >= 1e9) return format("%.3g G", value * 1e-9);
+    if (value >= 1e6) return format("%.3g M", value * 1e-6);
+    if (value >= 1e3) return format("%.3g k", value * 1e-3);
+    return format("%.3g", value);
+}
+
+std::string bytesText(std::uint64_t bytes) {
+    const auto value = static_cast<double>(bytes);
+    if (value >= 1u << 30) return format("%.2f GiB", value / (1u << 30));
+    return format("%.1f MiB", value / (1u << 20));
+}
+
+std::string durationText(double seconds) {
+    const auto all = static_cast<long long>(std::llround(std::min(seconds, 1e12) * 1000));
+    return format("%.1f ms (%lld h %lld min %lld s %lld ms)", seconds * 1000, all / 3600000, all / 60000 % 60,
+                  all / 1000 % 60, all % 1000);
+}
+
+std::string shortDuration(double seconds) {
+    if (seconds < 1) return format("%.3g ms", seconds * 1000);
+    if (seconds < 60) return format("%.2f s", seconds);
+    const auto all = static_cast<long long>(std::min(seconds, 1e12));
+    if (all < 3600) return format("%lld:%02lld min", all / 60, all % 60);
+    return format("%lld:%02lld:%02lld h", all / 3600, all / 60 % 60, all % 60);
+}
+
+} // namespace rt::gui

@@ -1,0 +1,59 @@
+// Rows of a panel: a label to the left, a control to the right, an explanation on hovering.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include <imgui.h>
+
+#include "Common/App/Names.h"
+
+namespace rt::gui {
+
+// What follows is the control of this row. `tip` may be null.
+void row(const char* label, const char* tip);
+void tooltip(const char* text); // of the item before
+void note(const std::string& text); // dimmed and wrapped
+
+// All return whether the value has changed. Typed numbers count when the field is left, brought into their range.
+bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                std::uint32_t step);
+bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* format);
+bool inputVector(const char* label, const char* tip, double (&value)[3]);
+bool sliderReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
+                bool logarithmic = false);
+// A field of text with a hint while it is empty; whether it was left by Enter.
+bool inputText(const char* id, const char* hint, std::string& text);
+bool checkbox(const char* label, const char* tip, bool& value);
+
+template <class E, std::size_t N>
+bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], E& value) {
+    row(label, tip);
+    const std::string current = app::nameOf(table, value);
+    bool changed = false;
+    ImGui::PushID(label);
+    if (ImGui::BeginCombo("##value", current.c_str())) {
+        for (const auto& entry : table) {
+            const bool selected = entry.value == value;
+            if (ImGui::Selectable(std::string(entry.name).c_str(), selected) && !selected) {
+                value = entry.value;
+                changed = true;
+            }
+            if (selected) ImGui::SetItemDefaultFocus();
+        }
+        ImGui::EndCombo();
+    }
+    ImGui::PopID();
+    return changed;
+}
+
+// A button that is grey where it has nothing to do.
+bool button(const char* label, const char* tip, bool enabled, float width = 0);
+
+// "1.23 M", "456 k"
+std::string withPrefix(double value);
+std::string bytesText(std::uint64_t bytes);
+// "1234.5 ms (0 h 0 min 1 s 234 ms)"
+std::string durationText(double seconds);
+std::string shortDuration(double seconds); // "12.3 ms", "4.56 s", "1:23:45"
+
+} // namespace rt::gui

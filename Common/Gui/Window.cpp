@@ -1,0 +1,187 @@
+#include "Common/Gui/Window.h"
+
+#include <algorithm>
+#include <utility>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "Common/Core/Error.h"
+#include "Common/Vulkan/Check.h"
+
+namespace rt::gui {
+namespace {
+
+std::string lastError() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description != nullptr ? description : "unknown reason";
+}
+
+Window& self(GLFWwindow* window) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+}
+
+// Where a stored position is no longer on any monitor, the system chooses.
+bool isOnAMonitor(const WindowPlace& place) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0, width = 0, height = 0;
+        glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
+        if (place.x >= x - 50 && place.x < x + width - 50 && place.y >= y - 50 && place.y < y + height - 50) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+Window::Window(const std::string& title, const WindowPlace& place) {
+    if (glfwInit() != GLFW_TRUE)
+        throw RenderError("no window can be opened: " + lastError() + "; --headless renders without one");
+    if (glfwVulkanSupported() != GLFW_TRUE) {
+        glfwTerminate();
+        throw RenderError("no window can be opened: no Vulkan driver draws to windows; --headless renders without one");
+    }
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    window_ = glfwCreateWindow(std::max(place.width, 1), std::max(place.height, 1), title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+        const std::string reason = lastError();
+        glfwTerminate();
+        throw RenderError("no window can be opened: " + reason + "; --headless renders without one");
+    }
+    glfwSetWindowUserPointer(window_, this);
+    if (place.hasPosition && isOnAMonitor(place)) glfwSetWindowPos(window_, place.x, place.y);
+    if (place.maximised) glfwMaximizeWindow(window_);
+
+    // ImGui's backend calls these in turn.
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int modifiers) {
+        self(w).input_ = true;
+        if (action == GLFW_PRESS) self(w).keys_.push_back({key, modifiers});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { self(w).input_ = true; });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w).input_ = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).input_ = true; });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).input_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).input_ = true; });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).input_ = true; });
+    glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+        self(w).input_ = true;
+        if (self(w).onDrop_) self(w).onDrop_({paths, paths + count});
+    });
+    glfwShowWindow(window_);
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+std::vector<const char*> Window::instanceExtensions() {
+    std::uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    return {names, names + count};
+}
+
+VkSurfaceKHR Window::createSurface(VkInstance instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    vulkan::check(glfwCreateWindowSurface(instance, window_, nullptr, &surface), "Drawing to the window");
+    return surface;
+}
+
+bool Window::shouldClose() const {
+    return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+void Window::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+void Window::hide() {
+    glfwHideWindow(window_);
+}
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::waitEvents(double seconds) {
+    if (seconds <= 0)
+        glfwPollEvents();
+    else
+        glfwWaitEventsTimeout(seconds);
+}
+void Window::wake() {
+    glfwPostEmptyEvent();
+}
+bool Window::takeInput() {
+    return std::exchange(input_, false);
+}
+
+std::vector<Window::KeyPress> Window::takeKeys() {
+    return std::exchange(keys_, {});
+}
+bool Window::isDown(int key) const {
+    return glfwGetKey(window_, key) == GLFW_PRESS;
+}
+
+std::array<int, 2> Window::framebufferSize() const {
+    std::array<int, 2> size{};
+    if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return size;
+    glfwGetFramebufferSize(window_, &size[0], &size[1]);
+    return size;
+}
+
+float Window::contentScale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return x > 0 ? x : 1.0f;
+}
+
+WindowPlace Window::place() const {
+    if (fullScreen_) return restored_;
+    WindowPlace place;
+    glfwGetWindowPos(window_, &place.x, &place.y);
+    glfwGetWindowSize(window_, &place.width, &place.height);
+    place.hasPosition = true;
+    place.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+    return place;
+}
+
+void Window::toggleFullScreen() {
+    if (fullScreen_) {
+        glfwSetWindowMonitor(window_, nullptr, restored_.x, restored_.y, restored_.width, restored_.height, 0);
+        fullScreen_ = false;
+        return;
+    }
+    // The monitor that shows the middle of the window.
+    const WindowPlace now = place();
+    const int middleX = now.x + now.width / 2, middleY = now.y + now.height / 2;
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    for (int i = 0; i < count; ++i) {
+        int x = 0, y = 0;
+        glfwGetMonitorPos(monitors[i], &x, &y);
+        const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+        if (mode == nullptr) continue;
+        if (middleX >= x && middleX < x + mode->width && middleY >= y && middleY < y + mode->height) {
+            monitor = monitors[i];
+        }
+    }
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
+    restored_ = now;
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    fullScreen_ = true;
+}
+
+void Window::setClipboard(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+std::string Window::clipboard() const {
+    const char* text = glfwGetClipboardString(window_);
+    return text != nullptr ? text : "";
+}
+
+} // namespace rt::gui

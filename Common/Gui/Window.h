@@ -1,0 +1,70 @@
+// A window of the operating system, by GLFW.
+#pragma once
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+struct GLFWwindow;
+
+namespace rt::gui {
+
+struct WindowPlace {
+    int x = 0, y = 0;
+    int width = 1360, height = 860;
+    bool hasPosition = false;
+    bool maximised = false;
+};
+
+class Window {
+  public:
+    // Throws RenderError where there is no display, or no Vulkan that draws to one. One at a time, on the main thread.
+    Window(const std::string& title, const WindowPlace& place);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    GLFWwindow* get() const { return window_; }
+    static std::vector<const char*> instanceExtensions();
+    // Throws RenderError.
+    VkSurfaceKHR createSurface(VkInstance instance) const;
+
+    bool shouldClose() const;
+    void close();
+    void hide();
+    void setTitle(const std::string& title);
+    // Handles what has happened; waits for it at most this long.
+    void waitEvents(double seconds);
+    static void wake(); // ends waitEvents; from any thread
+    // Whether anything has come from the user since the last call.
+    bool takeInput();
+    // Keys that went down since the last call, as GLFW numbers them, with its modifiers.
+    struct KeyPress {
+        int key = 0, modifiers = 0;
+    };
+    std::vector<KeyPress> takeKeys();
+    bool isDown(int key) const;
+
+    std::array<int, 2> framebufferSize() const; // pixels; 0 while minimised
+    float contentScale() const;                 // of the monitor: 1 at 96 dots per inch
+    bool isFullScreen() const { return fullScreen_; }
+    void toggleFullScreen();
+    WindowPlace place() const; // as it is when it fills neither screen nor monitor
+
+    void setClipboard(const std::string& text);
+    std::string clipboard() const;
+    // Is called with the paths of files that were dropped.
+    void onDrop(std::function<void(std::vector<std::string>)> handler) { onDrop_ = std::move(handler); }
+
+  private:
+    GLFWwindow* window_ = nullptr;
+    std::function<void(std::vector<std::string>)> onDrop_;
+    std::vector<KeyPress> keys_;
+    bool input_ = true;
+    bool fullScreen_ = false;
+    WindowPlace restored_; // to go back to from full screen
+};
+
+} // namespace rt::gui

@@ -1,0 +1,80 @@
+#include "Common/App/GuiSettings.h"
+
+#include <filesystem>
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+
+#include <gtest/gtest.h>
+
+namespace rt::app {
+namespace {
+
+class GuiSettingsTest : public ::testing::Test {
+  protected:
+    void SetUp() override { std::filesystem::remove_all(folder_); }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+    GuiSettings loadText(const std::string& text) const {
+        std::filesystem::create_directories(folder_);
+        std::ofstream(file_) << text;
+        return loadGuiSettings(file_);
+    }
+    std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "gui-settings";
+    std::filesystem::path file_ = folder_ / "settings.json";
+};
+
+TEST_F(GuiSettingsTest, SurviveTheFile) {
+    GuiSettings s;
+    s.colorMode = ColorMode::HighContrast;
+    s.uiScale = 1.5f;
+    s.exposure = -2;
+    s.tonemap = Tonemap::Aces;
+    s.recent = {"/a/b.json", "c.obj"};
+    s.request.settings.spp = 4000;
+    s.request.settings.sampler = SamplerKind::Independent;
+    s.request.size.width = 320;
+    s.request.size.aspect = 1.5;
+    s.request.accumulate = false;
+    s.engine.policy = Policy::Seq;
+    s.engine.threads = 3;
+    saveGuiSettings(file_, s);
+    EXPECT_EQ(loadGuiSettings(file_), s);
+}
+
+TEST_F(GuiSettingsTest, NonsenseLeavesDefaults) {
+    EXPECT_EQ(loadGuiSettings(folder_ / "missing.json"), GuiSettings());
+    for (const char* text : {"", "{", "[]", "12", "null", "{\"ui_scale\": 1e9, \"color_mode\": 7, \"recent\": 3}",
+                             "{\"render\": {\"spp\": 0, \"width\": 99999999, \"sampler\": \"dice\"}, \"engine\": 1}",
+                             "{\"render\": [], \"window_width\": -5, \"scene\": \"\", \"exposure\": 1e300}"}) {
+        EXPECT_EQ(loadText(text), GuiSettings()) << text;
+    }
+    const GuiSettings half = loadText("{\"ui_scale\": 2, \"tonemap\": []}");
+    EXPECT_EQ(half.uiScale, 2);
+    EXPECT_EQ(half.tonemap, Tonemap::None);
+}
+
+TEST_F(GuiSettingsTest, FlagsWinOverWhatWasStored) {
+    GuiSettings s;
+    s.request.settings.spp = 4000;
+    s.request.settings.maxDepth = 9;
+    s.scene = "veach-mis";
+    const auto options = parseOptions("ray-tracing-cpu", {"--no-config", "--spp", "100", "--height", "50"}, std::cout);
+    override(s, *options);
+    EXPECT_EQ(s.request.settings.spp, 100u); // the default, but it was said
+    EXPECT_EQ(s.request.settings.maxDepth, 9u);
+    EXPECT_EQ(s.scene, "veach-mis");
+    EXPECT_EQ(s.request.size.height, 50u);
+    EXPECT_FALSE(s.request.size.width);
+}
+
+TEST_F(GuiSettingsTest, RecentFilesAreFewAndTheLatestComesFirst) {
+    GuiSettings s;
+    for (int i = 0; i < 20; ++i) s.addRecent(std::to_string(i));
+    EXPECT_EQ(s.recent.size(), kMostRecent);
+    s.addRecent("15");
+    EXPECT_EQ(s.recent.front(), "15");
+    EXPECT_EQ(std::count(s.recent.begin(), s.recent.end(), "15"), 1);
+}
+
+} // namespace
+} // namespace rt::app

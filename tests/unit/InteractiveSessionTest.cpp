@@ -1,0 +1,244 @@
+// The session of a window with an engine whose samples cost nothing, without any window.
+#include "Common/App/InteractiveSession.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Error.h"
+#include "Common/Image/ImageIo.h"
+#include "tests/unit/FakeEngine.h"
+
+namespace rt::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+// Takes its time for a sample, and gives up when told to.
+class SlowEngine : public FakeEngine {
+  public:
+    RenderStatus renderSome(const Budget& budget) override {
+        const auto end = std::chrono::steady_clock::now() + 5ms;
+        while (std::chrono::steady_clock::now() < end) {
+            if (budget.cancel != nullptr && budget.cancel->load()) {
+                RenderStatus status = last_;
+                return status;
+            }
+            std::this_thread::sleep_for(1ms);
+        }
+        return last_ = FakeEngine::renderSome(budget);
+    }
+    void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override {
+        FakeEngine::reset(camera, settings);
+        last_ = {};
+        last_.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
+    }
+
+  private:
+    RenderStatus last_;
+};
+
+class FailingEngine : public FakeEngine {
+  public:
+    RenderStatus renderSome(const Budget&) override { throw RenderError("the device was lost"); }
+};
+
+class InteractiveSessionTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(::testing::TempDir()) /
+                  ("interactive-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    static InteractiveSession::Setup setup(std::uint32_t spp) {
+        InteractiveSession::Setup setup;
+        setup.program = "ray-tracing-cpu";
+        setup.makeEngine = [](const EngineChoice&) { return std::make_unique<SlowEngine>(); };
+        setup.request.size.width = 24;
+        setup.request.settings.spp = spp;
+        setup.scene = {"cornell-box-lights", true};
+        return setup;
+    }
+    // Waits until the state is as wanted; the time only ends a test that fails.
+    template <class Condition>
+    static bool reaches(const InteractiveSession& session, Condition condition) {
+        for (int i = 0; i < 20'000; ++i) {
+            if (condition(session.state())) return true;
+            std::this_thread::sleep_for(1ms);
+        }
+        return false;
+    }
+    static bool isFinished(const SessionState& state) { return state.activity == Activity::Finished; }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(InteractiveSessionTest, RendersToTheEndAndShowsTheFilm) {
+    InteractiveSession session(setup(20));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const SessionState state = session.state();
+    ASSERT_TRUE(state.picture.image);
+    EXPECT_EQ(state.picture.image->width, 24u);
+    EXPECT_EQ(state.picture.spp, 20u);
+    EXPECT_EQ(state.status.samplesDone, 24u * 24 * 20);
+    // As rendered without a window.
+    FakeEngine engine;
+    std::atomic<bool> cancel{false};
+    RenderSettings settings = state.settings;
+    engine.setScene(state.scene, &cancel);
+    engine.reset(state.scene->camera, settings);
+    while (!engine.renderSome({}).finished) continue;
+    EXPECT_EQ(state.picture.image->data, engine.film().resolve().data);
+    ASSERT_TRUE(state.lastRun);
+    EXPECT_EQ(state.lastRun->spp, 20u);
+    EXPECT_GT(state.lastRun->seconds.render, 0);
+}
+
+TEST_F(InteractiveSessionTest, PausesGoesOnAndStops) {
+    InteractiveSession session(setup(1'000'000));
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.status.samplesDone > 0; }));
+    session.pause();
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.activity == Activity::Paused; }));
+    const std::uint64_t paused = session.state().status.samplesDone;
+    EXPECT_GT(paused, 0u);
+    std::this_thread::sleep_for(30ms);
+    EXPECT_EQ(session.state().status.samplesDone, paused);
+    session.render();
+    EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.status.samplesDone > paused; }));
+    session.stop();
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.activity == Activity::Stopped; }));
+    const std::uint64_t stopped = session.state().status.samplesDone;
+    EXPECT_GE(stopped, paused);
+    session.render(); // from the beginning
+    EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.status.samplesDone > 0 && s.status.samplesDone < stopped; }));
+}
+
+TEST_F(InteractiveSessionTest, AChangeStartsTheFilmAnew) {
+    InteractiveSession session(setup(8));
+    ASSERT_TRUE(reaches(session, isFinished));
+    RenderRequest request = setup(12).request;
+    request.size = {40u, 20u, std::nullopt};
+    request.settings.maxDepth = 7;
+    session.change(request);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return isFinished(s) && s.picture.spp == 12; }));
+    const SessionState state = session.state();
+    EXPECT_EQ(state.settings.maxDepth, 7u);
+    EXPECT_EQ(state.picture.image->width, 40u);
+    EXPECT_EQ(state.picture.image->height, 20u);
+}
+
+TEST_F(InteractiveSessionTest, ASceneThatCannotBeLoadedLeavesTheOldOne) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const auto scene = session.state().scene;
+    std::ofstream(folder_ / "bad.json") << "{\"camera\": 12";
+    session.open((folder_ / "bad.json").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_NE(session.state().error.find("bad.json"), std::string::npos);
+    EXPECT_EQ(session.state().scene, scene);
+    EXPECT_FALSE(session.state().fatal);
+    session.open("no-such-scene");
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 2; }));
+    EXPECT_EQ(session.state().scene, scene);
+    session.open("one-weekend-default");
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.sceneSerial == 2 && isFinished(s); }));
+    EXPECT_EQ(session.state().scene->id, "one-weekend-default");
+    EXPECT_EQ(session.state().source, "one-weekend-default");
+}
+
+TEST_F(InteractiveSessionTest, WhatCannotStartIsFatal) {
+    InteractiveSession::Setup wrong = setup(4);
+    wrong.scene.source = "no-such-scene";
+    const InteractiveSession session(wrong);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.fatal != nullptr; }));
+    EXPECT_THROW(std::rethrow_exception(session.state().fatal), InputError);
+
+    InteractiveSession::Setup noEngine = setup(4);
+    noEngine.makeEngine = [](const EngineChoice&) -> std::unique_ptr<Engine> { throw RenderError("no device"); };
+    const InteractiveSession other(noEngine);
+    ASSERT_TRUE(reaches(other, [](const SessionState& s) { return s.fatal != nullptr; }));
+}
+
+TEST_F(InteractiveSessionTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
+    InteractiveSession::Setup s = setup(4);
+    int made = 0;
+    s.makeEngine = [&made](const EngineChoice&) -> std::unique_ptr<Engine> {
+        if (++made == 1) return std::make_unique<FailingEngine>();
+        return std::make_unique<FakeEngine>();
+    };
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Failed; }));
+    EXPECT_EQ(session.state().error, "the device was lost");
+    session.render();
+    EXPECT_TRUE(reaches(session, isFinished));
+    EXPECT_EQ(made, 2);
+}
+
+TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const std::uint64_t serial = session.state().picture.serial;
+    scene::CameraDesc camera = session.state().scene->camera;
+    camera.lookFrom.x += 1;
+    session.moveCamera(camera, 7);
+    session.stop(); // is obeyed after the camera
+    std::this_thread::sleep_for(30ms);
+    EXPECT_EQ(session.state().picture.serial, serial);
+    session.moveCamera(camera, 1);
+    EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return isFinished(s) && s.picture.serial > serial; }));
+}
+
+TEST_F(InteractiveSessionTest, SavesWhatItShows) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const std::string exr = (folder_ / "a.exr").string();
+    session.save({{(folder_ / "a.png").string(), exr}, 0, Tonemap::None});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 2; }));
+    EXPECT_EQ(image::readImage(exr).data, session.state().picture.image->data);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+    session.save({{(folder_ / "no/such/folder/a.png").string()}, 0, Tonemap::None});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_EQ(session.state().activity, Activity::Finished);
+}
+
+TEST_F(InteractiveSessionTest, LoopsAndFramesThatAreNotAccumulatedTakeOtherSeeds) {
+    InteractiveSession::Setup s = setup(3);
+    s.request.loop = true;
+    InteractiveSession session(s);
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.settings.seed >= 2; }));
+    RenderRequest request = s.request;
+    request.loop = false;
+    request.accumulate = false;
+    request.samplesPerFrame = 2;
+    session.change(request);
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.settings.spp == 2 && state.settings.seed >= 3; }));
+    session.stop();
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
+}
+
+TEST_F(InteractiveSessionTest, RunsThatEndGoIntoTheHistory) {
+    RunHistory history(folder_ / "history.jsonl");
+    InteractiveSession::Setup s = setup(20);
+    s.history = &history;
+    {
+        InteractiveSession session(s);
+        ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.historySerial == 1; }));
+    }
+    const std::vector<RunRecord>& records = history.records();
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0].scene, "cornell-box-lights");
+    EXPECT_EQ(records[0].spp, 20u);
+    EXPECT_EQ(records[0].width, 24u);
+    EXPECT_GT(records[0].renderSeconds, 0);
+    EXPECT_GT(records[0].samplesPerSecond, 0);
+}
+
+} // namespace
+} // namespace rt::app
