@@ -9,11 +9,11 @@
 namespace rt::app {
 namespace {
 
-constexpr double kTraverseSeconds = 3;      // to fly from the authored position to the authored target
-constexpr double kSteepest = 1.55;          // radians of pitch: short of looking along the vertical
-constexpr double kDollyStep = 0.12;         // share of the distance
+constexpr double kTraverseSeconds = 3; // to fly from the authored position to the authored target
+constexpr double kSteepest = 1.55;     // radians of pitch: short of looking along the vertical
+constexpr double kDollyStep = 0.12;    // share of the distance
 constexpr double kSpeedStep = 1.25;
-constexpr double kFarthest = 1e6;           // from the authored position, in authored distances
+constexpr double kFarthest = 1e6; // from the authored position, in authored distances
 
 struct Frame {
     glm::dvec3 right, up, forward;

@@ -30,7 +30,7 @@ struct GuiSettings {
     bool showStatistics = true;
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
-    std::string saveFolder; // empty: chosen by the program
+    std::string saveFolder;          // empty: chosen by the program
     std::vector<std::string> recent; // scene files, the latest first
     std::string scene = "cornell-box-lights";
     RenderRequest request;

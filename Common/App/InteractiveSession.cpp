@@ -16,11 +16,11 @@
 namespace rt::app {
 namespace {
 
-constexpr double kDraftSeconds = 0.04;   // of what is shown first after a change
+constexpr double kDraftSeconds = 0.04;     // of what is shown first after a change
 constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
-constexpr std::uint32_t kDraftSpp = 4;   // at most
-constexpr double kPublishShare = 0.2;    // of the worker's time, at most, goes into pictures
-constexpr double kEarlySeconds = 2;      // pictures come often at first
+constexpr std::uint32_t kDraftSpp = 4;     // at most
+constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
+constexpr double kEarlySeconds = 2;        // pictures come often at first
 constexpr double kEarlyInterval = 0.04;
 constexpr double kLateInterval = 0.15;
 

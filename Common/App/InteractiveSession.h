@@ -40,10 +40,10 @@ struct RenderRequest {
     RenderSettings settings; // width and height follow from size and scene
     SizeRequest size;
     bool oneSidedLights = true;
-    bool accumulate = true;               // false: every frame is an image of its own, with other random numbers
-    std::uint32_t samplesPerFrame = 25;   // of a frame that is not accumulated
-    bool loop = false;                    // begin again when done, with the next seed
-    std::optional<double> timeLimit;      // seconds of sampling
+    bool accumulate = true;             // false: every frame is an image of its own, with other random numbers
+    std::uint32_t samplesPerFrame = 25; // of a frame that is not accumulated
+    bool loop = false;                  // begin again when done, with the next seed
+    std::optional<double> timeLimit;    // seconds of sampling
     bool operator==(const RenderRequest&) const = default;
 };
 
@@ -122,8 +122,9 @@ class InteractiveSession {
     void open(const std::string& source);
     void change(const RenderRequest& request);
     void choose(const EngineChoice& engine);
-    void moveCamera(const scene::CameraDesc& camera, std::uint64_t sceneSerial); // ignored if the scene is another by now
-    void render(); // from the beginning when ended, else goes on
+    void moveCamera(const scene::CameraDesc& camera,
+                    std::uint64_t sceneSerial); // ignored if the scene is another by now
+    void render();                              // from the beginning when ended, else goes on
     void pause();
     void stop();
     void reset(); // begins anew
@@ -189,7 +190,7 @@ class InteractiveSession {
     RenderSettings settings_; // of the film
     Activity activity_ = Activity::Preparing;
     bool filmIsStale_ = true;
-    bool filmIsNew_ = true; // for this scene and engine
+    bool filmIsNew_ = true;   // for this scene and engine
     std::uint32_t round_ = 0; // films since the last change: added to the seed
     RenderStatus status_;
     double renderSeconds_ = 0;

@@ -41,9 +41,9 @@ void Gui::say(const std::string& text, bool isError) {
 
 namespace {
 
-constexpr double kIdleSeconds = 0.25;       // between two looks when nothing happens
-constexpr double kAwakeSeconds = 0.4;       // of quick frames after the last input, for what moves by itself
-constexpr double kStallSeconds = 10;        // that the longest turn is looked for in
+constexpr double kIdleSeconds = 0.25; // between two looks when nothing happens
+constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
+constexpr double kStallSeconds = 10;  // that the longest turn is looked for in
 constexpr double kToastSeconds = 5;
 constexpr double kRadiansPerPixel = 0.004;
 constexpr double kFast = 5, kSlow = 0.2;
@@ -96,8 +96,7 @@ class App {
           sentRequest_(settings_.request),
           sentEngine_(settings_.engine),
           session_(sessionSetup(options, program, settings_, history_)),
-          gui_{session_,   settings_, camera_, history_, window_, options.program == app::kGpuProgram,
-               program.devices} {
+          gui_{session_, settings_, camera_, history_, window_, options.program == app::kGpuProgram, program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
@@ -227,23 +226,40 @@ void App::handleKey(const Window::KeyPress& press) {
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
     const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
     switch (press.key) { // these work while text is typed, too
-        case GLFW_KEY_F1: gui_.showHelp = !gui_.showHelp; return;
-        case GLFW_KEY_F2: settings_.showStatistics = !settings_.showStatistics; return;
-        case GLFW_KEY_F4: settings_.showPanels = !settings_.showPanels; return;
-        case GLFW_KEY_F11: window_.toggleFullScreen(); return;
-        case GLFW_KEY_F12: gui_.saveRequested = true; return;
-        default: break;
+        case GLFW_KEY_F1:
+            gui_.showHelp = !gui_.showHelp;
+            return;
+        case GLFW_KEY_F2:
+            settings_.showStatistics = !settings_.showStatistics;
+            return;
+        case GLFW_KEY_F4:
+            settings_.showPanels = !settings_.showPanels;
+            return;
+        case GLFW_KEY_F11:
+            window_.toggleFullScreen();
+            return;
+        case GLFW_KEY_F12:
+            gui_.saveRequested = true;
+            return;
+        default:
+            break;
     }
     if (control) {
         const app::Activity activity = gui_.state.activity;
         switch (press.key) {
-            case GLFW_KEY_S: gui_.saveRequested = true; return;
-            case GLFW_KEY_Q: window_.close(); return;
+            case GLFW_KEY_S:
+                gui_.saveRequested = true;
+                return;
+            case GLFW_KEY_Q:
+                window_.close();
+                return;
             case GLFW_KEY_O:
                 settings_.showPanels = true;
                 gui_.focusOpen = true;
                 return;
-            case GLFW_KEY_R: session_.reset(); return;
+            case GLFW_KEY_R:
+                session_.reset();
+                return;
             case GLFW_KEY_EQUAL:
             case GLFW_KEY_KP_ADD:
                 settings_.uiScale = std::min(app::kMostUiScale, settings_.uiScale + 0.25f);
@@ -265,7 +281,8 @@ void App::handleKey(const Window::KeyPress& press) {
                     gui_.say("The clipboard holds no camera pose", true);
                 }
                 return;
-            default: break;
+            default:
+                break;
         }
         (void)activity;
         return;
@@ -276,11 +293,20 @@ void App::handleKey(const Window::KeyPress& press) {
             if (ImGui::GetIO().NavVisible) return; // it presses the control that the keyboard is at
             gui_.state.activity == app::Activity::Rendering ? session_.pause() : session_.render();
             return;
-        case GLFW_KEY_R: camera_.reset(); return;
-        case GLFW_KEY_F: gui_.view = {}; return;
-        case GLFW_KEY_PAGE_UP: stepScene(-1); return;
-        case GLFW_KEY_PAGE_DOWN: stepScene(1); return;
-        default: break;
+        case GLFW_KEY_R:
+            camera_.reset();
+            return;
+        case GLFW_KEY_F:
+            gui_.view = {};
+            return;
+        case GLFW_KEY_PAGE_UP:
+            stepScene(-1);
+            return;
+        case GLFW_KEY_PAGE_DOWN:
+            stepScene(1);
+            return;
+        default:
+            break;
     }
     if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_9) {
         const auto index = static_cast<std::size_t>(press.key - GLFW_KEY_1);
@@ -309,7 +335,8 @@ void App::handlePointer(const Rect& area) {
     if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) dragging = false;
     const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
     if (dragging && (dx != 0 || dy != 0)) {
-        const float height = static_cast<float>(gui_.state.settings.height) * (gui_.view.zoom > 0 ? gui_.view.zoom : fitScale(area));
+        const float height =
+            static_cast<float>(gui_.state.settings.height) * (gui_.view.zoom > 0 ? gui_.view.zoom : fitScale(area));
         if (io.MouseDown[1] && io.KeyCtrl) {
             gui_.view.panX += io.MouseDelta.x;
             gui_.view.panY += io.MouseDelta.y;
@@ -422,7 +449,8 @@ void App::drawInterface() {
             panels.push_back({"Statistics", Place::Side, false, [this] { drawStatisticsPanel(gui_); }});
         }
     }
-    area_ = imgui_.layOut(panels, [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
+    area_ = imgui_.layOut(
+        panels, [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
     drawOverlay(area_);
     drawHelp(gui_);
 }

@@ -10,7 +10,7 @@
 namespace rt::gui {
 
 struct WindowProgram {
-    app::EngineMaker makeEngine; // called on the session's thread
+    app::EngineMaker makeEngine;      // called on the session's thread
     std::vector<std::string> devices; // of ray-tracing-gpu, those that are suitable
 };
 

@@ -21,12 +21,13 @@ void drawCameraPanel(Gui& gui) {
     scene::CameraDesc camera = gui.camera.camera();
     const double distance = glm::length(camera.lookAt - camera.lookFrom);
     bool changed = sliderReal("Field of view", "Vertical, in degrees", camera.verticalFov, 1, 170, "%.1f");
-    changed |= sliderReal("Aperture", "Angle of the cone of light that the lens takes in, in degrees; 0: everything is sharp",
-                          camera.defocusAngle, 0, 20, "%.2f");
+    changed |=
+        sliderReal("Aperture", "Angle of the cone of light that the lens takes in, in degrees; 0: everything is sharp",
+                   camera.defocusAngle, 0, 20, "%.2f");
     // The range follows the scene's size: boxes of 500 units as well as spheres of one.
     changed |= sliderReal("Focus distance", "Where things are sharp, in units of the scene", camera.focusDistance,
-                          std::min(camera.focusDistance, 0.01 * distance), std::max(camera.focusDistance, 10 * distance),
-                          "%.4g", true);
+                          std::min(camera.focusDistance, 0.01 * distance),
+                          std::max(camera.focusDistance, 10 * distance), "%.4g", true);
     if (button("Focus on the target", "Makes sharp what the camera looks at", true, -1)) {
         camera.focusDistance = distance;
         changed = true;

@@ -132,8 +132,9 @@ void FilmPass::provide(std::size_t slot, VkDeviceSize bytes) {
     if (images_[slot].bytes() == bytes) return;
     check(vkDeviceWaitIdle(device_.device()), "Drawing on " + device_.name());
     images_[slot] = {};
-    images_[slot] = GraphicsBuffer(device_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                   VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    images_[slot] =
+        GraphicsBuffer(device_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
     const VkDescriptorBufferInfo buffer{images_[slot].get(), 0, VK_WHOLE_SIZE};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
     write.dstSet = set_;
@@ -170,8 +171,8 @@ void FilmPass::upload(VkCommandBuffer commands, std::uint32_t frame, Slot which,
     VkMemoryBarrier after{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     after.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     after.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &after, 0,
-                         nullptr, 0, nullptr);
+    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &after,
+                         0, nullptr, 0, nullptr);
 }
 
 void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants) const {

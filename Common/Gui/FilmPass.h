@@ -46,7 +46,7 @@ class FilmPass {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     vulkan::Handle<VkPipelineLayout> layout_;
     vulkan::Handle<VkPipeline> pipeline_;
-    std::array<GraphicsBuffer, 2> images_;                     // by slot
+    std::array<GraphicsBuffer, 2> images_;                               // by slot
     std::array<std::array<GraphicsBuffer, 2>, kFramesInFlight> staging_; // by frame and slot
     std::array<std::array<std::uint32_t, 2>, 2> sizes_{};
     std::uint32_t reduction_ = 1;

@@ -44,10 +44,14 @@ std::optional<std::uint32_t> presentingFamily(VkPhysicalDevice device, VkSurface
 
 int rank(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 3;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 1;
-        default: return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -82,8 +86,8 @@ void GraphicsDevice::choose(const std::string& preferred) {
         if (properties.apiVersion < vulkan::kApiVersion || !hasSwapchain(device)) continue;
         const auto family = presentingFamily(device, surface_);
         if (!family) continue;
-        const bool named = !preferred.empty() &&
-                           lowerCase(properties.deviceName).find(lowerCase(preferred)) != std::string::npos;
+        const bool named =
+            !preferred.empty() && lowerCase(properties.deviceName).find(lowerCase(preferred)) != std::string::npos;
         const int score = rank(properties.deviceType) + (named ? 10 : 0);
         if (score <= best) continue;
         best = score;

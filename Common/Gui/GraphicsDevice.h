@@ -54,7 +54,8 @@ class GraphicsDevice {
 class GraphicsBuffer {
   public:
     GraphicsBuffer() = default;
-    GraphicsBuffer(const GraphicsDevice& device, VkDeviceSize bytes, VkBufferUsageFlags usage, VkMemoryPropertyFlags memory);
+    GraphicsBuffer(const GraphicsDevice& device, VkDeviceSize bytes, VkBufferUsageFlags usage,
+                   VkMemoryPropertyFlags memory);
     VkBuffer get() const { return buffer_.get(); }
     VkDeviceSize bytes() const { return bytes_; }
     void* mapped() const { return mapped_; }

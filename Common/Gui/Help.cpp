@@ -40,8 +40,9 @@ void drawHelp(Gui& gui) {
     const ImVec2 size = ImGui::GetMainViewport()->Size;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, size.y});
-    if (ImGui::Begin("Help", &gui.showHelp, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                                                ImGuiWindowFlags_NoSavedSettings)) {
+    if (ImGui::Begin(
+            "Help", &gui.showHelp,
+            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
             for (const Shortcut& shortcut : kShortcuts) {
                 ImGui::TableNextRow();

@@ -21,8 +21,8 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kFontSize = 15;     // at scale 1
-constexpr float kSideWidth = 372;   // of the fixed layout, at scale 1
+constexpr float kFontSize = 15;      // at scale 1
+constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
 constexpr float kBottomShare = 0.4f; // of the height
 // Latin, dashes, arrows, mathematical signs.
 constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0};
@@ -50,7 +50,8 @@ std::vector<FontFile> findFonts() {
     std::vector<FontFile> fonts;
     for (const FontFile& font : candidates) {
         std::error_code none;
-        const bool known = std::any_of(fonts.begin(), fonts.end(), [&](const FontFile& f) { return f.name == font.name; });
+        const bool known =
+            std::any_of(fonts.begin(), fonts.end(), [&](const FontFile& f) { return f.name == font.name; });
         if (!known && fs::is_regular_file(font.file, none)) fonts.push_back(font);
     }
     fonts.push_back({"ImGui", {}});
@@ -64,9 +65,12 @@ const std::vector<FontFile>& availableFonts() {
     return fonts;
 }
 
-ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPass renderPass,
-                       std::uint32_t imageCount, const std::filesystem::path& layoutFile)
-    : device_(device), renderPass_(renderPass), imageCount_(std::max(imageCount, 2u)), layoutFile_(layoutFile.string()) {
+ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPass renderPass, std::uint32_t imageCount,
+                       const std::filesystem::path& layoutFile)
+    : device_(device),
+      renderPass_(renderPass),
+      imageCount_(std::max(imageCount, 2u)),
+      layoutFile_(layoutFile.string()) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGuiIO& io = ImGui::GetIO();
@@ -150,7 +154,8 @@ void ImGuiLayer::applyStyle() {
     ImGuiIO& io = ImGui::GetIO();
     io.Fonts->Clear();
     const std::vector<FontFile>& fonts = availableFonts();
-    const auto chosen = std::find_if(fonts.begin(), fonts.end(), [this](const FontFile& f) { return f.name == style_.font; });
+    const auto chosen =
+        std::find_if(fonts.begin(), fonts.end(), [this](const FontFile& f) { return f.name == style_.font; });
     const FontFile& font = chosen != fonts.end() ? *chosen : fonts.front();
     const float size = std::round(kFontSize * style_.scale);
     if (font.file.empty() ||
@@ -225,13 +230,14 @@ Rect ImGuiLayer::layOut(std::span<const Panel> panels, const std::function<void(
 Rect ImGuiLayer::layOut(std::span<const Panel> panels, const std::function<void()>& header,
                         const std::function<void()>& status) {
     const ImGuiViewport* viewport = ImGui::GetMainViewport();
-    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                        ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
-                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
+    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     const float statusHeight = std::min(ImGui::GetTextLineHeight() + padding.y, viewport->Size.y);
     const float height = std::max(1.0f, viewport->Size.y - statusHeight);
-    const bool hasSide = std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.place == Panel::Place::Side; });
+    const bool hasSide =
+        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.place == Panel::Place::Side; });
     const float side = hasSide ? std::min(kSideWidth * style_.scale, 0.6f * viewport->Size.x) : 0.0f;
     Rect rest{side, 0, std::max(1.0f, viewport->Size.x - side), height};
 

@@ -58,7 +58,8 @@ class ImGuiLayer {
     void beginFrame();
     // Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the
     // side, `status` in a line at the bottom.
-    Rect layOut(std::span<const Panel> panels, const std::function<void()>& header, const std::function<void()>& status);
+    Rect layOut(std::span<const Panel> panels, const std::function<void()>& header,
+                const std::function<void()>& status);
     void endFrame();
     void draw(VkCommandBuffer commands); // what endFrame left
 

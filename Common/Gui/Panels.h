@@ -14,7 +14,7 @@ namespace rt::gui {
 
 // How the picture lies in its part of the window.
 struct PictureView {
-    float zoom = 0; // pixels of the window for one of the image; 0: as large as fits
+    float zoom = 0;           // pixels of the window for one of the image; 0: as large as fits
     float panX = 0, panY = 0; // of the image's middle from that of its part, in pixels of the window
 };
 
@@ -37,8 +37,8 @@ struct Gui {
     PictureView view;
     UiFigures figures;
     bool showHelp = false;
-    bool focusOpen = false;    // the keyboard is to go to the field of the path
-    std::string path;          // in that field
+    bool focusOpen = false; // the keyboard is to go to the field of the path
+    std::string path;       // in that field
     bool saveRequested = false;
     std::string toast; // shown for a while
     double toastTime = -1e9;

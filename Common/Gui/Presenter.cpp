@@ -151,7 +151,8 @@ bool Presenter::provideSwapchain() {
     if (fits) return true;
 
     VkSurfaceCapabilitiesKHR able{};
-    const VkResult asked = vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physicalDevice(), device_.surface(), &able);
+    const VkResult asked =
+        vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physicalDevice(), device_.surface(), &able);
     if (asked == VK_ERROR_SURFACE_LOST_KHR) {
         surfaceLost_ = true;
         return false;
@@ -159,7 +160,8 @@ bool Presenter::provideSwapchain() {
     check(asked, "Asking for the window's size");
     VkExtent2D extent = able.currentExtent;
     if (extent.width == std::numeric_limits<std::uint32_t>::max()) {
-        extent.width = std::clamp(static_cast<std::uint32_t>(width), able.minImageExtent.width, able.maxImageExtent.width);
+        extent.width =
+            std::clamp(static_cast<std::uint32_t>(width), able.minImageExtent.width, able.maxImageExtent.width);
         extent.height =
             std::clamp(static_cast<std::uint32_t>(height), able.minImageExtent.height, able.maxImageExtent.height);
     }
@@ -254,7 +256,8 @@ bool Presenter::present(const PresentConstants& constants, const std::function<v
     const VkResult presented = vkQueuePresentKHR(device_.queue(), &info);
     frame_ = (frame_ + 1) % kFramesInFlight;
     if (presented == VK_ERROR_SURFACE_LOST_KHR) surfaceLost_ = true;
-    if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR || presented == VK_ERROR_SURFACE_LOST_KHR) {
+    if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR ||
+        presented == VK_ERROR_SURFACE_LOST_KHR) {
         dropSwapchain();
     } else {
         check(presented, "Drawing to the window");

@@ -33,7 +33,6 @@ class Presenter {
     // the window is minimised. Throws RenderError or DeviceLostError.
     bool present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface);
 
-
   private:
     struct Frame {
         vulkan::Handle<VkCommandPool> pool;

@@ -11,12 +11,18 @@ using app::Activity;
 
 const char* activityText(Activity activity) {
     switch (activity) {
-        case Activity::Preparing: return "preparing";
-        case Activity::Rendering: return "rendering";
-        case Activity::Paused: return "paused";
-        case Activity::Stopped: return "stopped";
-        case Activity::Finished: return "done";
-        case Activity::Failed: break;
+        case Activity::Preparing:
+            return "preparing";
+        case Activity::Rendering:
+            return "rendering";
+        case Activity::Paused:
+            return "paused";
+        case Activity::Stopped:
+            return "stopped";
+        case Activity::Finished:
+            return "done";
+        case Activity::Failed:
+            break;
     }
     return "failed";
 }
@@ -25,8 +31,8 @@ std::string progressText(const app::SessionState& state, float share) {
     const std::uint64_t pixels = std::uint64_t{state.settings.width} * state.settings.height;
     const std::uint64_t spp = pixels > 0 ? state.status.samplesDone / pixels : 0;
     char text[96];
-    std::snprintf(text, sizeof text, "%llu / %u spp   %.0f %%", static_cast<unsigned long long>(spp), state.settings.spp,
-                  std::min(100.0f, 100 * share));
+    std::snprintf(text, sizeof text, "%llu / %u spp   %.0f %%", static_cast<unsigned long long>(spp),
+                  state.settings.spp, std::min(100.0f, 100 * share));
     return text;
 }
 
@@ -34,7 +40,8 @@ std::string timeLeft(const app::SessionState& state) {
     const app::RenderStatus& status = state.status;
     if (state.activity != Activity::Rendering || status.samplesDone == 0 || state.renderSeconds <= 0) return "";
     const double rate = static_cast<double>(status.samplesDone) / state.renderSeconds;
-    const auto left = static_cast<double>(status.samplesTotal - std::min(status.samplesTotal, status.samplesDone)) / rate;
+    const auto left =
+        static_cast<double>(status.samplesTotal - std::min(status.samplesTotal, status.samplesDone)) / rate;
     return shortDuration(left) + " left";
 }
 
@@ -56,9 +63,10 @@ void drawRenderControl(Gui& gui) {
     ImGui::SameLine(0, space);
     if (button("Reset", "Throws the samples away and renders from the beginning", true, width)) gui.session.reset();
 
-    const float share = state.status.samplesTotal > 0 ? static_cast<float>(static_cast<double>(state.status.samplesDone) /
-                                                                           static_cast<double>(state.status.samplesTotal))
-                                                      : 0.0f;
+    const float share = state.status.samplesTotal > 0
+                            ? static_cast<float>(static_cast<double>(state.status.samplesDone) /
+                                                 static_cast<double>(state.status.samplesTotal))
+                            : 0.0f;
     ImGui::ProgressBar(share, {-1, 0}, progressText(state, share).c_str());
     std::string line = activityText(state.activity);
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
@@ -83,9 +91,11 @@ void drawStatusLine(Gui& gui) {
     const app::SessionState& state = gui.state;
     std::string text = state.scene ? state.scene->title : "no scene";
     text += "   |   " + std::to_string(state.settings.width) + " x " + std::to_string(state.settings.height);
-    text += "   |   " + (state.report.engine.empty() ? std::string("starting") : state.report.engine + ", " + state.report.device);
+    text += "   |   " +
+            (state.report.engine.empty() ? std::string("starting") : state.report.engine + ", " + state.report.device);
     if (state.renderSeconds > 0) {
-        text += "   |   " + withPrefix(static_cast<double>(state.status.samplesDone) / state.renderSeconds) + " samples/s";
+        text +=
+            "   |   " + withPrefix(static_cast<double>(state.status.samplesDone) / state.renderSeconds) + " samples/s";
     }
     ImGui::TextUnformatted(text.c_str());
     char fps[48];

@@ -45,10 +45,10 @@ void drawSize(Gui& gui) {
         const char* name;
         double value; // 0: the scene's
     };
-    constexpr Aspect kAspects[] = {{"As the scene", 0}, {"1:1", 1},           {"5:4", 1.25},     {"4:3", 4.0 / 3},
-                                   {"3:2", 1.5},        {"16:10", 1.6},       {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
+    constexpr Aspect kAspects[] = {{"As the scene", 0}, {"1:1", 1},        {"5:4", 1.25},      {"4:3", 4.0 / 3},
+                                   {"3:2", 1.5},        {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
                                    {"3:4", 0.75},       {"9:16", 9.0 / 16}};
-    const double ratio = size.aspect ? *size.aspect
+    const double ratio = size.aspect                 ? *size.aspect
                          : size.width && size.height ? static_cast<double>(*size.width) / *size.height
                                                      : 0;
     char current[32];
@@ -71,23 +71,27 @@ void drawSize(Gui& gui) {
 
 void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
     combo("Light sampling",
-          "MIS: light and scattering are both sampled and weighted against each other. Mixture: one sample from half light, "
-          "half scattering, the predecessors' 'PDF on'. Scattering only: light is found by chance, 'PDF off'. All have the "
+          "MIS: light and scattering are both sampled and weighted against each other. Mixture: one sample from half "
+          "light, "
+          "half scattering, the predecessors' 'PDF on'. Scattering only: light is found by chance, 'PDF off'. All have "
+          "the "
           "same mean; their noise differs.",
           kLightSamplingNames, settings.lightSampling);
     if (settings.lightSampling != LightSampling::Bsdf) {
         combo("Light selection",
-              "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or all alike",
+              "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or "
+              "all alike",
               kSelectionNames, settings.lightSelection);
-        combo("Sphere lights", "Where on a sphere: automatic takes the cone of directions that it is seen in", kSphereNames,
-              settings.sphereLight);
+        combo("Sphere lights", "Where on a sphere: automatic takes the cone of directions that it is seen in",
+              kSphereNames, settings.sphereLight);
         combo("Quad lights", "Where on a quad: in the solid angle that it is seen in, or on its area", kFlatNames,
               settings.quadLight);
-        combo("Triangle lights", "Where on a triangle: in the solid angle that it is seen in, or on its area", kFlatNames,
-              settings.triangleLight);
+        combo("Triangle lights", "Where on a triangle: in the solid angle that it is seen in, or on its area",
+              kFlatNames, settings.triangleLight);
     }
     checkbox("Unidirectional light",
-             "One-sided lights: flat lights emit from their front only. Off: from both sides. A light whose scene says which "
+             "One-sided lights: flat lights emit from their front only. Off: from both sides. A light whose scene says "
+             "which "
              "side it emits from is not concerned.",
              request.oneSidedLights);
 }
@@ -122,10 +126,12 @@ void drawRenderPanel(Gui& gui) {
     drawSize(gui);
     drawLights(settings, request);
     combo("Pixel sampling",
-          "Where random numbers come from. Sobol: well spread in many dimensions. Stratified: one in each cell of a grid. "
+          "Where random numbers come from. Sobol: well spread in many dimensions. Stratified: one in each cell of a "
+          "grid. "
           "Normal: independent.",
           kSamplerNames, settings.sampler);
-    checkbox("Accumulate", "On: samples add up in one image. Off: every frame is an image of its own, with other random numbers",
+    checkbox("Accumulate",
+             "On: samples add up in one image. Off: every frame is an image of its own, with other random numbers",
              request.accumulate);
     if (!request.accumulate) {
         inputCount("Samples per frame", "Samples per pixel of each frame", request.samplesPerFrame, 1, 65536, 5);
@@ -133,8 +139,8 @@ void drawRenderPanel(Gui& gui) {
     checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
     checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
     inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
-    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates", settings.replicates,
-               1, 1024, 1);
+    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
+               settings.replicates, 1, 1024, 1);
     drawEngine(gui);
 }
 

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 
 fs::path defaultFolder() {
     std::error_code none;
-    if (const char* pictures = std::getenv("XDG_PICTURES_DIR"); pictures != nullptr && fs::is_directory(pictures, none)) {
+    if (const char* pictures = std::getenv("XDG_PICTURES_DIR");
+        pictures != nullptr && fs::is_directory(pictures, none)) {
         return pictures;
     }
     for (const char* variable : {"HOME", "USERPROFILE"}) {

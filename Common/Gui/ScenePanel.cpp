@@ -44,8 +44,7 @@ void drawFiles(Gui& gui) {
     ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemInnerSpacing.x);
     if (gui.focusOpen) ImGui::SetKeyboardFocusHere();
     gui.focusOpen = false;
-    const bool entered =
-        inputText("##path", "path", gui.path);
+    const bool entered = inputText("##path", "path", gui.path);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if ((button("Open", nullptr, !gui.path.empty()) || entered) && !gui.path.empty()) gui.openScene(gui.path);
     if (!gui.settings.recent.empty()) {

@@ -29,7 +29,8 @@ void drawStatisticsPanel(Gui& gui) {
     char text[64];
     std::snprintf(text, sizeof text, "%.1f fps, longest turn %.0f ms", gui.figures.framesPerSecond,
                   1000 * gui.figures.longestStall);
-    figure("Window", "Frames of the last second; the longest time that the window's thread was busy, of the last 10 s", text);
+    figure("Window", "Frames of the last second; the longest time that the window's thread was busy, of the last 10 s",
+           text);
     const double seconds = state.renderSeconds;
     const auto perSecond = [seconds](double count) { return seconds > 0 ? withPrefix(count / seconds) + "/s" : "-"; };
     const app::RayCounts& rays = report.rays;

@@ -10,20 +10,31 @@ struct Palette {
     ImVec4 text, dim, window, field, line, accent, accentText;
 };
 
-const Palette kDark{{0.90f, 0.91f, 0.92f, 1}, {0.58f, 0.60f, 0.64f, 1}, {0.105f, 0.11f, 0.125f, 1},
-                        {0.185f, 0.195f, 0.22f, 1}, {0.28f, 0.29f, 0.33f, 1}, {0.27f, 0.53f, 0.88f, 1},
-                        {1, 1, 1, 1}};
-const Palette kLight{{0.10f, 0.11f, 0.13f, 1}, {0.42f, 0.44f, 0.48f, 1}, {0.955f, 0.96f, 0.965f, 1},
-                         {0.87f, 0.88f, 0.895f, 1}, {0.74f, 0.76f, 0.79f, 1}, {0.16f, 0.44f, 0.83f, 1},
-                         {1, 1, 1, 1}};
+const Palette kDark{{0.90f, 0.91f, 0.92f, 1},
+                    {0.58f, 0.60f, 0.64f, 1},
+                    {0.105f, 0.11f, 0.125f, 1},
+                    {0.185f, 0.195f, 0.22f, 1},
+                    {0.28f, 0.29f, 0.33f, 1},
+                    {0.27f, 0.53f, 0.88f, 1},
+                    {1, 1, 1, 1}};
+const Palette kLight{{0.10f, 0.11f, 0.13f, 1},
+                     {0.42f, 0.44f, 0.48f, 1},
+                     {0.955f, 0.96f, 0.965f, 1},
+                     {0.87f, 0.88f, 0.895f, 1},
+                     {0.74f, 0.76f, 0.79f, 1},
+                     {0.16f, 0.44f, 0.83f, 1},
+                     {1, 1, 1, 1}};
 const Palette kHighContrast{{1, 1, 1, 1}, {0.86f, 0.86f, 0.86f, 1}, {0, 0, 0, 1}, {0.10f, 0.10f, 0.10f, 1},
-                                {1, 1, 1, 1}, {1.0f, 0.85f, 0.0f, 1}, {0, 0, 0, 1}};
+                            {1, 1, 1, 1}, {1.0f, 0.85f, 0.0f, 1},   {0, 0, 0, 1}};
 
 const Palette& palette(app::ColorMode mode) {
     switch (mode) {
-        case app::ColorMode::Light: return kLight;
-        case app::ColorMode::HighContrast: return kHighContrast;
-        case app::ColorMode::Dark: break;
+        case app::ColorMode::Light:
+            return kLight;
+        case app::ColorMode::HighContrast:
+            return kHighContrast;
+        case app::ColorMode::Dark:
+            break;
     }
     return kDark;
 }
@@ -97,9 +108,12 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode) {
 
 Rgb surroundColor(app::ColorMode mode) {
     switch (mode) {
-        case app::ColorMode::Light: return {0.80f, 0.81f, 0.82f};
-        case app::ColorMode::HighContrast: return {0, 0, 0};
-        case app::ColorMode::Dark: break;
+        case app::ColorMode::Light:
+            return {0.80f, 0.81f, 0.82f};
+        case app::ColorMode::HighContrast:
+            return {0, 0, 0};
+        case app::ColorMode::Dark:
+            break;
     }
     return {0.06f, 0.063f, 0.07f};
 }

@@ -4,12 +4,10 @@
 namespace rt::gui {
 namespace {
 
-constexpr app::Named<app::Tonemap> kTonemapNames[] = {{"None (clamp)", app::Tonemap::None},
-                                                      {"Reinhard", app::Tonemap::Reinhard},
-                                                      {"ACES-like", app::Tonemap::Aces}};
-constexpr app::Named<app::ColorMode> kColorModeNames[] = {{"Dark", app::ColorMode::Dark},
-                                                          {"Light", app::ColorMode::Light},
-                                                          {"High contrast", app::ColorMode::HighContrast}};
+constexpr app::Named<app::Tonemap> kTonemapNames[] = {
+    {"None (clamp)", app::Tonemap::None}, {"Reinhard", app::Tonemap::Reinhard}, {"ACES-like", app::Tonemap::Aces}};
+constexpr app::Named<app::ColorMode> kColorModeNames[] = {
+    {"Dark", app::ColorMode::Dark}, {"Light", app::ColorMode::Light}, {"High contrast", app::ColorMode::HighContrast}};
 
 } // namespace
 
@@ -22,7 +20,8 @@ void drawViewPanel(Gui& gui) {
     combo("Tone curve", "How radiance beyond white is shown", kTonemapNames, settings.tonemap);
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
-    if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width)) gui.view = {};
+    if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width))
+        gui.view = {};
     ImGui::SameLine(0, space);
     if (button("1:1", "One pixel for each of the window", true, width)) gui.view = {1, 0, 0};
     row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");

@@ -130,7 +130,8 @@ bool inputText(const char* id, const char* hint, std::string& text) {
         return 0;
     };
     return ImGui::InputTextWithHint(id, hint, text.data(), text.capacity() + 1,
-                                    ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue, resize, &text);
+                                    ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue, resize,
+                                    &text);
 }
 
 bool checkbox(const char* label, const char* tip, bool& value) {

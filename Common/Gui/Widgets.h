@@ -11,7 +11,7 @@ namespace rt::gui {
 
 // What follows is the control of this row. `tip` may be null.
 void row(const char* label, const char* tip);
-void tooltip(const char* text); // of the item before
+void tooltip(const char* text);     // of the item before
 void note(const std::string& text); // dimmed and wrapped
 
 // All return whether the value has changed. Typed numbers count when the field is left, brought into their range.

@@ -29,7 +29,8 @@ bool isOnAMonitor(const WindowPlace& place) {
     for (int i = 0; i < count; ++i) {
         int x = 0, y = 0, width = 0, height = 0;
         glfwGetMonitorWorkarea(monitors[i], &x, &y, &width, &height);
-        if (place.x >= x - 50 && place.x < x + width - 50 && place.y >= y - 50 && place.y < y + height - 50) return true;
+        if (place.x >= x - 50 && place.x < x + width - 50 && place.y >= y - 50 && place.y < y + height - 50)
+            return true;
     }
     return false;
 }

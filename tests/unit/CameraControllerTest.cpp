@@ -1,5 +1,3 @@
-#include "Common/App/CameraController.h"
-
 #include <cmath>
 #include <limits>
 #include <random>
@@ -7,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include "Common/App/CameraController.h"
 #include "Common/Scene/CameraRecord.h"
 
 namespace rt::app {
@@ -69,12 +68,24 @@ TEST(CameraController, NeverLosesItsOrientation) {
     for (int i = 0; i < 20'000; ++i) {
         const double size = std::pow(10, 4 * any(random));
         switch (random() % 6) {
-            case 0: c.fly(any(random), any(random), any(random), size); break;
-            case 1: c.look(size * any(random), size * any(random)); break;
-            case 2: c.orbit(size * any(random), size * any(random)); break;
-            case 3: c.pan(size * any(random), size * any(random)); break;
-            case 4: c.dolly(size * any(random)); break;
-            default: c.changeSpeed(size * any(random)); break;
+            case 0:
+                c.fly(any(random), any(random), any(random), size);
+                break;
+            case 1:
+                c.look(size * any(random), size * any(random));
+                break;
+            case 2:
+                c.orbit(size * any(random), size * any(random));
+                break;
+            case 3:
+                c.pan(size * any(random), size * any(random));
+                break;
+            case 4:
+                c.dolly(size * any(random));
+                break;
+            default:
+                c.changeSpeed(size * any(random));
+                break;
         }
         ASSERT_NO_THROW(scene::makeCamera(c.camera(), 16, 9, glm::dvec3(0))) << i;
         ASSERT_TRUE(std::isfinite(c.speed()) && c.speed() > 0) << i;

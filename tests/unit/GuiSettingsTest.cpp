@@ -1,11 +1,11 @@
-#include "Common/App/GuiSettings.h"
-
-#include <filesystem>
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 
 #include <gtest/gtest.h>
+
+#include "Common/App/GuiSettings.h"
 
 namespace rt::app {
 namespace {

@@ -1,10 +1,10 @@
-#include "Common/App/RunHistory.h"
-
 #include <algorithm>
 #include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
+
+#include "Common/App/RunHistory.h"
 
 namespace rt::app {
 namespace {
