@@ -25,7 +25,6 @@ using image::Film;
 using vulkan::Memory;
 
 constexpr std::uint32_t kInvocations = 1u << 18;    // that share the work of a launch; fills the largest devices
-constexpr std::uint32_t kRegionSlots = 1u << 18;    // of the film that are on the device at a time: 4096 x 4096 pixels
 constexpr std::uint64_t kMaxBlockSums = 10'000'000; // of a launch: 120 MB
 constexpr std::uint64_t kRegionRounds = 8;          // per pass where regions take turns, each turn costing two copies
 
@@ -37,6 +36,7 @@ class GpuEngine final : public app::Engine {
   public:
     GpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options)
         : context_(context),
+          options_(options),
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
           bindings_(context, std::max(sizeof(shared::FilmLaunch), sizeof(shared::AovLaunch))),
           reducer_(context, cache_),
@@ -49,6 +49,7 @@ class GpuEngine final : public app::Engine {
         auto prepared = std::make_unique<GpuScene>(context_, std::move(compiled));
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return false;
         scene_ = std::move(prepared);
+        launchSize_.reset();
         return true;
     }
 
@@ -74,6 +75,7 @@ class GpuEngine final : public app::Engine {
     bool isOneRegion() const { return region_->slotCount() == film_.tileCount() * settings_.replicates; }
 
     vulkan::VulkanContext& context_;
+    GpuEngineOptions options_;
     vulkan::PipelineCache cache_;
     RenderBindings bindings_;
     FilmReducer reducer_;
@@ -98,7 +100,7 @@ class GpuEngine final : public app::Engine {
     std::uint32_t passEnd_ = 0;   // samples per pixel that the pass in progress leads to
     std::uint32_t passRounds_ = 0; // blocks of each slot that it takes
     std::uint32_t nextSlot_ = 0;  // of the region: the first that the pass has not launched
-    LaunchSize launchSize_;
+    std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
 };
 
@@ -119,8 +121,9 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         pipeline_.emplace(context_, cache_, bindings_, decisions, Shader::RayGeneration);
         cache_.save();
         report_.pipelineSeconds = secondsSince(start);
+        launchSize_.reset();
     }
-    launchSize_ = {};
+    if (!launchSize_) launchSize_.emplace(context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;
@@ -138,7 +141,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
-    const std::uint32_t tiles = std::min(film_.tileCount(), std::max(1u, kRegionSlots / settings_.replicates));
+    const std::uint32_t tiles = std::min(film_.tileCount(), std::max(1u, options_.regionSlots / settings_.replicates));
     region_ = nullptr; // its memory may be needed for the next one
     region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
     region_->load(film_, 0);
@@ -180,7 +183,7 @@ bool GpuEngine::beginPass(double seconds) {
     const std::uint64_t least = isOneRegion() ? region_->leastSamples() : film_.minSamples();
     std::uint64_t rounds = kRegionRounds;
     if (isOneRegion()) {
-        const std::uint64_t fitting = launchSize_.suggest(seconds) / (pixels() * round);
+        const std::uint64_t fitting = launchSize_->suggest(seconds) / (pixels() * round);
         const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels);
         rounds = std::max<std::uint64_t>(1, std::min(fitting, room));
     }
@@ -196,7 +199,7 @@ bool GpuEngine::beginPass(double seconds) {
 // Launches the next slots of the pass; behind the last one of the last region the pass is over.
 void GpuEngine::launchNext(double seconds) {
     const std::uint64_t sums = std::uint64_t{passRounds_} * shared::kTilePixels; // of a slot
-    const std::uint64_t fitting = launchSize_.suggest(seconds) / (sums * shared::kBlock);
+    const std::uint64_t fitting = launchSize_->suggest(seconds) / (sums * shared::kBlock);
     const std::uint64_t most = std::min<std::uint64_t>(region_->slotCount() - nextSlot_, kMaxBlockSums / sums);
     shared::FilmLaunch launch{};
     region_->describe(launch);
@@ -233,7 +236,7 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
     dirty_ = true;
     const std::uint64_t samples = region_->advance(launch);
     samplesDone_ += samples;
-    launchSize_.measured(samples, seconds);
+    launchSize_->measured(samples, seconds);
 
     report_.renderDeviceSeconds += seconds;
     report_.rays.camera += samples;

@@ -10,6 +10,9 @@ inline constexpr double kLaunchSeconds = 0.04;
 
 class LaunchSize {
   public:
+    // Begins with so few samples that even a slow device of its kind is done with them in time.
+    explicit LaunchSize(bool softwareDevice) : samples_(softwareDevice ? 1 << 14 : 1 << 18) {}
+
     // Samples for a launch of `seconds`, but at most kLaunchSeconds.
     std::uint64_t suggest(double seconds) {
         suggested_ = samples_ * std::clamp(seconds / kLaunchSeconds, 0.0, 1.0);
@@ -26,7 +29,7 @@ class LaunchSize {
     }
 
   private:
-    double samples_ = 1 << 14; // that take kLaunchSeconds; at first few, since nothing is known of device and scene
+    double samples_; // that take kLaunchSeconds, as far as is known
     double suggested_ = 0;
 };
 

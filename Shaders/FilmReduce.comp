@@ -61,6 +61,7 @@ void main() {
     }
     launch.sums.at[pixel] = sum;
     if (squares) launch.squares.at[pixel] = square;
+    memoryBarrierBuffer();
     barrier(); // every invocation has read the count
     if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = samples;
 }

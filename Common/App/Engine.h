@@ -69,7 +69,8 @@ struct Engine {
     // After reset: goes on from this film, whose desc() must be that of the new one.
     virtual void restore(image::Film film) = 0;
     virtual RenderStatus renderSome(const Budget& budget) = 0;
-    // The film on the host, up to date; the reference stays valid until the next reset.
+    // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to date that
+    // is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
     virtual EngineReport report() const = 0;

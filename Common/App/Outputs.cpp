@@ -96,7 +96,13 @@ OutputResult writeOutputs(const Options& options, const image::Film& film, Engin
     const auto curve = static_cast<std::uint32_t>(options.tonemap);
     for (const std::filesystem::path output : options.outputs)
         write(output, hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance);
-    const std::map<Aov, Image> aovs = makeAovs(options, film, engine);
+    std::map<Aov, Image> aovs;
+    try {
+        aovs = makeAovs(options, film, engine);
+    } catch (const Error& error) { // of the engine; the picture and the statistics are not lost for that
+        result.failures.emplace_back(error.what());
+        return result;
+    }
     for (const std::filesystem::path output : options.outputs)
         for (const Aov aov : options.aovs) write(aovPath(output, aov), fitted(aovs.at(aov), aov, output));
     return result;

@@ -97,6 +97,7 @@ class HeadlessRender {
     void write();
     void save(const std::string& file) const;
     std::string rescue() const;
+    const image::Film& keptFilm(std::string& lost);
 
     Options options_;
     Interrupt interrupt_;
@@ -150,8 +151,11 @@ void HeadlessRender::sample() {
 // Everything that can be written is written; after that the first failure counts.
 void HeadlessRender::write() {
     const Stopwatch watch;
-    OutputResult outputs = writeOutputs(options_, engine_->film(), *engine_);
+    std::string lost;
+    const image::Film& film = keptFilm(lost);
+    OutputResult outputs = writeOutputs(options_, film, *engine_);
     const bool outputsFailed = !outputs.failures.empty();
+    if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
     const auto attempt = [&outputs](const auto& action) {
         try {
             action();
@@ -163,14 +167,24 @@ void HeadlessRender::write() {
     statistics_.seconds.write = watch.seconds();
     statistics_.outputs = outputs.written;
     if (!options_.stats.empty())
-        attempt([this] {
-            writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), engine_->film()));
+        attempt([&] {
+            writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film));
         });
     if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
         logWarning(std::to_string(bad) + " samples were not finite and count as black");
     if (outputs.failures.empty()) return;
     for (std::size_t i = 1; i < outputs.failures.size(); ++i) logWarning(outputs.failures[i]);
     throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
+}
+
+// The film as it is, or as the engine last copied it when it cannot be read any more; `lost` then says why.
+const image::Film& HeadlessRender::keptFilm(std::string& lost) {
+    try {
+        return engine_->film();
+    } catch (const RenderError& error) {
+        lost = error.what();
+        return engine_->film();
+    }
 }
 
 void HeadlessRender::save(const std::string& file) const {

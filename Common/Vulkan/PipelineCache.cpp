@@ -20,9 +20,18 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLargestFile = std::uint64_t{256} << 20;
 
-// The file's payload behind its hash; nothing where it is absent or damaged. Drivers check what they wrote for whom, but not
-// whether it is whole.
-std::vector<std::byte> readCache(const fs::path& file) {
+// Whether the data begins with the header that Vulkan prescribes, of this device and driver.
+bool isOfDevice(std::span<const std::byte> data, const DeviceLimits& limits) {
+    VkPipelineCacheHeaderVersionOne header{};
+    if (data.size() < sizeof header) return false;
+    std::memcpy(&header, data.data(), sizeof header);
+    return header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE && header.vendorID == limits.vendor &&
+           header.deviceID == limits.deviceId &&
+           std::memcmp(header.pipelineCacheUUID, limits.pipelineCacheId, VK_UUID_SIZE) == 0;
+}
+
+// The file's payload behind its hash; nothing where it is absent, damaged or another device's.
+std::vector<std::byte> readCache(const fs::path& file, const DeviceLimits& limits) {
     std::error_code ignored;
     if (file.empty() || !fs::is_regular_file(file, ignored)) return {};
     try {
@@ -31,7 +40,7 @@ std::vector<std::byte> readCache(const fs::path& file) {
         if (bytes.size() < sizeof hash) return {};
         std::memcpy(&hash, bytes.data(), sizeof hash);
         bytes.erase(bytes.begin(), bytes.begin() + sizeof hash);
-        if (hashBytes(bytes) == hash) return bytes;
+        if (hashBytes(bytes) == hash && isOfDevice(bytes, limits)) return bytes;
     } catch (const Error&) {
     }
     return {};
@@ -40,7 +49,7 @@ std::vector<std::byte> readCache(const fs::path& file) {
 }  // namespace
 
 PipelineCache::PipelineCache(VulkanContext& context, fs::path file) : context_(context), file_(std::move(file)) {
-    const std::vector<std::byte> bytes = readCache(file_);
+    const std::vector<std::byte> bytes = readCache(file_, context.limits());
     VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     info.initialDataSize = bytes.size();
     info.pInitialData = bytes.data();

@@ -113,7 +113,8 @@ void VulkanContext::queryLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &pipeline};
+    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &pipeline};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &memory};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
     limits_.groupHandleAlignment = pipeline.shaderGroupHandleAlignment;
@@ -122,6 +123,9 @@ void VulkanContext::queryLimits() {
     limits_.scratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
     limits_.maxPrimitives = structure.maxPrimitiveCount;
     limits_.maxInstances = structure.maxInstanceCount;
+    limits_.maxAllocation = memory.maxMemoryAllocationSize;
+    limits_.vendor = properties.properties.vendorID;
+    limits_.deviceId = properties.properties.deviceID;
     std::memcpy(limits_.pipelineCacheId, properties.properties.pipelineCacheUUID, VK_UUID_SIZE);
 
     std::uint32_t count = 0;
@@ -139,10 +143,13 @@ void VulkanContext::run(const std::function<void(VkCommandBuffer)>& record) {
     check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
     record(commands_);
     check(vkEndCommandBuffer(commands_), "Recording commands");
+    submit(commands_);
+}
 
+void VulkanContext::submit(VkCommandBuffer commands) {
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
+    submit.pCommandBuffers = &commands;
     const VkFence fence = fence_.get();
     check(vkQueueSubmit(queue_, 1, &submit, fence), "Running on " + info_.name);
     check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),

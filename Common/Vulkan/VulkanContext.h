@@ -41,8 +41,11 @@ struct DeviceLimits {
     std::uint32_t scratchAlignment = 0;     // bytes, of acceleration structure builds
     std::uint64_t maxPrimitives = 0;        // of one acceleration structure
     std::uint64_t maxInstances = 0;
+    std::uint64_t maxAllocation = 0;        // bytes, of one piece of memory
     double timestampSeconds = 0;            // of one tick; 0: the queue has no timestamps
     std::uint64_t timestampMask = 0;
+    std::uint32_t vendor = 0;
+    std::uint32_t deviceId = 0;
     std::uint8_t pipelineCacheId[VK_UUID_SIZE] = {};
 };
 
@@ -51,7 +54,7 @@ class VulkanContext {
   public:
     // Throws NoDeviceError or RenderError.
     explicit VulkanContext(const ContextOptions& options);
-    ~VulkanContext();
+    virtual ~VulkanContext();
     VulkanContext(const VulkanContext&) = delete;
     VulkanContext& operator=(const VulkanContext&) = delete;
 
@@ -71,6 +74,10 @@ class VulkanContext {
 
     // Bytes of device memory that buffers hold at present; buffers count themselves.
     std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
+
+  protected:
+    // Hands recorded commands to the device and waits. Virtual for tests, whose devices can fail.
+    virtual void submit(VkCommandBuffer commands);
 
   private:
     void createDevice();

@@ -50,6 +50,10 @@ Buffer::Buffer(VulkanContext& context, VkDeviceSize bytes, VkBufferUsageFlags us
     : context_(&context), bytes_(bytes) {
     const VkDevice device = context.device();
     const std::string what = std::string("Memory for ") + name + " (" + std::to_string(bytes) + " bytes)";
+    if (bytes > context.limits().maxAllocation) {
+        throw RenderError(what + ": more than the " + std::to_string(context.limits().maxAllocation) + " bytes that " +
+                          context.info().name + " allows at a time");
+    }
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = bytes;
     info.usage = usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |

@@ -14,6 +14,7 @@
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
+#include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
@@ -29,7 +30,7 @@ std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene
     return app::compile(app::loadScene(id), true);
 }
 
-app::RenderSettings smallSettings(std::uint32_t spp) {
+app::RenderSettings pairSettings(std::uint32_t spp) {
     app::RenderSettings settings;
     settings.width = kSide;
     settings.height = kSide;
@@ -37,7 +38,7 @@ app::RenderSettings smallSettings(std::uint32_t spp) {
     return settings;
 }
 
-Image render(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
     engine.reset(scene.camera, settings);
     while (!engine.renderSome({}).finished) {
     }
@@ -50,15 +51,15 @@ struct Pair {
     Image gpu;
 };
 
-class Engines {
+class EnginePair {
   public:
-    explicit Engines(std::shared_ptr<const scene::CompiledScene> scene)
+    explicit EnginePair(std::shared_ptr<const scene::CompiledScene> scene)
         : scene_(std::move(scene)), cpu_(cpu::makeCpuEngine({})), gpu_(gpu::makeGpuEngine(device(), {false})) {
         cpu_->setScene(scene_, nullptr);
         gpu_->setScene(scene_, nullptr);
     }
     Pair render(const app::RenderSettings& settings) {
-        return {test::render(*cpu_, *scene_, settings), test::render(*gpu_, *scene_, settings)};
+        return {renderImage(*cpu_, *scene_, settings), renderImage(*gpu_, *scene_, settings)};
     }
 
   private:
@@ -112,9 +113,9 @@ class AgreementTest : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(AgreementTest, SampleForSample) {
     const auto scene = smallScene(scene::builtinScenes()[GetParam()]);
-    Engines engines(scene);
-    EXPECT_GE(agreement(engines.render(smallSettings(1))), leastAgreement(*scene));
-    EXPECT_TRUE(pairedMeansAgree(engines.render(smallSettings(16))));
+    EnginePair engines(scene);
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
@@ -130,16 +131,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Range(std::size_t{0},
 // Every way of sampling lights and pixels, on the default scene.
 TEST(EstimatorAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
-    Engines engines(scene);
-    for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
-        for (auto sampler : {app::SamplerKind::Independent, app::SamplerKind::Stratified}) {
-            app::RenderSettings settings = smallSettings(1);
-            settings.lightSampling = sampling;
-            settings.sampler = sampler;
-            settings.lightSelection = app::LightSelection::Power;
-            SCOPED_TRACE(static_cast<int>(sampling) * 10 + static_cast<int>(sampler));
-            EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene));
-        }
+    EnginePair engines(scene);
+    for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
+        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
     }
 }
 

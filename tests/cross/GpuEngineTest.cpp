@@ -2,17 +2,20 @@
 // does not stagnate.
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <memory>
 #include <random>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "Common/App/SceneSource.h"
 #include "Common/Shared/Features.h"
+#include "Common/Vulkan/Check.h"
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
@@ -35,14 +38,16 @@ app::RenderSettings settingsFor(std::uint32_t spp) {
 
 struct Render {
     std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
-    std::unique_ptr<app::Engine> engine = gpu::makeGpuEngine(device(), {false});
+    std::unique_ptr<app::Engine> engine;
 
-    explicit Render(const app::RenderSettings& settings) {
+    explicit Render(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = {.pipelineCache = false},
+                    vulkan::VulkanContext& context = device())
+        : engine(gpu::makeGpuEngine(context, options)) {
         engine->setScene(scene, nullptr);
         engine->reset(scene->camera, settings);
     }
-    const Film& finish() {
-        while (!engine->renderSome({}).finished) {
+    const Film& finish(const app::Budget& budget = {}) {
+        while (!engine->renderSome(budget).finished) {
         }
         return engine->film();
     }
@@ -95,11 +100,105 @@ TEST(GpuEngineTest, CancelledWorkCanGoOn) {
     EXPECT_EQ(render.finish().resolve().data, Render(settingsFor(40)).finish().resolve().data);
 }
 
+// A film that is rendered part by part, in launches of single tiles: the same bits.
+TEST(GpuEngineTest, NeitherPartsNorBudgetsShow) {
+    app::RenderSettings settings = settingsFor(150);
+    settings.replicates = 2;
+    settings.secondMoments = true;
+    Render whole(settings);
+    const Film& expected = whole.finish();
+    for (const std::uint32_t slots : {1u, 6u}) {
+        for (const double seconds : {1e-9, 0.2}) {
+            Render parts(settings, {.pipelineCache = false, .regionSlots = slots});
+            const Film& actual = parts.finish({std::chrono::duration<double>(seconds), nullptr});
+            EXPECT_EQ(actual.resolve().data, expected.resolve().data) << slots << ", " << seconds;
+            EXPECT_EQ(actual.varianceOfMean().data, expected.varianceOfMean().data) << slots << ", " << seconds;
+            EXPECT_EQ(parts.engine->report().rays.camera, whole.engine->report().rays.camera);
+        }
+    }
+}
+
+TEST(GpuEngineTest, PartsGoOnFromAFilm) {
+    app::RenderSettings settings = settingsFor(150);
+    const std::vector<float> expected = Render(settings).finish().resolve().data;
+    app::RenderSettings part = settings;
+    part.spp = 37;
+    const gpu::GpuEngineOptions options{.pipelineCache = false, .regionSlots = 4};
+    Film film = Render(part, options).finish();
+    Render resumed(settings, options);
+    resumed.engine->restore(std::move(film));
+    EXPECT_EQ(resumed.finish().resolve().data, expected);
+}
+
+// ---- failure ---------------------------------------------------------------------------------------------------------
+
+class FailingContext : public vulkan::VulkanContext {
+  public:
+    FailingContext() : VulkanContext({}) {}
+    bool lost = false;
+
+  protected:
+    void submit(VkCommandBuffer commands) override {
+        if (lost) throw vulkan::DeviceLostError("the device was lost");
+        VulkanContext::submit(commands);
+    }
+};
+
+TEST(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
+    FailingContext context;
+    Render render(settingsFor(1u << 20), {.pipelineCache = false}, context);
+    render.engine->renderSome({});
+    const Film copy = render.engine->film();
+    EXPECT_GT(copy.totalSamples(), 0u);
+    EXPECT_GT(render.engine->renderSome({}).samplesDone, copy.totalSamples());
+    context.lost = true;
+    EXPECT_THROW(render.engine->renderSome({}), RenderError);
+    EXPECT_EQ(render.engine->film().totalSamples(), copy.totalSamples());
+    EXPECT_EQ(render.engine->film().resolve().data, copy.resolve().data);
+    EXPECT_GT(render.engine->report().rays.camera, copy.totalSamples());
+}
+
+TEST(GpuEngineTest, AFilmThatCannotBeReadIsAnErrorOnce) {
+    FailingContext context;
+    Render render(settingsFor(1u << 20), {.pipelineCache = false}, context);
+    render.engine->renderSome({});
+    context.lost = true;
+    EXPECT_THROW(render.engine->film(), RenderError);
+    EXPECT_EQ(render.engine->film().totalSamples(), 0u);
+}
+
+TEST(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
+    const VkDeviceSize bytes = device().limits().maxAllocation + 1;
+    try {
+        const vulkan::Buffer buffer(device(), bytes, 0, vulkan::Memory::Device, "the film");
+        FAIL() << bytes << " bytes";
+    } catch (const RenderError& error) {
+        EXPECT_EQ(std::string(error.what()).rfind("Memory for the film (", 0), 0u) << error.what();
+    }
+}
+
+// ---- what a scene does not need --------------------------------------------------------------------------------------
+
+TEST(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
+    const auto kernel = [](const char* id, const app::RenderSettings& settings) {
+        const auto scene = app::compile(app::loadScene(id), true);
+        const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false});
+        engine->setScene(scene, nullptr);
+        engine->reset(scene->camera, settings);
+        return engine->report().kernel;
+    };
+    app::RenderSettings settings = settingsFor(1);
+    EXPECT_EQ(kernel("one-weekend-final", settings), "paths+spheres");
+    EXPECT_EQ(kernel("next-week-quads", settings), "paths+quads");
+    settings.features = shared::kFeatureAll;
+    EXPECT_EQ(kernel("next-week-quads", settings), "paths+triangles+quads+spheres");
+}
+
 // More features than the scene needs change nothing but rounding.
 TEST(GpuEngineTest, ForcedFeaturesDoNotChangeTheImage) {
     app::RenderSettings settings = settingsFor(1);
     const Image lean = Render(settings).finish().resolve();
-    settings.features = shared::kFeatureAll & ~shared::kFeatureThinLens;
+    settings.features = shared::kFeatureAll;
     const Image all = Render(settings).finish().resolve();
     std::size_t off = 0;
     for (std::size_t i = 0; i < lean.data.size(); ++i) {

@@ -1,36 +1,13 @@
 // Scenes whose radiance is known everywhere: whatever a path does, it must gather the same light.
 #include <cmath>
 
+#include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
 
 using namespace rt::scene;
-
-MaterialDesc lambertian(double albedo, double emission = 0) {
-    MaterialDesc m;
-    m.albedo = glm::dvec3(albedo);
-    m.emission = glm::dvec3(emission);
-    m.sides = Sides::Both;
-    return m;
-}
-
-// Camera inside of a closed shell whose walls emit `emission` and reflect `albedo`.
-SceneDesc shell(bool box, double albedo, double emission) {
-    SceneDesc desc = emptyScene({0.1, 0.2, 0.3}, {0.9, -0.1, -0.4}, 60);
-    desc.materials["wall"] = lambertian(albedo, emission);
-    if (box) {
-        desc.objects.push_back({BoxDesc{glm::dvec3(-1), glm::dvec3(1), "wall"}});
-    } else {
-        desc.objects.push_back({SphereDesc{glm::dvec3(0), 1, {}, "wall"}});
-    }
-    return desc;
-}
-
-double enclosureRadiance(double albedo, double emission, int depth) {
-    return emission * (1 - std::pow(albedo, depth)) / (1 - albedo);
-}
 
 TEST(Furnace, EnclosureHasItsClosedFormRadiance) {
     for (bool box : {false, true}) {
@@ -54,14 +31,6 @@ TEST(Furnace, RouletteChangesNothingButVariance) {
         settings.russianRoulette = roulette;
         EXPECT_TRUE(isMean(render(shell(false, 0.5, 1), settings), glm::dvec3(enclosureRadiance(0.5, 1, 64)))) << roulette;
     }
-}
-
-SceneDesc inWhiteSky(const MaterialDesc& material) {
-    SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 20);
-    desc.background = ConstantBackground{glm::dvec3(1)};
-    desc.materials["body"] = material;
-    desc.objects.push_back({SphereDesc{glm::dvec3(0), 1, {}, "body"}});
-    return desc;
 }
 
 TEST(Furnace, LosslessBodiesAreInvisibleInAWhiteSky) {

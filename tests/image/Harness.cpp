@@ -22,17 +22,14 @@ std::string describe(const app::RenderSettings& settings) {
            kSamplers[static_cast<std::size_t>(settings.sampler)] + " depth " + std::to_string(settings.maxDepth);
 }
 
-Estimate render(const scene::CompiledScene& scene, const app::RenderSettings& settings) {
-    const auto engine = cpu::makeCpuEngine({});
-    // The scene outlives the engine: no ownership is passed.
-    engine->setScene(std::shared_ptr<const scene::CompiledScene>(std::shared_ptr<void>(), &scene), nullptr);
-    engine->reset(scene.camera, settings);
-    while (!engine->renderSome({std::chrono::seconds(1), nullptr}).finished) {
+Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
     }
     Estimate estimate;
-    estimate.image = engine->film().resolve();
-    estimate.variance = engine->film().varianceOfMean();
-    estimate.nonfinite = engine->report().nonfiniteSamples;
+    estimate.image = engine.film().resolve();
+    estimate.variance = engine.film().varianceOfMean();
+    estimate.nonfinite = engine.report().nonfiniteSamples;
     const double pixels = static_cast<double>(settings.width) * settings.height;
     glm::dvec3 variance{0};
     for (std::uint32_t y = 0; y < settings.height; ++y) {
@@ -45,6 +42,13 @@ Estimate render(const scene::CompiledScene& scene, const app::RenderSettings& se
     }
     for (int c = 0; c < 3; ++c) estimate.standardError[c] = std::sqrt(variance[c]);
     return estimate;
+}
+
+Estimate render(const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+    const auto engine = cpu::makeCpuEngine({});
+    // The scene outlives the engine: no ownership is passed.
+    engine->setScene(std::shared_ptr<const scene::CompiledScene>(std::shared_ptr<void>(), &scene), nullptr);
+    return render(*engine, scene, settings);
 }
 
 Estimate render(const SceneDesc& desc, const app::RenderSettings& settings) {
@@ -80,15 +84,6 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) 
         }
     }
     return all;
-}
-
-SceneDesc emptyScene(glm::dvec3 from, glm::dvec3 at, double fov) {
-    SceneDesc desc;
-    desc.id = "test";
-    desc.camera.lookFrom = from;
-    desc.camera.lookAt = at;
-    desc.camera.verticalFov = fov;
-    return desc;
 }
 
 }  // namespace rt::test

@@ -29,7 +29,9 @@ app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp);
 
 std::string describe(const app::RenderSettings& settings);
 
-// Renders on the CPU engine with kReplicates replicates.
+// Renders on an engine that has the scene.
+Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings);
+// Renders on the CPU engine.
 Estimate render(const scene::CompiledScene& scene, const app::RenderSettings& settings);
 Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
 
@@ -38,8 +40,5 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
 
 // Every way of sampling lights and pixels.
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
-
-// A scene with nothing but a camera in `from` that looks at `at` through a field of view of `fov` degrees.
-SceneDesc emptyScene(glm::dvec3 from, glm::dvec3 at, double fov);
 
 }  // namespace rt::test

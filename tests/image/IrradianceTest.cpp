@@ -4,6 +4,7 @@
 #include <numbers>
 #include <span>
 
+#include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 
 namespace rt::test {
@@ -12,38 +13,9 @@ namespace {
 using namespace rt::scene;
 using glm::dvec3;
 
-constexpr double kAlbedo = 0.7;
-
-// The floor y = 0 around the origin, looked at from the side.
-SceneDesc floorScene() {
-    SceneDesc desc = emptyScene({0.3, 0.5, 4}, {0, 0, 0}, 1e-3);
-    MaterialDesc floor;
-    floor.albedo = dvec3(kAlbedo);
-    desc.materials["floor"] = floor;
-    MaterialDesc light;
-    light.kind = MaterialKind::Emitter;
-    light.emission = dvec3(3, 2, 1);
-    light.sides = Sides::Both;
-    desc.materials["light"] = light;
-    desc.objects.push_back({QuadDesc{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}, "floor"}});
-    return desc;
-}
-
-// Lambert's polygon formula for a receiver in the origin with normal +y; all vertices above the horizon.
-double polygonIrradiance(std::span<const dvec3> vertices) {
-    double sum = 0;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-        const dvec3 a = glm::normalize(vertices[i]);
-        const dvec3 b = glm::normalize(vertices[(i + 1) % vertices.size()]);
-        const dvec3 n = glm::cross(a, b);
-        sum += std::atan2(glm::length(n), glm::dot(a, b)) * n.y / glm::length(n);
-    }
-    return std::abs(sum) / 2;
-}
-
 void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what) {
     const auto scene = compileScene(desc);
-    const dvec3 truth = dvec3(3, 2, 1) * (formFactor * kAlbedo / std::numbers::pi);
+    const dvec3 truth = dvec3(3, 2, 1) * (formFactor * kFloorAlbedo / std::numbers::pi);
     for (app::RenderSettings settings : allEstimators(smallSettings(4, 2048))) {
         settings.maxDepth = 2;
         for (auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Area}) {
@@ -93,7 +65,7 @@ TEST(Irradiance, OfAWallFarAway) {
         const dvec3 u = glm::normalize(glm::cross(toWall, dvec3(1, 0, 0)));
         const dvec3 v = glm::cross(toWall, u);
         MaterialDesc wall;
-        wall.albedo = dvec3(kAlbedo);
+        wall.albedo = dvec3(kFloorAlbedo);
         desc.materials["wall"] = wall;
         MaterialDesc light;
         light.kind = MaterialKind::Emitter;
@@ -112,7 +84,7 @@ TEST(Irradiance, OfAWallFarAway) {
                                   glm::dot(middle, middle); // but for the square of the light's extent over the distance
         app::RenderSettings settings = smallSettings(8, 4096);
         settings.maxDepth = 2;
-        const dvec3 truth = dvec3(3, 2, 1) * (distance * distance * formFactor * kAlbedo / std::numbers::pi);
+        const dvec3 truth = dvec3(3, 2, 1) * (distance * distance * formFactor * kFloorAlbedo / std::numbers::pi);
         const Estimate estimate = render(desc, settings);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(estimate.mean[c] / truth[c], 1, 5e-4) << distance;
     }
@@ -124,7 +96,7 @@ TEST(Irradiance, UnderTheGradientSky) {
     desc.background = GradientBackground{dvec3(1), dvec3(0.5, 0.7, 1.0)};
     const dvec3 middle = (dvec3(1) + dvec3(0.5, 0.7, 1.0)) / 2.0;
     const dvec3 slope = (dvec3(0.5, 0.7, 1.0) - dvec3(1)) / 2.0;
-    EXPECT_TRUE(isMean(render(desc, smallSettings(4, 2048)), kAlbedo * (middle + slope * (2.0 / 3.0))));
+    EXPECT_TRUE(isMean(render(desc, smallSettings(4, 2048)), kFloorAlbedo * (middle + slope * (2.0 / 3.0))));
 }
 
 TEST(Transmittance, OfAnAbsorbingSlab) {
@@ -145,7 +117,7 @@ TEST(Transmittance, OfALayerBetweenLightAndFloor) {
     app::RenderSettings settings = smallSettings(4, 1024);
     settings.maxDepth = 2;
     // Over the light's cone the path through the layer varies by less than 1e-5.
-    EXPECT_TRUE(isMean(render(desc, settings), dvec3(3, 2, 1) * (e * kAlbedo / std::numbers::pi)));
+    EXPECT_TRUE(isMean(render(desc, settings), dvec3(3, 2, 1) * (e * kFloorAlbedo / std::numbers::pi)));
 }
 
 }  // namespace

@@ -53,6 +53,11 @@ int exitCodeOf(int status) {
 
 } // namespace
 
+// Of all tests: what one program has compiled serves the next.
+fs::path cacheFolder() {
+    return fs::path(testing::TempDir()) / "ray-tracing-test-cache";
+}
+
 std::string programPath(const std::string& program) {
     fs::path path = fs::path(RT_PROGRAM_DIR) / program;
 #ifdef _WIN32
@@ -86,6 +91,7 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     const std::string err = folder_.string() + ".err";
     std::string command =
         kEnterFolder + quoted(folder_.string()) + " && " + assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
+    command += assignment("XDG_CACHE_HOME", cacheFolder().string());
     // No window opens by mistake.
     command += assignment("DISPLAY", "") + assignment("WAYLAND_DISPLAY", "");
     for (const auto& [name, value] : environment) command += assignment(name, value);

@@ -42,6 +42,7 @@ class ProgramTest : public testing::Test {
     std::filesystem::path folder_;
 };
 
+std::filesystem::path cacheFolder();
 std::string programPath(const std::string& program);
 
 // Exactly one line on standard error that begins with the program's name, nothing on standard output, and the exit code.

@@ -19,10 +19,10 @@ using Clock = std::chrono::steady_clock;
 class Signal : public ProgramTest {
   protected:
     // Starts a render that takes years, and waits until its first checkpoint shows that it is under way.
-    pid_t start(Arguments arguments) {
+    pid_t start(Arguments arguments, const char* name = "ray-tracing-cpu") {
         arguments.insert(arguments.begin(), {"-q", "--width", "64", "--spp", "2147483647", "--stats", "s.json", "-o",
                                              "a.pfm", "--checkpoint", "c.rtc", "--save-every", "0.01"});
-        const std::string program = programPath("ray-tracing-cpu");
+        const std::string program = programPath(name);
         std::vector<char*> argv = {const_cast<char*>(program.c_str())};
         for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
         argv.push_back(nullptr);
@@ -59,6 +59,31 @@ TEST_F(Signal, InterruptedRendersKeepPictureStatisticsAndCheckpoint) {
                     pixels({"--width", "64", "--height", "64", "--spp", more}));
     }
 }
+
+#ifdef RT_HAS_GPU
+
+TEST_F(Signal, TheGpuKeepsPictureAndStatisticsToo) {
+    const pid_t child = start({}, "ray-tracing-gpu");
+    const auto begin = Clock::now();
+    kill(child, SIGINT);
+    EXPECT_EQ(exitCode(child), 130);
+    EXPECT_LT(Clock::now() - begin, std::chrono::seconds(10));
+    const auto stats = jsonOf("s.json");
+    EXPECT_EQ(stats["stopped_by"], "interrupted");
+    EXPECT_EQ(stats["engine"], "pipeline");
+    EXPECT_EQ(image::readImage(path("a.pfm")).width, 64u);
+    const std::string more = std::to_string(stats["spp_done"].get<int>() + 100);
+    const Arguments common = {"-q", "--width", "64", "--height", "64", "--spp", more, "--headless"};
+    const auto render = [&](Arguments arguments) {
+        arguments.insert(arguments.begin(), common.begin(), common.end());
+        EXPECT_EQ(run("ray-tracing-gpu", arguments).exitCode, 0);
+    };
+    render({"--resume", "c.rtc", "-o", "resumed.pfm"});
+    render({"-o", "whole.pfm"});
+    EXPECT_TRUE(bytesOf("resumed.pfm") == bytesOf("whole.pfm"));
+}
+
+#endif
 
 TEST_F(Signal, TheSecondEndsAtOnce) {
     // A pipe that nobody reads holds the first one up while it writes its picture.

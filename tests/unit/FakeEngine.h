@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "Common/App/Engine.h"
+#include "Common/Core/Error.h"
 
 namespace rt::app {
 
@@ -23,6 +25,8 @@ class FakeEngine : public Engine {
     std::function<void(std::uint32_t)>
         onSample;  // is told the number of samples per pixel after each call of renderSome
     std::uint32_t calls = 0;
+    bool filmFails = false; // once
+    bool aovsFail = false;
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         if (cancel->load()) return false;
@@ -44,8 +48,12 @@ class FakeEngine : public Engine {
         const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
         return {film_.minSamples() >= settings_.spp, film_.totalSamples(), pixels * settings_.spp};
     }
-    const image::Film& film() override { return film_; }
+    const image::Film& film() override {
+        if (std::exchange(filmFails, false)) throw RenderError("the film cannot be read");
+        return film_;
+    }
     AovImages renderAovs(const AovRequest& request, std::uint32_t) override {
+        if (aovsFail) throw RenderError("no features");
         const auto constant = [this](bool wanted, std::uint32_t channels, float value) {
             image::Image image;
             if (!wanted) return image;

@@ -361,6 +361,34 @@ TEST_F(SessionTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {
     fs::remove(rescued);
 }
 
+// A device that is lost in the middle: what had been rendered is written, the statistics say how far it came.
+TEST_F(SessionTest, AFailedEngineLosesNothing) {
+    const auto fail = [](std::uint32_t sample) {
+        if (sample == 5) throw RenderError("the device was lost");
+    };
+    EXPECT_EQ(error<RenderError>({"--spp", "9", "-o", path("a.pfm"), "--stats", path("stats.json")}, fail),
+              "the device was lost");
+    EXPECT_EQ(statistics()["stopped_by"], "failure");
+    EXPECT_EQ(statistics()["spp_done"], 5);
+    run({"--spp", "5", "-o", path("b.pfm")});
+    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+}
+
+TEST_F(SessionTest, WhatTheEngineCannotTellLosesNothingElse) {
+    const auto failFilm = [this](std::uint32_t sample) { engine_->filmFails = sample == 4; };
+    EXPECT_EQ(error<RenderError>({"--spp", "4", "-o", path("a.pfm"), "--stats", path("stats.json")}, failFilm),
+              "the film cannot be read");
+    EXPECT_EQ(statistics()["spp_done"], 4);
+    EXPECT_EQ(image::readImage(path("a.pfm")).width, 20u);
+
+    const auto failAovs = [this](std::uint32_t) { engine_->aovsFail = true; };
+    const std::string message = error<RenderError>(
+        {"--spp", "4", "-o", path("b.pfm"), "--aov", "albedo", "--stats", path("stats.json")}, failAovs);
+    EXPECT_EQ(message.rfind("no features", 0), 0u) << message;
+    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(statistics()["outputs"], Json::array({path("b.pfm")}));
+}
+
 TEST_F(SessionTest, ForcedFeaturesMustCoverTheScene) {
     const std::string message = error<UsageError>({"--features", "spheres,lambertian"});
     EXPECT_EQ(message.rfind("--features: the scene also needs quads,", 0), 0u) << message;

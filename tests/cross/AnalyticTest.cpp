@@ -1,0 +1,148 @@
+// Scenes whose radiance is known in closed form, on the GPU: the comparison with the CPU would not see a mistake that both make.
+#include <array>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/SceneCompiler.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+#include "tests/image/AnalyticScenes.h"
+#include "tests/image/Harness.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using glm::dvec3;
+
+// Renders one scene with many settings.
+class GpuRenders {
+  public:
+    explicit GpuRenders(const SceneDesc& desc) : scene_(compileScene(desc)) { engine_->setScene(scene_, nullptr); }
+    Estimate operator()(const app::RenderSettings& settings) { return render(*engine_, *scene_, settings); }
+
+  private:
+    std::shared_ptr<const CompiledScene> scene_;
+    std::unique_ptr<app::Engine> engine_ = gpu::makeGpuEngine(device(), {false});
+};
+
+TEST(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
+    for (const bool box : {false, true}) {
+        GpuRenders renders(shell(box, 0.6, 0.5));
+        app::RenderSettings settings = smallSettings(4, 1024);
+        for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
+            settings.lightSampling = sampling;
+            for (const std::uint32_t depth : {1u, 2u, 7u}) {
+                settings.maxDepth = depth;
+                const double truth = enclosureRadiance(0.6, 0.5, static_cast<int>(depth));
+                EXPECT_TRUE(isMean(renders(settings), dvec3(truth))) << (box ? "box, " : "sphere, ") << describe(settings);
+            }
+        }
+    }
+}
+
+TEST(AnalyticTest, RouletteChangesNothingButVariance) {
+    GpuRenders renders(shell(false, 0.5, 1));
+    app::RenderSettings settings = smallSettings(8, 4096);
+    settings.maxDepth = 64;
+    settings.lightSampling = app::LightSampling::Bsdf;
+    for (const bool roulette : {false, true}) {
+        settings.russianRoulette = roulette;
+        EXPECT_TRUE(isMean(renders(settings), dvec3(enclosureRadiance(0.5, 1, 64)))) << roulette;
+    }
+}
+
+TEST(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
+    MaterialDesc glass;
+    glass.kind = MaterialKind::Dielectric;
+    MaterialDesc mirror;
+    mirror.kind = MaterialKind::Metal;
+    app::RenderSettings settings = smallSettings(8, 1024);
+    settings.maxDepth = 4096;
+    for (const MaterialDesc& material : {lambertian(1), glass, mirror}) {
+        EXPECT_TRUE(isMean(GpuRenders(inWhiteSky(material))(settings), dvec3(1)));
+    }
+}
+
+// With each way of placing a point on a light; the expectation is the same for all.
+void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what) {
+    GpuRenders renders(desc);
+    const dvec3 truth = dvec3(3, 2, 1) * (formFactor * kFloorAlbedo / std::numbers::pi);
+    app::RenderSettings settings = smallSettings(4, 2048);
+    settings.maxDepth = 2;
+    const auto expect = [&] {
+        EXPECT_TRUE(isMean(renders(settings), truth))
+            << what << ", " << describe(settings) << ", shape " << static_cast<int>(settings.quadLight);
+    };
+    for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
+        settings.lightSampling = sampling;
+        expect();
+    }
+    settings.lightSampling = app::LightSampling::Mis;
+    for (const auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Area}) {
+        settings.sphereLight = settings.quadLight = settings.triangleLight = shape;
+        expect();
+    }
+}
+
+TEST(AnalyticTest, IrradianceUnderASphere) {
+    const dvec3 center(1.5, 1.2, -0.5);
+    SceneDesc desc = floorScene();
+    desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
+    const double d = glm::length(center);
+    expectIrradiance(desc, std::numbers::pi * (0.64 / (d * d)) * center.y / d, "sphere");
+}
+
+TEST(AnalyticTest, IrradianceUnderAQuad) {
+    const dvec3 corner(0.4, 0.1, -1);
+    const dvec3 u(0.3, 1, 0.2);
+    const dvec3 v(0, 0.5, 2);
+    SceneDesc desc = floorScene();
+    desc.objects.push_back({QuadDesc{corner, u, v, "light"}});
+    expectIrradiance(desc, polygonIrradiance(std::array{corner, corner + u, corner + u + v, corner + v}), "quad");
+}
+
+TEST(AnalyticTest, IrradianceUnderATriangle) {
+    const std::array<dvec3, 3> triangle{dvec3(-1, 0.8, 0.3), dvec3(1.2, 1.1, 0.1), dvec3(0.2, 0.9, -1.4)};
+    SceneDesc desc = floorScene();
+    MeshData mesh;
+    mesh.positions.assign(triangle.begin(), triangle.end());
+    mesh.triangles = {{0, 1, 2}};
+    desc.objects.push_back({MeshDesc{mesh, "light"}});
+    expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
+}
+
+// Nothing but a medium: the acceleration structure is empty.
+TEST(AnalyticTest, TransmittanceOfAnAbsorbingSlab) {
+    for (const double depth : {1e-4, 1.0, 5.0}) {
+        SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 1e-3);
+        desc.background = ConstantBackground{dvec3(1)};
+        desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, -3, -1), dvec3(3, 3, 1)}, depth / 2, dvec3(0)}});
+        EXPECT_TRUE(isMean(GpuRenders(desc)(smallSettings(8, 8192)), dvec3(std::exp(-depth)))) << depth;
+    }
+}
+
+TEST(AnalyticTest, WhiteMediaAreInvisibleInAWhiteSky) {
+    app::RenderSettings settings = smallSettings(8, 1024);
+    settings.maxDepth = 4096;
+    SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 40);
+    desc.background = ConstantBackground{dvec3(1)};
+    desc.objects.push_back({MediumDesc{SphereBoundary{dvec3(0), 1}, 3, dvec3(1)}});
+    desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-0.5), dvec3(1.5)}, 3, dvec3(1)}});
+    EXPECT_TRUE(isMean(GpuRenders(desc)(settings), dvec3(1)));
+}
+
+// Every shadow ray ends at a wall that it may graze.
+TEST(AnalyticTest, EmittersDoNotShadowThemselves) {
+    app::RenderSettings settings = smallSettings(16, 4096);
+    for (const char* id : {"furnace", "furnace-mixed"}) {
+        const SceneDesc desc = findBuiltinScene(id);
+        GpuRenders renders(desc);
+        EXPECT_TRUE(isMean(renders(settings), dvec3(1))) << id;
+    }
+}
+
+}  // namespace
+}  // namespace rt::test

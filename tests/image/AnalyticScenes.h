@@ -1,0 +1,31 @@
+// Scenes whose radiance is known in closed form.
+#pragma once
+#include <span>
+
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::test {
+
+// A scene with nothing but a camera in `from` that looks at `at` through a field of view of `fov` degrees.
+scene::SceneDesc emptyScene(glm::dvec3 from, glm::dvec3 at, double fov);
+
+// Grey, emitting from both sides.
+scene::MaterialDesc lambertian(double albedo, double emission = 0);
+
+// Camera inside of a closed shell, a cube or a sphere, whose walls emit `emission` and reflect `albedo`.
+scene::SceneDesc shell(bool box, double albedo, double emission);
+// What it sees after `depth` vertices.
+double enclosureRadiance(double albedo, double emission, int depth);
+
+// A unit sphere of this material under a sky of radiance 1.
+scene::SceneDesc inWhiteSky(const scene::MaterialDesc& material);
+
+inline constexpr double kFloorAlbedo = 0.7;
+
+// The floor y = 0 around the origin, looked at from the side, and a material "light" of radiance (3, 2, 1).
+scene::SceneDesc floorScene();
+
+// Lambert's polygon formula for a receiver in the origin with normal +y, per radiance; all vertices above the horizon.
+double polygonIrradiance(std::span<const glm::dvec3> vertices);
+
+}  // namespace rt::test

@@ -1,0 +1,123 @@
+// ray-tracing-gpu as a user meets it. Tests fail where no device traces rays.
+#ifdef RT_HAS_GPU
+
+#include <algorithm>
+#include <fstream>
+
+#include "Common/Image/ImageIo.h"
+#include "tests/program/Program.h"
+
+namespace rt::test {
+namespace {
+
+class Gpu : public ProgramTest {
+  protected:
+    // A picture of 32x32 pixels, silently.
+    Outcome gpu(const Arguments& arguments, const Environment& environment = {}) const {
+        Arguments all = {"-q", "--headless", "--width", "32", "--height", "32", "--spp", "4"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run("ray-tracing-gpu", all, environment);
+    }
+    // The picture as the bytes of a PFM file; the render must succeed.
+    std::string picture(Arguments arguments) const {
+        arguments.insert(arguments.end(), {"-o", "picture.pfm"});
+        const Outcome outcome = gpu(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return bytesOf("picture.pfm");
+    }
+};
+
+TEST_F(Gpu, ListsDevices) {
+    const Outcome outcome = run("ray-tracing-gpu", {"--list-devices"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.out.rfind("0: ", 0), 0u) << outcome.out;
+    EXPECT_NE(outcome.out.find(": suitable\n"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Gpu, WithoutADriverSaysSo) {
+    const Environment none = {{"VK_DRIVER_FILES", "/none.json"}, {"VK_ICD_FILENAMES", "/none.json"}};
+    EXPECT_TRUE(failsWith(run("ray-tracing-gpu", {"--list-devices"}, none), 4, "no Vulkan driver"));
+    EXPECT_TRUE(failsWith(gpu({"-o", "a.png"}, none), 4, "no Vulkan driver"));
+}
+
+TEST_F(Gpu, DevicesThatDoNotExist) {
+    for (const char* device : {"no-such-device", "99", "-1", "0x0"}) {
+        EXPECT_TRUE(failsWith(gpu({"-o", "a.png", "--device", device}), 4, "'" + std::string(device) + "'")) << device;
+        EXPECT_TRUE(failsWith(gpu({"-o", "a.png"}, {{"RT_DEVICE", device}}), 4, device)) << device;
+    }
+    EXPECT_FALSE(std::filesystem::exists(path("a.png")));
+}
+
+TEST_F(Gpu, FlagsOfTheOtherEngine) {
+    EXPECT_TRUE(failsWith(gpu({"-o", "a.png", "--threads", "2"}), 2, "--threads"));
+    EXPECT_TRUE(failsWith(gpu({"-o", "a.png", "--engine", "multi"}), 2, "--engine"));
+}
+
+TEST_F(Gpu, StatisticsNameWhatWasSkipped) {
+    EXPECT_EQ(gpu({"-o", "a.pfm", "--stats", "s.json", "--replicates", "2"}).exitCode, 0);
+    const auto stats = jsonOf("s.json");
+    EXPECT_EQ(stats["app"], "ray-tracing-gpu");
+    EXPECT_EQ(stats["engine"], "pipeline");
+    EXPECT_EQ(stats["spp_done"], 4);
+    EXPECT_GT(stats["seconds"]["render_device"], 0.0);
+    EXPECT_GT(stats["seconds"]["accel_build"], 0.0);
+    EXPECT_GT(stats["memory"]["device_bytes"], 0);
+    EXPECT_EQ(stats["rays"]["camera"], 32 * 32 * 4);
+    for (const char* feature : {"triangles", "textures", "volumes"}) {
+        EXPECT_EQ(std::count(stats["skipped"].begin(), stats["skipped"].end(), feature), 1) << feature;
+    }
+    EXPECT_EQ(gpu({"-o", "b.pfm", "--stats", "s.json", "--features", "all"}).exitCode, 0);
+    EXPECT_TRUE(jsonOf("s.json")["skipped"].empty());
+    EXPECT_EQ(jsonOf("s.json")["settings"]["features"], "forced");
+}
+
+TEST_F(Gpu, TheImageDependsOnNothingButSettings) {
+    const std::string expected = picture({});
+    EXPECT_TRUE(picture({"--engine", "pipeline", "--device", "0", "-v"}) == expected);
+    EXPECT_FALSE(picture({"--seed", "1"}) == expected);
+}
+
+// Whatever lies where the compiled pipelines are kept.
+TEST_F(Gpu, ADamagedPipelineCacheIsNoError) {
+    const Environment cache = {{"XDG_CACHE_HOME", path("cache")}};
+    ASSERT_EQ(gpu({"-o", "a.pfm"}, cache).exitCode, 0);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(path("cache/ray-tracing"))) {
+        ++files;
+        std::ofstream(entry.path(), std::ios::binary) << "garbage";
+    }
+    EXPECT_EQ(files, 1u);
+    const Outcome outcome = gpu({"-o", "b.pfm"}, cache);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(bytesOf("a.pfm") == bytesOf("b.pfm"));
+}
+
+TEST_F(Gpu, GoesOnFromACheckpointAsIfNeverStopped) {
+    ASSERT_EQ(gpu({"--spp", "21", "-o", "part.pfm", "--checkpoint", "c.rtc"}).exitCode, 0);
+    EXPECT_TRUE(picture({"--spp", "50", "--resume", "c.rtc"}) == picture({"--spp", "50"}));
+    EXPECT_TRUE(failsWith(cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "50", "--resume", "c.rtc",
+                               "-o", "a.pfm"}),
+                          3, "engine"));
+}
+
+TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {
+    const Outcome outcome = gpu({"--validation", "-o", "a.exr", "--aov", "albedo,normal,depth,variance,samples",
+                                 "--checkpoint", "c.rtc", "--time-limit", "100"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    for (const char* name : {"a.exr", "a.albedo.exr", "a.normal.exr", "a.depth.exr", "a.variance.exr", "a.samples.exr"}) {
+        EXPECT_EQ(image::readImage(path(name)).width, 32u) << name;
+    }
+}
+
+TEST_F(Gpu, EnginesDrawTheSamePicture) {
+    ASSERT_EQ(gpu({"-o", "gpu.pfm", "--spp", "16"}).exitCode, 0);
+    ASSERT_EQ(cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "16", "-o", "cpu.pfm"}).exitCode, 0);
+    const Outcome diff = run("ray-tracing-image", {"diff", "gpu.pfm", "cpu.pfm", "--metric", "relmse", "--max", "1e-3"});
+    EXPECT_EQ(diff.exitCode, 0) << diff.out << diff.err;
+}
+
+} // namespace
+} // namespace rt::test
+
+#endif
