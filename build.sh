@@ -19,11 +19,12 @@ fail() {
 }
 
 . cmake/SoftwareDriver.sh
+. cmake/CompareEngines.sh
 
 usage() {
     cat <<'END'
 ./build.sh               install what is needed and build Release into build/
-./build.sh run           the same, then render the default scene and show figures
+./build.sh run           the same, then render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run all tests
 ./build.sh bench [ARGS]  the same, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -66,22 +67,6 @@ build() {
     cmake --build --preset "$preset" "$@"
 }
 
-# figure KEY FILE: the number of a key of the statistics.
-figure() {
-    sed -n "s/.*\"$1\": *\([-+.0-9eE]*\).*/\1/p" "$2" | head -n 1
-}
-
-run_default_scene() {
-    local folder=build/run
-    local image=$folder/cornell-box-lights.cpu.png statistics=$folder/cornell-box-lights.cpu.json
-    mkdir -p $folder
-    build/bin/ray-tracing-cpu --headless --spp 100 -o $image --stats $statistics
-    printf '%-8s %10s %14s\n' engine seconds 'Msamples/s'
-    printf '%-8s %10.2f %14.2f\n' cpu "$(figure render $statistics)" \
-        "$(figure samples_per_second $statistics | awk '{ print $1 / 1e6 }')"
-    echo "$PWD/$image"
-}
-
 run_tests() {
     local log=build/test.log status=0
     ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(nproc)" 2>&1 | tee $log || status=$?
@@ -100,14 +85,14 @@ case $verb in
     run)
         install_packages "${build_packages[@]}"
         configure
-        build --target ray-tracing-cpu
-        run_default_scene
+        build
+        compare_engines
         ;;
     test)
         install_packages "${build_packages[@]}" "${test_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
-        provide_device
+        provide_device || fail "$no_device_reason"
         run_tests
         ;;
     bench)

@@ -50,7 +50,7 @@ std::span<const double> toDoubles(const FilmSum* sums, std::vector<double>& valu
     return values;
 }
 
-}  // namespace
+} // namespace
 
 DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles)
     : context_(context),
@@ -76,6 +76,9 @@ void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
     firstTile_ = firstTile;
     const std::uint32_t tiles = std::min(capacity_ / desc_.replicates, film.tileCount() - firstTile);
     samples_.assign(std::size_t{tiles} * desc_.replicates, 0);
+    bool fresh = true;
+    for (std::uint32_t tile = firstTile; tile < firstTile + tiles && fresh; ++tile) fresh = film.samples(tile) == 0;
+    if (fresh) return clear();
     std::vector<FilmSum> sums;
     std::vector<FilmSum> squares;
     std::vector<vec3> open;
@@ -100,6 +103,15 @@ void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
         open.clear();
     }
     vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(samples_)));
+}
+
+void DeviceFilm::clear() {
+    context_.run([&](VkCommandBuffer commands) {
+        for (const vulkan::Buffer* buffer : {&samplesBuffer_, &sums_, &squares_}) {
+            if (*buffer) vkCmdFillBuffer(commands, buffer->get(), 0, VK_WHOLE_SIZE, 0);
+        }
+        vulkan::barrier(commands);
+    });
 }
 
 void DeviceFilm::store(Film& film) const {
@@ -205,4 +217,4 @@ void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& lau
     vkCmdDispatch(commands, columns, (launch.slotCount + columns - 1) / columns, 1);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -16,6 +16,10 @@ class DeviceFilm {
     // Room for `tiles` tiles of such a film, not initialised: load() comes first.
     DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles);
 
+    // Whether it can hold `tiles` tiles of such a film.
+    bool fits(const image::FilmDesc& desc, std::uint32_t tiles) const {
+        return desc == desc_ && tiles * desc.replicates == capacity_;
+    }
     // Replaces the contents by the film's from tile `firstTile` on.
     void load(const image::Film& film, std::uint32_t firstTile);
     // Copies the contents into the film.
@@ -32,13 +36,14 @@ class DeviceFilm {
     std::uint64_t advance(const shared::FilmLaunch& launch);
 
   private:
+    void clear();
     std::uint32_t pixelsInside(std::uint32_t slot) const;
 
     vulkan::VulkanContext& context_;
     image::FilmDesc desc_;
     std::uint32_t tilesX_;
     std::uint32_t firstTile_ = 0;
-    std::uint32_t capacity_; // slots
+    std::uint32_t capacity_;             // slots
     std::vector<std::uint32_t> samples_; // per slot, as on the device
     vulkan::Buffer samplesBuffer_;
     vulkan::Buffer sums_;
@@ -57,4 +62,4 @@ class FilmReducer {
     vulkan::Handle<VkPipeline> pipeline_;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -10,6 +10,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Features.h"
+#include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/AovPass.h"
 #include "RayTracingGPU/DeviceFilm.h"
@@ -97,9 +98,9 @@ class GpuEngine final : public app::Engine {
     Clock::time_point refreshed_;
     std::uint64_t samplesDone_ = 0;
     bool inPass_ = false;
-    std::uint32_t passEnd_ = 0;   // samples per pixel that the pass in progress leads to
-    std::uint32_t passRounds_ = 0; // blocks of each slot that it takes
-    std::uint32_t nextSlot_ = 0;  // of the region: the first that the pass has not launched
+    std::uint32_t passEnd_ = 0;            // samples per pixel that the pass in progress leads to
+    std::uint32_t passRounds_ = 0;         // blocks of each slot that it takes
+    std::uint32_t nextSlot_ = 0;           // of the region: the first that the pass has not launched
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
 };
@@ -142,11 +143,14 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
     const std::uint32_t tiles = std::min(film_.tileCount(), std::max(1u, options_.regionSlots / settings_.replicates));
-    region_ = nullptr; // its memory may be needed for the next one
-    region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
+    if (!region_ || !region_->fits(film_.desc(), tiles)) {
+        region_ = nullptr; // its memory may be needed for the next one
+        region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
+    }
     region_->load(film_, 0);
     samplesDone_ = film_.totalSamples();
     dirty_ = false;
+    failed_ = false;
     inPass_ = false;
     refreshed_ = Clock::now();
 }
@@ -154,6 +158,7 @@ void GpuEngine::setFilm(Film film) {
 // ---- rendering -------------------------------------------------------------------------------------------------------
 
 app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
+    if (!region_) throw RenderError("there was no memory for the film");
     const Clock::time_point start = Clock::now();
     const double seconds = budget.time.count();
     try {
@@ -163,7 +168,7 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
             if (secondsSince(start) >= seconds) break;
         }
         if (dirty_ && secondsSince(refreshed_) > kRefreshSeconds) refresh();
-    } catch (const RenderError&) {
+    } catch (const vulkan::DeviceLostError&) {
         failed_ = true;
         throw;
     }
@@ -204,7 +209,8 @@ void GpuEngine::launchNext(double seconds) {
     shared::FilmLaunch launch{};
     region_->describe(launch);
     launch.firstSlot = nextSlot_;
-    launch.slotCount = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, std::max<std::uint64_t>(most, 1)));
+    launch.slotCount =
+        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, std::max<std::uint64_t>(most, 1)));
     launch.blocks = passRounds_;
     launch.spp = passEnd_;
     run(launch);
@@ -297,10 +303,10 @@ app::EngineReport GpuEngine::report() const {
     return report;
 }
 
-}  // namespace
+} // namespace
 
 std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options) {
     return std::make_unique<GpuEngine>(context, options);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -23,4 +23,4 @@ std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const
 
 inline constexpr double kRefreshSeconds = 5;
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

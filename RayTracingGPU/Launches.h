@@ -33,4 +33,4 @@ class LaunchSize {
     double suggested_ = 0;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -177,8 +177,10 @@ const uint kHitRecords = 3u;
 
 // ---- rays ------------------------------------------------------------------------------------------------------------
 
-// An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin: a
-// product with a power of two is exact, and no hit lies that near.
+// An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin. That is
+// sound: gl_RayTminEXT is the trace call's own operand in every stage of the ray (Vulkan specification, RayTminKHR; only
+// RayTmaxKHR changes), the same in object and world space. A product with a power of two is exact, its range of 2^-84 to 2^-60
+// normal, and no hit lies that near.
 const float kTimeToTMin = 8.67361738e-19f; // 2^-60
 const float kTMinToTime = 1.15292150e18f;  // 2^60
 

@@ -8,6 +8,11 @@ has_ray_tracing_device() {
     build/bin/ray-tracing-gpu --list-devices 2>/dev/null | grep -q ': suitable$'
 }
 
+# Beside software. The list names the kind of a device first in its brackets.
+has_hardware_device() {
+    build/bin/ray-tracing-gpu --list-devices 2>/dev/null | grep ': suitable$' | grep -qv ' (software, '
+}
+
 has_vulkan_driver() {
     compgen -G '/usr/share/vulkan/icd.d/*.json' >/dev/null || compgen -G '/etc/vulkan/icd.d/*.json' >/dev/null
 }
@@ -40,6 +45,7 @@ sufficient_mesa() {
 # Installs the driver where the machine has none, otherwise unpacks it.
 get_software_driver() {
     local codename version as_root=() settings=()
+    command -v apt-get >/dev/null || return 1
     codename=$(. /etc/os-release && echo "$VERSION_CODENAME")
     mkdir -p "$driver_folder"
     version=$(sufficient_mesa)
@@ -49,7 +55,10 @@ get_software_driver() {
         apt-get "${settings[@]}" update -qq
         version=$(sufficient_mesa "${private_apt[@]}")
     fi
-    [[ -n $version ]] || fail "no device can trace rays, and this release has no Mesa $least_mesa or newer"
+    if [[ -z $version ]]; then
+        echo "This release has no Mesa $least_mesa or newer" >&2
+        return 1
+    fi
     if ! has_vulkan_driver && { ((EUID == 0)) || command -v sudo >/dev/null; }; then
         ((EUID == 0)) || as_root=(sudo)
         echo "Installing mesa-vulkan-drivers $version"
@@ -73,13 +82,15 @@ unpack_driver() {
         "$(find "$driver_folder/root" -name libvulkan_lvp.so)" >"$driver_folder/lvp_icd.json"
 }
 
-# Needs build/bin/ray-tracing-gpu.
+# Needs build/bin/ray-tracing-gpu. Fails, with no_device_reason, when there is no device at the end.
 provide_device() {
     [[ -x build/bin/ray-tracing-gpu ]] || return 0 # a build without the GPU engine
     has_ray_tracing_device && return
-    [[ -e $driver_folder/lvp_icd.json ]] || get_software_driver
+    [[ -e $driver_folder/lvp_icd.json ]] || get_software_driver || true
     if [[ -e $driver_folder/lvp_icd.json ]]; then
         export VK_DRIVER_FILES=$driver_folder/lvp_icd.json
     fi
-    has_ray_tracing_device || fail "no device can trace rays: $(build/bin/ray-tracing-gpu --list-devices 2>&1)"
+    has_ray_tracing_device && return
+    no_device_reason="no device can trace rays: $(build/bin/ray-tracing-gpu --list-devices 2>&1)"
+    return 1
 }

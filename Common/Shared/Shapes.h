@@ -64,7 +64,9 @@ RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
         // from the power of the origin, which is small, without the cancellation of its largest term; then along the ray.
         vec3 m = abs(f);
         float largest = max(m.x, max(m.y, m.z));
-        vec3 others = m.x == largest ? vec3(0.0f, m.y, m.z) : m.y == largest ? vec3(m.x, 0.0f, m.z) : vec3(m.x, m.y, 0.0f);
+        vec3 others = m.x == largest   ? vec3(0.0f, m.y, m.z)
+                      : m.y == largest ? vec3(m.x, 0.0f, m.z)
+                                       : vec3(m.x, m.y, 0.0f);
         float power = ((largest - radius) * (largest + radius) + dot(others, others)) / a;
         float halfChord = sqrt(max(middle * middle - power, 0.0f));
         bool behind = middle < 0.0f;

@@ -29,9 +29,10 @@ std::string missingExtensions(VkPhysicalDevice device) {
           "Listing a device's extensions");
     std::string missing;
     for (const char* required : requiredExtensions()) {
-        const bool found = std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
-            return std::strcmp(extension.extensionName, required) == 0;
-        });
+        const bool found =
+            std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+                return std::strcmp(extension.extensionName, required) == 0;
+            });
         if (!found) addMissing(missing, required);
     }
     return missing;
@@ -90,13 +91,33 @@ DeviceInfo describe(VkPhysicalDevice device) {
     return info;
 }
 
+const char* kindName(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "software";
+        default:
+            return "of another kind";
+    }
+}
+
 int rank(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return 4;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return 3;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return 2;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return 1;
-        default: return 0;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return 4;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return 3;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return 2;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return 1;
+        default:
+            return 0;
     }
 }
 
@@ -119,7 +140,7 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
     return found;
 }
 
-}  // namespace
+} // namespace
 
 const std::vector<const char*>& requiredExtensions() {
     static const std::vector<const char*> extensions{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
@@ -143,7 +164,8 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices) {
     std::string text;
     for (std::size_t i = 0; i < devices.size(); ++i) {
         const DeviceInfo& device = devices[i];
-        text += std::to_string(i) + ": " + device.name + " (" + device.driver + ", Vulkan " + device.version + "): ";
+        text += std::to_string(i) + ": " + device.name + " (" + kindName(device.type) + ", " + device.driver +
+                ", Vulkan " + device.version + "): ";
         text += device.suitable() ? "suitable\n" : "unsuitable, lacks " + device.missing + "\n";
     }
     return text;
@@ -171,4 +193,4 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     return *chosen;
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -46,7 +46,7 @@ std::vector<std::byte> readCache(const fs::path& file, const DeviceLimits& limit
     return {};
 }
 
-}  // namespace
+} // namespace
 
 PipelineCache::PipelineCache(VulkanContext& context, fs::path file) : context_(context), file_(std::move(file)) {
     const std::vector<std::byte> bytes = readCache(file_, context.limits());
@@ -91,4 +91,4 @@ fs::path pipelineCacheFile(const VulkanContext& context) {
     return folder / (name + ".bin");
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -19,7 +19,7 @@ void load(VkDevice device, const char* name, Function& function) {
     if (function == nullptr) throw RenderError(std::string("the Vulkan driver lacks the function ") + name);
 }
 
-}  // namespace
+} // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
     : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device)) {
@@ -113,7 +113,8 @@ void VulkanContext::queryLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
-    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES, &pipeline};
+    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                  &pipeline};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &memory};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
@@ -198,4 +199,4 @@ void barrier(VkCommandBuffer commands) {
                          nullptr);
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -34,15 +34,15 @@ struct RayTracingFunctions {
 
 // What a device allows and prescribes; nothing is assumed.
 struct DeviceLimits {
-    std::uint32_t groupHandleSize = 0;      // bytes, of a shader binding table's entries
+    std::uint32_t groupHandleSize = 0; // bytes, of a shader binding table's entries
     std::uint32_t groupHandleAlignment = 0;
     std::uint32_t groupBaseAlignment = 0;
-    std::uint32_t maxInvocations = 0;       // of one launch of rays
-    std::uint32_t scratchAlignment = 0;     // bytes, of acceleration structure builds
-    std::uint64_t maxPrimitives = 0;        // of one acceleration structure
+    std::uint32_t maxInvocations = 0;   // of one launch of rays
+    std::uint32_t scratchAlignment = 0; // bytes, of acceleration structure builds
+    std::uint64_t maxPrimitives = 0;    // of one acceleration structure
     std::uint64_t maxInstances = 0;
-    std::uint64_t maxAllocation = 0;        // bytes, of one piece of memory
-    double timestampSeconds = 0;            // of one tick; 0: the queue has no timestamps
+    std::uint64_t maxAllocation = 0; // bytes, of one piece of memory
+    double timestampSeconds = 0;     // of one tick; 0: the queue has no timestamps
     std::uint64_t timestampMask = 0;
     std::uint32_t vendor = 0;
     std::uint32_t deviceId = 0;
@@ -70,7 +70,8 @@ class VulkanContext {
     double runTimed(const std::function<void(VkCommandBuffer)>& record);
 
     // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
-    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const;
+    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
+                             VkMemoryPropertyFlags preferred) const;
 
     // Bytes of device memory that buffers hold at present; buffers count themselves.
     std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
@@ -102,4 +103,4 @@ class VulkanContext {
 // nothing of ours overlaps anyway.
 void barrier(VkCommandBuffer commands);
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -18,11 +18,15 @@ struct MemoryWish {
 };
 
 MemoryWish wish(Memory memory) {
-    constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kMapped =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     switch (memory) {
-        case Memory::Upload: return {kMapped, 0};
-        case Memory::ReadBack: return {kMapped, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
-        case Memory::Device: break;
+        case Memory::Upload:
+            return {kMapped, 0};
+        case Memory::ReadBack:
+            return {kMapped, VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
+        case Memory::Device:
+            break;
     }
     return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
 }
@@ -44,7 +48,7 @@ void copy(VulkanContext& context, VkBuffer from, VkBuffer to, const VkBufferCopy
     });
 }
 
-}  // namespace
+} // namespace
 
 Buffer::Buffer(VulkanContext& context, VkDeviceSize bytes, VkBufferUsageFlags usage, Memory memory, const char* name)
     : context_(&context), bytes_(bytes) {
@@ -112,4 +116,4 @@ void download(VulkanContext& context, const Buffer& from, std::span<std::byte> d
     });
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

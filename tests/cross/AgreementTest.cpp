@@ -62,6 +62,14 @@ class EnginePair {
         return {renderImage(*cpu_, *scene_, settings), renderImage(*gpu_, *scene_, settings)};
     }
 
+    // First-hit features of what was rendered last.
+    std::vector<Pair> features() {
+        const app::AovRequest all{true, true, true};
+        app::AovImages cpu = cpu_->renderAovs(all, 4);
+        app::AovImages gpu = gpu_->renderAovs(all, 4);
+        return {{cpu.albedo, gpu.albedo}, {cpu.normal, gpu.normal}, {cpu.depth, gpu.depth}};
+    }
+
   private:
     std::shared_ptr<const scene::CompiledScene> scene_;
     std::unique_ptr<app::Engine> cpu_;
@@ -71,9 +79,10 @@ class EnginePair {
 // Share of pixels that are within 1e-3 of each other, relatively, in all channels.
 double agreement(const Pair& images) {
     std::size_t agree = 0;
-    for (std::size_t i = 0; i < images.cpu.data.size(); i += 3) {
+    const std::size_t channels = images.cpu.channels;
+    for (std::size_t i = 0; i < images.cpu.data.size(); i += channels) {
         bool same = true;
-        for (std::size_t c = i; c < i + 3; ++c) {
+        for (std::size_t c = i; c < i + channels; ++c) {
             const float a = images.cpu.data[c];
             const float b = images.gpu.data[c];
             same = same && std::abs(a - b) <= 1e-3f * std::max(std::abs(a), std::abs(b)) + 1e-6f;
@@ -116,6 +125,7 @@ TEST_P(AgreementTest, SampleForSample) {
     EnginePair engines(scene);
     EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
@@ -126,7 +136,8 @@ std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()), sceneName);
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
+                         sceneName);
 
 // Every way of sampling lights and pixels, on the default scene.
 TEST(EstimatorAgreementTest, SampleForSample) {

@@ -37,7 +37,8 @@ TEST(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
             for (const std::uint32_t depth : {1u, 2u, 7u}) {
                 settings.maxDepth = depth;
                 const double truth = enclosureRadiance(0.6, 0.5, static_cast<int>(depth));
-                EXPECT_TRUE(isMean(renders(settings), dvec3(truth))) << (box ? "box, " : "sphere, ") << describe(settings);
+                EXPECT_TRUE(isMean(renders(settings), dvec3(truth)))
+                    << (box ? "box, " : "sphere, ") << describe(settings);
             }
         }
     }
@@ -144,5 +145,5 @@ TEST(AnalyticTest, EmittersDoNotShadowThemselves) {
     }
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

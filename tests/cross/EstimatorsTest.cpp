@@ -75,5 +75,5 @@ std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
 INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
                          sceneName);
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

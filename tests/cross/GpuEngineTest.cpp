@@ -40,7 +40,8 @@ struct Render {
     std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
     std::unique_ptr<app::Engine> engine;
 
-    explicit Render(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = {.pipelineCache = false},
+    explicit Render(const app::RenderSettings& settings,
+                    const gpu::GpuEngineOptions& options = {.pipelineCache = false},
                     vulkan::VulkanContext& context = device())
         : engine(gpu::makeGpuEngine(context, options)) {
         engine->setScene(scene, nullptr);
@@ -294,5 +295,5 @@ TEST(DeviceFilmTest, RareLargeSumsKeepTheSmallOnes) {
     EXPECT_LE(reductionError(kManyBlocks, next), 1e-9);
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -74,4 +74,4 @@ double polygonIrradiance(std::span<const dvec3> vertices) {
     return std::abs(sum) / 2;
 }
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -28,4 +28,4 @@ scene::SceneDesc floorScene();
 // Lambert's polygon formula for a receiver in the origin with normal +y, per radiance; all vertices above the horizon.
 double polygonIrradiance(std::span<const glm::dvec3> vertices);
 
-}  // namespace rt::test
+} // namespace rt::test

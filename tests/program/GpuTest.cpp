@@ -96,16 +96,17 @@ TEST_F(Gpu, ADamagedPipelineCacheIsNoError) {
 TEST_F(Gpu, GoesOnFromACheckpointAsIfNeverStopped) {
     ASSERT_EQ(gpu({"--spp", "21", "-o", "part.pfm", "--checkpoint", "c.rtc"}).exitCode, 0);
     EXPECT_TRUE(picture({"--spp", "50", "--resume", "c.rtc"}) == picture({"--spp", "50"}));
-    EXPECT_TRUE(failsWith(cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "50", "--resume", "c.rtc",
-                               "-o", "a.pfm"}),
-                          3, "engine"));
+    EXPECT_TRUE(failsWith(
+        cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "50", "--resume", "c.rtc", "-o", "a.pfm"}),
+        3, "engine"));
 }
 
 TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {
     const Outcome outcome = gpu({"--validation", "-o", "a.exr", "--aov", "albedo,normal,depth,variance,samples",
                                  "--checkpoint", "c.rtc", "--time-limit", "100"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    for (const char* name : {"a.exr", "a.albedo.exr", "a.normal.exr", "a.depth.exr", "a.variance.exr", "a.samples.exr"}) {
+    for (const char* name :
+         {"a.exr", "a.albedo.exr", "a.normal.exr", "a.depth.exr", "a.variance.exr", "a.samples.exr"}) {
         EXPECT_EQ(image::readImage(path(name)).width, 32u) << name;
     }
 }
@@ -113,7 +114,8 @@ TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {
 TEST_F(Gpu, EnginesDrawTheSamePicture) {
     ASSERT_EQ(gpu({"-o", "gpu.pfm", "--spp", "16"}).exitCode, 0);
     ASSERT_EQ(cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "16", "-o", "cpu.pfm"}).exitCode, 0);
-    const Outcome diff = run("ray-tracing-image", {"diff", "gpu.pfm", "cpu.pfm", "--metric", "relmse", "--max", "1e-3"});
+    const Outcome diff =
+        run("ray-tracing-image", {"diff", "gpu.pfm", "cpu.pfm", "--metric", "relmse", "--max", "1e-3"});
     EXPECT_EQ(diff.exitCode, 0) << diff.out << diff.err;
 }
 
