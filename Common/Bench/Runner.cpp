@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <thread>
 #include <tuple>
 
@@ -16,6 +17,8 @@ namespace rt::bench {
 namespace {
 
 using image::Image;
+
+constexpr double kRateSeconds = 0.3; // of sampling
 
 std::string format(const char* pattern, double value) {
     char text[64];
@@ -70,6 +73,7 @@ class SuiteRunner {
     void runExperiment(const Experiment& experiment);
     std::vector<Group> groupsOf(const Experiment& experiment);
     void runGroup(const Experiment& experiment, Group& group);
+    void measureDeviceRate(const Measured& measured, app::Engine& engine);
     bool measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
     Ladder ladderFor(const Experiment& experiment, const Config& config);
     void loadScene(const std::string& source);
@@ -87,7 +91,7 @@ class SuiteRunner {
     std::string sceneSource_; // of scene_
     std::shared_ptr<const scene::CompiledScene> scene_;
     double secondsLoad_ = 0;
-    Figure rayCeiling_;
+    std::map<std::pair<std::string, std::string>, Figure> ceilings_; // rays/s by scene and kind of engine
     image::Reference reference_;
 };
 
@@ -100,7 +104,8 @@ void SuiteRunner::loadScene(const std::string& source) {
     scene_ = app::compile(app::loadScene(source), true, true);
     secondsLoad_ = watch.seconds();
     sceneSource_ = source;
-    rayCeiling_ = hooks_.rayCeiling ? hooks_.rayCeiling(*scene_) : std::nullopt;
+    const std::pair key(source, std::string("multi"));
+    if (hooks_.rayCeiling && !ceilings_.count(key)) ceilings_[key] = hooks_.rayCeiling(*scene_);
 }
 
 std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experiment) {
@@ -160,9 +165,9 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     std::vector<Row> all;
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (Row& row : rows[i]) {
-            if (!isGpuEngine(row.config.engine) && row.config.threads == 0 && row.config.engine == "multi" &&
-                rayCeiling_)
-                row.ceiling = row.raysPerSecond.value_or(0) / *rayCeiling_;
+            const auto ceiling = ceilings_.find({group.scene, row.config.engine});
+            if (ceiling != ceilings_.end() && ceiling->second && row.config.threads == 0)
+                row.ceiling = row.raysPerSecond.value_or(0) / *ceiling->second;
             all.push_back(row);
         }
     for (const Series& series : makeSeries(experiment, all)) results_.series.push_back(series);
@@ -180,10 +185,27 @@ Ladder SuiteRunner::ladderFor(const Experiment& experiment, const Config& config
     return ladder;
 }
 
+// What a device does with rays of the camera alone: coherent, hardly any shading.
+void SuiteRunner::measureDeviceRate(const Measured& measured, app::Engine& engine) {
+    Figure& rate = ceilings_[{sceneSource_, measured.config.engine}];
+    if (rate) return;
+    app::RenderSettings settings = measured.config.settings;
+    settings.maxDepth = 1;
+    settings.lightSampling = app::LightSampling::Bsdf;
+    settings.sampler = app::SamplerKind::Independent;
+    settings.features.reset();
+    const Run run = measure(engine, *scene_, settings, {{}, {kRateSeconds}, 1e30}, 0, stop_);
+    if (run.snapshots.empty()) return;
+    const Snapshot& snapshot = run.snapshots.back();
+    rate =
+        static_cast<double>(snapshot.rays.camera + snapshot.rays.scattered + snapshot.rays.shadow) / snapshot.seconds;
+}
+
 bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {
     const std::string what = experiment.name + ": " + describe(experiment, measured.config);
     app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
     if (engine == nullptr) return false;
+    if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured, *engine);
     const Ladder ladder = ladderFor(experiment, measured.config);
     measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_));
     const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;

@@ -16,6 +16,7 @@
 #include "Common/Core/Paths.h"
 #include "Common/Core/RunMain.h"
 #include "RayTracingCPU/CpuEngine.h"
+#include "tests/bench/EmbreeCeiling.h"
 #ifdef RT_HAS_GPU
 #include "RayTracingGPU/GpuEngine.h"
 #endif
@@ -113,6 +114,7 @@ int measure(const bench::BenchOptions& options) {
     hooks.say = [&](const std::string& text) {
         if (!options.quiet) std::cerr << text << std::endl;
     };
+    hooks.rayCeiling = bench::embreeRaysPerSecond;
     interrupt.defer(); // from here on there may be something to keep
     bench::Results results = runSuite(suite, engines, references, hooks, interrupt.requested());
     std::vector<bench::Fact> facts = bench::machineFacts();

@@ -1,10 +1,13 @@
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Core/Error.h"
+#include "tests/unit/JsonSchema.h"
 
 namespace rt::bench {
 namespace {
@@ -32,6 +35,21 @@ TEST(BenchSuite, NamedOnesAreValidAndUseScenesAndAxesThatExist) {
         names.insert(named.name);
     }
     EXPECT_EQ(names, (std::set<std::string>{"full", "lights", "predecessor", "quick", "samplers", "scaling"}));
+}
+
+TEST(BenchSuite, ThePublishedSchemaAgrees) {
+    std::ifstream in(RT_SOURCE_DIR "/Assets/bench.schema.json");
+    const nlohmann::json json = nlohmann::json::parse(in);
+    const test::JsonSchema schema(json);
+    for (const NamedSuite& named : namedSuites())
+        EXPECT_TRUE(schema.accepts(nlohmann::json::parse(named.text))) << named.name;
+    for (const char* wrong : {R"("spp": 0)", R"("spp": [1], "smapler": "sobol")", R"("spp": 1, "repeats": 0)"}) {
+        EXPECT_FALSE(schema.accepts(nlohmann::json::parse(suiteWith(wrong)))) << wrong;
+        EXPECT_THROW(parseSuite(suiteWith(wrong), "s.json"), InputError) << wrong;
+    }
+    // Every axis is in it.
+    for (const Axis& axis : axes())
+        EXPECT_TRUE(json["definitions"]["experiment"]["properties"].contains(std::string(axis.name))) << axis.name;
 }
 
 TEST(BenchSuite, ThePredecessorsTableIsWhole) {
