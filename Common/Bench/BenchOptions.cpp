@@ -48,7 +48,6 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
                              ->type_name("DIR");
     app.add_option("--device", options.device, "Vulkan device by index or part of its name")->type_name("N|TEXT");
     app.add_flag("--fresh-references", options.freshReferences, "do not read references from the cache");
-    app.add_flag("--stability", options.stability, "measure the numerical stability of light samplers instead");
     app.add_flag("-q,--quiet", options.quiet, "no progress");
     auto* const compare =
         app.add_option("--compare", options.compare,

@@ -14,7 +14,6 @@ struct BenchOptions {
     std::string report;               // folder; empty: tables on standard output only
     std::string device;               // Vulkan device: index or part of a name
     bool freshReferences = false;
-    bool stability = false;
     bool quiet = false;
     std::vector<std::string> compare; // two reports; empty: measure
     bool listSuites = false;

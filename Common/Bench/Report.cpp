@@ -222,6 +222,40 @@ std::vector<Block> publishedBlocks(const Suite& suite, const std::vector<const R
     return {Heading{3, "Beside what was published: " + scene}, table};
 }
 
+// What tells the configuration from its experiment's others.
+std::string nameOf(const Series& series, const std::vector<const Series*>& others) {
+    std::string name;
+    for (const Axis& axis : axes()) {
+        std::set<std::string> values;
+        for (const Series* other : others) values.insert(axis.get(other->config));
+        if (values.size() > 1 && axis.name != "scene" && axis.name != "height")
+            name += (name.empty() ? "" : ", ") + axis.get(series.config);
+    }
+    return name;
+}
+
+// Of each experiment and scene the configuration that comes first to the error that all reach.
+std::vector<Block> winners(const Suite& suite, const Results& results) {
+    Table table{{"experiment", "scene", "least time to equal relmse", "relmse", "seconds", "gain over baseline"}, {}};
+    for (const Experiment& experiment : suite.experiments) {
+        std::vector<const Series*> own;
+        for (const Series& series : results.series)
+            if (series.experiment == experiment.name && series.secondsAtEqualError) own.push_back(&series);
+        std::map<std::string, std::vector<const Series*>> byScene;
+        for (const Series* series : own) byScene[series->config.scene].push_back(series);
+        for (const auto& [scene, all] : byScene) {
+            if (all.size() < 2) continue;
+            const Series* best = *std::min_element(all.begin(), all.end(), [](const Series* a, const Series* b) {
+                return *a->secondsAtEqualError < *b->secondsAtEqualError;
+            });
+            table.rows.push_back({experiment.name, scene, nameOf(*best, own), threeDigits(best->equalError),
+                                  threeDigits(best->secondsAtEqualError), threeDigits(best->gain)});
+        }
+    }
+    if (table.rows.empty()) return {};
+    return {Heading{2, "In short"}, table};
+}
+
 void appendExperiment(Document& document, const Experiment& experiment, const Results& results, const Suite& suite) {
     std::vector<const Row*> rows;
     for (const Row& row : results.rows)
@@ -269,6 +303,7 @@ Document makeReport(const Results& results, const Suite& suite) {
     if (!results.complete) document.push_back(Paragraph{"Interrupted: this is what had been measured by then."});
     if (!machine.rows.empty()) document.push_back(machine);
     for (const std::string& notice : results.notices) document.push_back(Paragraph{notice});
+    for (Block& block : winners(suite, results)) document.push_back(std::move(block));
     for (const Experiment& experiment : suite.experiments) appendExperiment(document, experiment, results, suite);
     if (!results.skips.empty()) {
         std::vector<const SkipRow*> rows;
