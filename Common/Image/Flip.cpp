@@ -85,25 +85,38 @@ Kernel normalised(Kernel kernel) {
 }
 
 // Pixels beyond the edge are those at the edge.
-Plane convolveAlong(const Plane& in, const Kernel& kernel, bool vertical) {
-    const int radius = static_cast<int>(kernel.size() / 2);
-    const int width = static_cast<int>(in.width), height = static_cast<int>(in.height);
+Plane convolveRows(const Plane& in, const Kernel& kernel) {
+    const std::size_t width = in.width, radius = kernel.size() / 2;
     Plane out(in.width, in.height, 1);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            float sum = 0;
-            for (int k = -radius; k <= radius; ++k) {
-                const int u = vertical ? x : std::clamp(x + k, 0, width - 1);
-                const int v = vertical ? std::clamp(y + k, 0, height - 1) : y;
-                sum += kernel[static_cast<std::size_t>(k + radius)] * in.data[static_cast<std::size_t>(v * width + u)];
-            }
-            out.data[static_cast<std::size_t>(y * width + x)] = sum;
+    std::vector<float> padded(width + 2 * radius);
+    for (std::uint32_t y = 0; y < in.height; ++y) {
+        const float* row = in.pixel(0, y);
+        std::fill_n(padded.begin(), radius, row[0]);
+        std::copy_n(row, width, padded.begin() + static_cast<std::ptrdiff_t>(radius));
+        std::fill_n(padded.end() - static_cast<std::ptrdiff_t>(radius), radius, row[width - 1]);
+        float* to = out.pixel(0, y);
+        for (std::size_t k = 0; k < kernel.size(); ++k)
+            for (std::size_t x = 0; x < width; ++x) to[x] += kernel[k] * padded[x + k];
+    }
+    return out;
+}
+
+Plane convolveColumns(const Plane& in, const Kernel& kernel) {
+    const int height = static_cast<int>(in.height), radius = static_cast<int>(kernel.size() / 2);
+    Plane out(in.width, in.height, 1);
+    for (int y = 0; y < height; ++y) {
+        float* to = out.pixel(0, static_cast<std::uint32_t>(y));
+        for (int k = -radius; k <= radius; ++k) {
+            const float weight = kernel[static_cast<std::size_t>(k + radius)];
+            const float* from = in.pixel(0, static_cast<std::uint32_t>(std::clamp(y + k, 0, height - 1)));
+            for (std::uint32_t x = 0; x < in.width; ++x) to[x] += weight * from[x];
         }
+    }
     return out;
 }
 
 Plane convolve(const Plane& in, const Kernel& horizontal, const Kernel& vertical) {
-    return convolveAlong(convolveAlong(in, horizontal, false), vertical, true);
+    return convolveColumns(convolveRows(in, horizontal), vertical);
 }
 
 // The paper's contrast sensitivity as a sum of Gaussians a sqrt(pi / b) exp(-(pi r)^2 / b), r in degrees (section 4.1).
