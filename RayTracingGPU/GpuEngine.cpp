@@ -110,6 +110,7 @@ class GpuEngine final : public app::Engine {
 void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
     features_ = app::renderFeatures(scene_->compiled(), camera, settings);
     if (shared::has(features_, shared::kFeatureMovingSpheres)) scene_->provideMotion(context_);
+    if (settings.maxDepth > settings_.maxDepth) launchSize_.reset();
     settings_ = settings;
     params_ = app::makeRenderParams(settings);
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
@@ -124,7 +125,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         report_.pipelineSeconds = secondsSince(start);
         launchSize_.reset();
     }
-    if (!launchSize_) launchSize_.emplace(context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU);
+    if (!launchSize_) launchSize_.emplace(context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU, settings.maxDepth);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;

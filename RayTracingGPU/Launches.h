@@ -10,8 +10,10 @@ inline constexpr double kLaunchSeconds = 0.04;
 
 class LaunchSize {
   public:
-    // Begins with so few samples that even a slow device of its kind is done with them in time.
-    explicit LaunchSize(bool softwareDevice) : samples_(softwareDevice ? 1 << 14 : 1 << 18) {}
+    // Begins with so few samples that even a slow device of its kind is done with them in time, and with fewer where paths may
+    // be long.
+    LaunchSize(bool softwareDevice, std::uint32_t maxDepth)
+        : samples_((softwareDevice ? 1 << 14 : 1 << 18) / std::max(1.0, maxDepth / 64.0)) {}
 
     // Samples for a launch of `seconds`, but at most kLaunchSeconds.
     std::uint64_t suggest(double seconds) {
