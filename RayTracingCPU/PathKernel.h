@@ -98,7 +98,7 @@ constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatur
 constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
                                            kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
-                                        kFeatureTriangleLights | kFeatureManyLights;
+                                        kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {
@@ -107,7 +107,7 @@ constexpr Kernel makeKernel(const char* name) {
 
 constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures>("box"),
-    makeKernel<kBoxFeatures | kFeatureMixture>("box+mixture"),
+    makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
     makeKernel<kFeatureAll>("all"),

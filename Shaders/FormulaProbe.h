@@ -5,6 +5,7 @@
 #include "Common/Shared/Bsdf.h"
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Color.h"
+#include "Common/Shared/LightClusters.h"
 #include "Common/Shared/Lights.h"
 #include "Common/Shared/Media.h"
 #include "Common/Shared/Random.h"
@@ -41,7 +42,11 @@ const uint kProbeSphereMedium = 23u;
 const uint kProbeBoxMedium = 24u;
 const uint kProbeFreeFlight = 25u;
 const uint kProbeCamera = 26u;
-const uint kProbeCount = 27u;
+const uint kProbeSphereProjected = 27u; // lights by projected solid angle, several of them cut by the horizon
+const uint kProbeQuadProjected = 28u;
+const uint kProbeTriangleProjected = 29u;
+const uint kProbeCluster = 30u;
+const uint kProbeCount = 31u;
 
 // A source of arguments. At most one of them stands in a call: C++ leaves open which is evaluated first.
 struct Arguments {
@@ -147,6 +152,38 @@ RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
     return floatWords(s.wi, s.pdf);
 }
 
+// The sample and, in its last word, how much the density at its direction differs from its own.
+RT_FN uvec4 probeProjectedLight(RT_INOUT(Arguments) a, uint kind) {
+    RenderParams params = probeParams();
+    params.sphereLight = kShapeProjected;
+    params.quadLight = kShapeProjected;
+    params.triangleLight = kShapeProjected;
+    Light light = probeLight(a, kind);
+    vec3 position = cubePoint(a);
+    vec3 normal = unitVector(a);
+    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kFeatureProjected;
+    LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
+    if (!(s.pdf > 0.0f)) return floatWords(0.0f, 0.0f, 0.0f, 0.0f);
+    float again = lightPdf(features, params, light, position, normal, 0.0f, s.wi, s.distance, s.normal);
+    return floatWords(s.wi, clamp(again / s.pdf, 0.5f, 2.0f));
+}
+
+RT_FN uvec4 probeCluster(RT_INOUT(Arguments) a) {
+    LightCluster c;
+    c.center = cubePoint(a);
+    c.radius = 0.5f * uniformNumber(a);
+    c.axis = unitVector(a);
+    c.alignment = uniformNumber(a);
+    vec2 spread = sinCos2Pi(0.5f * uniformNumber(a));
+    c.spreadCosine = spread.y;
+    c.spreadSine = spread.x;
+    c.facing = 2.0f;
+    c.around = 0.5f;
+    c.child = 7u;
+    vec3 p = cubePoint(a);
+    return floatWords(clusterContribution(c, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
+}
+
 RT_FN uvec4 probeBsdf(RT_INOUT(Arguments) a, Material m) {
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
@@ -234,7 +271,8 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
     if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz, 1.0f));
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
-    vec4 f = evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz, 1.0f), vec3(1.0f), n, wo, hemisphereVector(a, n));
+    vec4 f =
+        evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz, 1.0f), vec3(1.0f), n, wo, hemisphereVector(a, n));
     return floatWords(vec3(f), f.w);
 }
 
@@ -243,7 +281,8 @@ RT_FN uvec4 probe(uint which, uint i) {
     a.key = i;
     a.next = which << 8u;
     if (which == kProbeHash) return uvec4(hash3(uvec3(i, 3u, 5u)), owenScramble(i, hash1(i)));
-    if (which == kProbePermute) return uvec4(permute(i % 977u, 977u, hash1(i)), sobolPair(i, uvec3(i, 11u, 13u)), hash1(i));
+    if (which == kProbePermute)
+        return uvec4(permute(i % 977u, 977u, hash1(i)), sobolPair(i, uvec3(i, 11u, 13u)), hash1(i));
     if (which == kProbeSampler) return probeSampler(i);
     if (which <= kProbeSrgb) return probeElementary(a, which);
     if (which <= kProbeOffset) return probeSampling(a, which);
@@ -259,6 +298,8 @@ RT_FN uvec4 probe(uint which, uint i) {
         vec3 p = cubePoint(a);
         return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
     }
+    if (which == kProbeCluster) return probeCluster(a);
+    if (which >= kProbeSphereProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
     if (which <= kProbeTriangleHit) return probeShape(a, which);
     Ray ray = probeRay(a);
     if (which <= kProbeBoxMedium) {

@@ -37,6 +37,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"triangle-lights", kFeatureTriangleLights},
     {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
+    {"projected", kFeatureProjected},
 };
 
 constexpr std::uint32_t namedBits() {

@@ -188,16 +188,6 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
-void checkEstimator(const RenderSettings& settings) {
-    const auto refuseProjected = [](const char* flag, ShapeSampling shape, const char* others) {
-        if (shape == ShapeSampling::Projected)
-            throw UsageError(std::string(flag) + " projected: not available yet; must be " + others);
-    };
-    refuseProjected("--sphere-light", settings.sphereLight, "auto, cone or area");
-    refuseProjected("--quad-light", settings.quadLight, "auto, solid-angle or area");
-    refuseProjected("--triangle-light", settings.triangleLight, "auto, solid-angle or area");
-}
-
 // Replicates and second moments that somebody reads; whether the number of samples is known in advance.
 void settleErrorEstimate(Options& options) {
     RenderSettings& settings = options.settings;
@@ -260,7 +250,6 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
     if (!flags.parse(std::move(arguments), out)) return std::nullopt;
 
     settleCommand(flags, parsed);
-    checkEstimator(parsed.options.settings);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
     settlePolicy(flags, parsed);

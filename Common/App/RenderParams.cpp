@@ -16,7 +16,7 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-}  // namespace
+} // namespace
 
 shared::RenderParams makeRenderParams(const RenderSettings& settings) {
     shared::RenderParams params{};
@@ -42,6 +42,8 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
     if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
     if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
+    for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
+        if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
     return features | settings.features.value_or(0u);
 }
 
@@ -50,7 +52,10 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
     const auto describe = [&](std::uint32_t feature, ShapeSampling method, const char* shape, const char* solidAngle,
                               const char* regimes) {
         if (!shared::has(features, feature)) return;
-        const char* used = method == ShapeSampling::Area ? "area" : method == ShapeSampling::Auto ? regimes : solidAngle;
+        const char* used = method == ShapeSampling::Area        ? "area"
+                           : method == ShapeSampling::Auto      ? regimes
+                           : method == ShapeSampling::Projected ? "projected (of surfaces, unless tiny)"
+                                                                : solidAngle;
         text += (text.empty() ? "" : ", ") + std::string(shape) + ": " + used;
     };
     if (settings.lightSampling == LightSampling::Bsdf) return "none";
@@ -62,4 +67,4 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
     return text.empty() ? "none" : text;
 }
 
-}  // namespace rt::app
+} // namespace rt::app

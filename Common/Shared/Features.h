@@ -33,7 +33,8 @@ const uint kFeatureFuzz = 1u << 22u;       // metal with fuzz above kMirrorFuzz
 const uint kFeatureTargets = 1u << 23u;    // importance targets, used by `mixture` only
 const uint kFeatureMotion = 1u << 24u;     // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;    // a setting: Shirley's mixture, which lean kernels leave out
-const uint kFeatureBits = 26u;
+const uint kFeatureProjected = 1u << 26u;  // a setting: lights by projected solid angle
+const uint kFeatureBits = 27u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 
 RT_FN bool has(uint features, uint bits) {

@@ -4,7 +4,7 @@
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Features.h"
-#include "SphericalShapes.h"
+#include "ProjectedShapes.h"
 
 RT_SHARED_BEGIN
 
@@ -35,6 +35,7 @@ const uint kRegimeSolidAngle = 0u; // uniform in solid angle
 const uint kRegimeArea = 1u;       // uniform in area
 const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
 const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
+const uint kRegimeProjected = 4u;  // uniform in projected solid angle: of a point on a surface
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
@@ -47,11 +48,29 @@ RT_FN bool isSurface(vec3 normal) {
     return dot(normal, normal) > 0.0f;
 }
 
+// Ratio of extent to distance below which directions are too coarse for projected samplers.
+const float kTinyExtent = 1.0e-3f;
+
 // ---- regimes --------------------------------------------------------------------------------------------------------
 
-RT_FN uint sphereLightRegime(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter) {
-    if (dot(toCenter, toCenter) <= light.radius * light.radius) return kRegimeInside;
+RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
+    return has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
+}
+
+RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter,
+                             vec3 normal) {
+    float d2 = dot(toCenter, toCenter);
+    float r2 = light.radius * light.radius;
+    if (d2 <= r2) return kRegimeInside;
+    if (wantsProjected(features, params.sphereLight, normal) && r2 >= kTinyExtent * kTinyExtent * d2)
+        return kRegimeProjected;
     return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+}
+
+// A flat light asked for by projected solid angle that is too small for it is sampled by area.
+RT_FN uint projectedOrArea(RT_IN(Light) light, vec3 toCenter) {
+    float extent2 = dot(light.edgeU, light.edgeU) + dot(light.edgeV, light.edgeV);
+    return extent2 >= kTinyExtent * kTinyExtent * dot(toCenter, toCenter) ? kRegimeProjected : kRegimeArea;
 }
 
 // Automatic: a flat light whose extent is below a tenth of its distance subtends nearly the same solid angle per area
@@ -60,7 +79,9 @@ RT_FN bool isFar(vec3 toCenter, vec3 edgeU, vec3 edgeV) {
     return dot(edgeU, edgeU) + dot(edgeV, edgeV) < 0.01f * dot(toCenter, toCenter);
 }
 
-RT_FN uint triangleLightRegime(uint method, RT_IN(Light) light, vec3 corner) {
+RT_FN uint triangleLightRegime(uint features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
+    if (wantsProjected(features, method, normal))
+        return projectedOrArea(light, corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f));
     bool area = method == kShapeArea;
     if (method == kShapeAuto)
         area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
@@ -81,11 +102,13 @@ struct QuadView {
 };
 
 // Automatic: a rectangle at twice its short edge or farther is sampled by columns.
-RT_FN QuadView viewQuad(uint method, RT_IN(Light) light, vec3 position) {
+RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
     q.regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
     q.swapped = false;
+    if (wantsProjected(features, method, normal))
+        q.regime = projectedOrArea(light, q.corner + (light.edgeU + light.edgeV) * 0.5f);
     if (method != kShapeAuto) return q;
     if (isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV)) {
         q.regime = kRegimeArea;
@@ -111,14 +134,35 @@ RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
     return vec4(toWorld(makeFrame(normal), local), local.z * kInvPi);
 }
 
+RT_CALL LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
+                                          vec2 u) {
+    LightSample s = noLightSample();
+    ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
+    if (cap.kind == kCapHidden) return s;
+    ProjectedDirection d = sampleProjectedCap(cap, light.radius, u);
+    s.wi = d.place.direction;
+    s.distance = d.place.distance;
+    s.normal = d.place.normal;
+    s.point = cap.cone.distance < 2.0f * light.radius ? position + s.wi * s.distance : center + s.normal * light.radius;
+    s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
+    return s;
+}
+
+RT_CALL float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+    ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
+    return projectedCapDensity(cap, wi) * max(dot(normal, wi), 0.0f);
+}
+
 RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                     vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
     vec3 center = sphereLightCenter(features, light, time);
     vec3 toCenter = center - position;
     float radius = light.radius;
-    uint regime = sphereLightRegime(params, light, toCenter);
-    if (regime == kRegimeSolidAngle) {
+    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
+        s = sampleSphereProjected(light, center, toCenter, position, normal, u);
+    } else if (regime == kRegimeSolidAngle) {
         SphereCone cone = makeSphereCone(toCenter, radius);
         ConeSample c = sampleSphereCone(cone, radius, u);
         s.wi = c.direction;
@@ -152,7 +196,9 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
 RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
-    uint regime = sphereLightRegime(params, light, toCenter);
+    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+        return sphereProjectedPdf(light, toCenter, normal, wi);
     if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
     if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
@@ -234,9 +280,30 @@ RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 corner) {
     return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
 }
 
-RT_FN LightSample sampleQuadLight(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec2 u) {
-    QuadView view = viewQuad(params.quadLight, light, position);
+RT_FN ProjectedFan projectedFan(RT_IN(Light) light, vec3 corner, vec3 normal) {
+    return makeProjectedFan(corner, light.edgeU, light.edgeV, light.normal, light.kind == kLightTriangle, normal);
+}
+
+RT_CALL LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
     LightSample s = noLightSample();
+    FanSample drawn = sampleProjectedFan(projectedFan(light, corner, normal), u);
+    if (!(drawn.density > 0.0f)) return s;
+    s.uv = drawn.uv;
+    placeOnLight(s, light, position);
+    s.pdf = drawn.density * max(dot(normal, s.wi), 0.0f);
+    return s;
+}
+
+RT_CALL float flatProjectedPdf(RT_IN(Light) light, vec3 corner, vec3 normal, vec3 wi) {
+    return projectedFanDensity(projectedFan(light, corner, normal), wi, normal) * max(dot(normal, wi), 0.0f);
+}
+
+RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                  vec3 normal, vec2 u) {
+    QuadView view = viewQuad(features, params.quadLight, light, position, normal);
+    LightSample s = noLightSample();
+    if (has(features, kFeatureProjected) && view.regime == kRegimeProjected)
+        return sampleFlatProjected(light, view.corner, position, normal, u);
     if (view.regime == kRegimeSolidAngle) {
         s = sampleQuadSolidAngle(light, view.corner, position, u);
         if (s.pdf > 0.0f) return s;
@@ -253,8 +320,11 @@ RT_FN LightSample sampleQuadLight(RT_IN(RenderParams) params, RT_IN(Light) light
     return s;
 }
 
-RT_FN float quadLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 wi, float distance) {
-    QuadView view = viewQuad(params.quadLight, light, position);
+RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                         vec3 wi, float distance) {
+    QuadView view = viewQuad(features, params.quadLight, light, position, normal);
+    if (has(features, kFeatureProjected) && view.regime == kRegimeProjected)
+        return flatProjectedPdf(light, view.corner, normal, wi);
     if (view.regime == kRegimeSolidAngle) {
         float solidAngle = quadSolidAngle(light, view.corner);
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
@@ -267,10 +337,14 @@ RT_FN float quadLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 po
     return density * areaPdf(light.area, distance, dot(light.normal, wi));
 }
 
-RT_FN LightSample sampleTriangleLight(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec2 u) {
+RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                      vec3 normal, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
-    if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
+    uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+        return sampleFlatProjected(light, corner, position, normal, u);
+    if (regime == kRegimeSolidAngle) {
         SphericalTriangle t = triangleShape(light, corner);
         if (t.solidAngle >= kTinySolidAngle) {
             s.wi = sampleSphericalTriangle(t, u);
@@ -285,9 +359,13 @@ RT_FN LightSample sampleTriangleLight(RT_IN(RenderParams) params, RT_IN(Light) l
     return s;
 }
 
-RT_FN float triangleLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 wi, float distance) {
+RT_FN float triangleLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                             vec3 wi, float distance) {
     vec3 corner = light.position - position;
-    if (triangleLightRegime(params.triangleLight, light, corner) == kRegimeSolidAngle) {
+    uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+        return flatProjectedPdf(light, corner, normal, wi);
+    if (regime == kRegimeSolidAngle) {
         float solidAngle = triangleShape(light, corner).solidAngle;
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }
@@ -310,9 +388,9 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
         s = sampleSphereLight(features, params, light, position, normal, time, u);
     } else if (light.kind != kLightSky && isLit(light, position)) {
         if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
-            s = sampleQuadLight(params, light, position, u);
+            s = sampleQuadLight(features, params, light, position, normal, u);
         } else if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
-            s = sampleTriangleLight(params, light, position, u);
+            s = sampleTriangleLight(features, params, light, position, normal, u);
         }
     }
     s.radiance = light.emission;
@@ -328,10 +406,10 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
         return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
     }
     if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
-        return quadLightPdf(params, light, position, wi, distance);
+        return quadLightPdf(features, params, light, position, normal, wi, distance);
     }
     if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
-        return triangleLightPdf(params, light, position, wi, distance);
+        return triangleLightPdf(features, params, light, position, normal, wi, distance);
     }
     return 0.0f;
 }

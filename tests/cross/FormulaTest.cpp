@@ -104,6 +104,11 @@ constexpr Bound kBounds[] = {
     {shared::kProbeBoxMedium, "ray in a box", 1e-4, 20},
     {shared::kProbeFreeFlight, "free flight", 2e-6, 0},
     {shared::kProbeCamera, "camera", 1e-6, 0},
+    // Near the ends of a sector rounding decides between slices.
+    {shared::kProbeSphereProjected, "sphere light by projected solid angle", 1e-4, 100},
+    {shared::kProbeQuadProjected, "quad light by projected solid angle", 1e-4, 200},
+    {shared::kProbeTriangleProjected, "triangle light by projected solid angle", 1e-4, 200},
+    {shared::kProbeCluster, "contribution of a cluster", 1e-4, 50},
 };
 static_assert(std::size(kBounds) == shared::kProbeCount - shared::kProbeFloats);
 

@@ -18,7 +18,8 @@ void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what
     const dvec3 truth = dvec3(3, 2, 1) * (formFactor * kFloorAlbedo / std::numbers::pi);
     for (app::RenderSettings settings : allEstimators(smallSettings(4, 2048))) {
         settings.maxDepth = 2;
-        for (auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Area}) {
+        for (auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Projected,
+                           app::ShapeSampling::Area}) {
             if (settings.lightSampling == app::LightSampling::Bsdf && shape != app::ShapeSampling::Auto) continue;
             settings.sphereLight = settings.quadLight = settings.triangleLight = shape;
             EXPECT_TRUE(isMean(render(*scene, settings), truth))

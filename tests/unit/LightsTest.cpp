@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <string>
@@ -113,7 +114,7 @@ std::vector<Case> cases() {
     };
 }
 
-const std::array kMethods{kShapeAuto, kShapeSolidAngle, kShapeArea};
+const std::array kMethods{kShapeAuto, kShapeSolidAngle, kShapeProjected, kShapeArea};
 const vec3 kUp(0, 0, 1);
 
 class LightCase : public testing::TestWithParam<Case> {};
@@ -178,6 +179,28 @@ TEST_P(LightCase, SampleIsOneGeometry) {
         EXPECT_LE(point, 2e-6) << name << ", method " << method;
         EXPECT_LE(surface, 2e-6) << name << ", method " << method;
         EXPECT_LE(length, 1e-6) << name << ", method " << method;
+    }
+}
+
+// The density that multiple importance sampling asks for is that of the sample, from a surface too.
+TEST_P(LightCase, DensityIsThatOfTheSampleOnASurface) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    for (const uint method : kMethods) {
+        Uniforms uniform(13);
+        std::vector<double> differences;
+        for (int i = 0; i < 1 << 13; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+            if (!(s.pdf > 0)) continue;
+            const float again =
+                lightPdf(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, s.wi, s.distance, s.normal);
+            ASSERT_TRUE(isFinite(again) && again >= 0) << name;
+            differences.push_back(std::abs(double(again) / double(s.pdf) - 1));
+        }
+        if (differences.empty()) continue;
+        std::sort(differences.begin(), differences.end());
+        EXPECT_LE(differences[differences.size() / 2], 1e-4) << name << ", method " << method;
+        // At the very ends of a fit a direction does not tell the slice that it came from to all digits.
+        EXPECT_LE(differences[differences.size() * 999 / 1000], 2e-2) << name << ", method " << method;
     }
 }
 
@@ -276,6 +299,21 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
         sampleLight(kFeatureAll, withMethod(kShapeAuto), sphere({0, 0, 2}, 0.3), vec3(0), kUp, 0, u);
     EXPECT_EQ(moved.wi, still.wi);
     EXPECT_EQ(moved.pdf, still.pdf);
+}
+
+// On an unoccluded diffuse surface a light sampled by projected solid angle has no variance but what the fit leaves.
+TEST_P(LightCase, ProjectedHasNoVariance) {
+    const auto& [name, light, areaIsHopeless] = GetParam();
+    const double extent = light.kind == kLightSphere ? double(light.radius) : double(glm::length(light.edgeU));
+    if (extent < 2e-3 * glm::length(dvec3(light.position))) return; // sampled otherwise
+    Uniforms uniform(12);
+    Mean mean;
+    for (int i = 0; i < 1 << 15; ++i) {
+        const LightSample s =
+            sampleLight(kFeatureAll, withMethod(kShapeProjected), light, vec3(0), kUp, 0, uniform.pair());
+        mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
+    }
+    EXPECT_LE(mean.relativeVariance(), name == "triangle sliver" ? 1e-2 : 1e-3) << name;
 }
 
 // Relative variances of single samples of the irradiance, to 10 %.

@@ -240,8 +240,7 @@ TEST_F(OptionsTest, FlagsThatMakeNoSenseSaySo) {
     EXPECT_EQ(error({"--validation"}), "--validation: a flag of ray-tracing-gpu, or of a window");
     EXPECT_EQ(error({"--window"}), "--window: contradicts --headless");
     EXPECT_EQ(error({"--engine", "compute"}), "--engine compute: must be multi or single");
-    EXPECT_EQ(error({"--sphere-light", "projected"}),
-              "--sphere-light projected: not available yet; must be auto, cone or area");
+    EXPECT_EQ(render({"--sphere-light", "projected"}).settings.sphereLight, ShapeSampling::Projected);
     for (const auto& implied :
          std::vector<std::vector<std::string>>{{"-o", "a.png"}, {"--stats", "-"}, {"--time-limit", "1"}})
         EXPECT_TRUE(read(implied).has_value()) << implied[0];
