@@ -1,6 +1,7 @@
 #include "Common/Gui/Window.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 #define GLFW_INCLUDE_NONE
