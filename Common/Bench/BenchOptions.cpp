@@ -56,6 +56,11 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
             ->expected(2)
             ->excludes(suite, quickFlag, report);
     compare->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    app.add_flag(
+           "--stability", options.stability,
+           "instead of a suite: scenes whose answer is known, pushed to the limits of single precision; exits with "
+           "5 when an engine misses one")
+        ->excludes(suite, quickFlag, report, compare);
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
         app.parse(reversed);

@@ -17,6 +17,7 @@ struct BenchOptions {
     bool quiet = false;
     std::vector<std::string> compare; // two reports; empty: measure
     bool listSuites = false;
+    bool stability = false; // the stability suite instead of a suite
 };
 
 // Nothing after --help and --version, which are answered on `out`. Throws UsageError.

@@ -11,6 +11,7 @@
 #include "Common/Bench/Machine.h"
 #include "Common/Bench/Report.h"
 #include "Common/Bench/Runner.h"
+#include "Common/Bench/Stability.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
@@ -137,12 +138,30 @@ int listSuites() {
     return static_cast<int>(ExitCode::Done);
 }
 
+// Every engine of this machine under every stress.
+int measureStability(const bench::BenchOptions& options) {
+    const EngineList list(options);
+    std::vector<bench::StabilityRow> rows;
+    for (const bench::EngineKind& kind : list.kinds()) {
+        const auto& asked = options.engines;
+        const bool wanted = asked.empty() ? kind.name != "single" // its kernels are those of multi
+                                          : std::find(asked.begin(), asked.end(), kind.name) != asked.end();
+        if (!wanted || !kind.make) continue;
+        const auto found = bench::measureStability(*kind.make(0), {true});
+        rows.insert(rows.end(), found.begin(), found.end());
+    }
+    std::cout << toMarkdown(bench::describeStability(rows), noLinks);
+    const bool pass = std::all_of(rows.begin(), rows.end(), [](const bench::StabilityRow& row) { return row.pass; });
+    return static_cast<int>(pass ? ExitCode::Done : ExitCode::Different);
+}
+
 int run(const std::vector<std::string>& arguments) {
     const auto options = bench::parseBenchOptions(arguments, std::cout);
     if (!options) return 0; // --help, --version
     setUpLog({kProgram, options->quiet, false, ""});
     if (options->listSuites) return listSuites();
     if (!options->compare.empty()) return compare(*options);
+    if (options->stability) return measureStability(*options);
     return measure(*options);
 }
 
