@@ -19,6 +19,8 @@ namespace {
 using image::Image;
 
 constexpr double kRateSeconds = 0.3; // of sampling
+constexpr double kLeastFall = -0.5;  // slope of mse over samples that is still one
+constexpr double kLargestZ = 4;
 
 std::string format(const char* pattern, double value) {
     char text[64];
@@ -93,6 +95,7 @@ class SuiteRunner {
     double secondsLoad_ = 0;
     std::map<std::pair<std::string, std::string>, Figure> ceilings_; // rays/s by scene and kind of engine
     image::Reference reference_;
+    bool referenceSuffices_ = false;
 };
 
 // Tests and benchmarks use the generated assets even where the user has others, so that figures compare across machines.
@@ -170,7 +173,17 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
                 row.ceiling = row.raysPerSecond.value_or(0) / *ceiling->second;
             all.push_back(row);
         }
-    for (const Series& series : makeSeries(experiment, all)) results_.series.push_back(series);
+    for (const Series& series : makeSeries(experiment, all)) {
+        results_.series.push_back(series);
+        if (series.tailSlope.value_or(-1) > kLeastFall && referenceSuffices_)
+            notice(experiment.name + ": " + describe(experiment, series.config) +
+                   ": the error hardly falls at the end, with slope " + format("%.2f", *series.tailSlope) + ".");
+    }
+    for (const Row& row : all)
+        if (std::abs(row.biasZ.value_or(0)) > kLargestZ)
+            notice(experiment.name + ": " + describe(experiment, row.config) + ": at " +
+                   format("%.0f", row.spp.value_or(0)) + " spp the mean is off by " + format("%.1f", *row.biasZ) +
+                   " standard deviations: biased, or ruled by a few bright samples.");
     for (const SkipRow& skip : compareFeatures(experiment, group.measured)) results_.skips.push_back(skip);
     if (reference != nullptr && experiment.images)
         results_.grids.push_back(makeGrid(experiment, group.measured, *reference));
@@ -259,6 +272,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
         return nullptr;
     }
     reference_ = std::move(made->reference);
+    referenceSuffices_ = made->sufficient;
     for (std::size_t i = 0; i < rows.size(); ++i) addErrors(rows[i], group.measured[i], reference_);
 
     double variance = 0;
