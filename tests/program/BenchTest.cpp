@@ -72,6 +72,28 @@ TEST_F(Bench, MeasuresAndReports) {
     EXPECT_EQ(again["rows"][0]["mse"], results["rows"][4]["mse"]); // seeds are the same
 }
 
+#ifdef RT_HAS_GPU
+
+TEST_F(Bench, EnginesOfBothKindsVerifyTheReference) {
+    writeFile("both.json", R"({"version": 1, "experiments": [{"name": "a", "scene": "one-weekend-default",
+        "engine": ["multi", "pipeline"], "width": 64, "spp": [4], "baseline": {"engine": "multi"}}]})");
+    const Outcome outcome = bench({"both.json", "-q", "--report", "r"});
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto results = jsonOf("r/results.json");
+    ASSERT_EQ(results["rows"].size(), 2u);
+    // The same paths but for rounding: hardly another error, another time.
+    EXPECT_NEAR(results["rows"][1]["mse"].get<double>() / results["rows"][0]["mse"].get<double>(), 1, 0.1);
+    EXPECT_GT(results["rows"][1]["speedup"], 0.0);
+    EXPECT_GT(results["rows"][1]["seconds_device"], 0.0);
+    EXPECT_GT(results["rows"][1]["ceiling"], 0.0);
+    const auto& reference = results["references"][0];
+    EXPECT_NE(reference["verified_by"], "");
+    EXPECT_LT(std::abs(reference["verified_z"].get<double>()), 4.0);
+    EXPECT_TRUE(results["machine"].contains("GPU driver"));
+}
+
+#endif
+
 TEST_F(Bench, ComparesReports) {
     ASSERT_EQ(bench({"suite.json", "-q", "--report", "a", "--engine", "single"}).exitCode, 0);
     const Outcome same = bench({"--compare", "a", "a/results.json"});
