@@ -25,7 +25,8 @@ app::Engine* Engines::prepare(const Config& config, const std::shared_ptr<const 
                               const std::atomic<bool>& cancel) {
     if (const std::string why = missing(config.engine); !why.empty())
         throw RenderError("engine " + config.engine + ": " + why);
-    Prepared& prepared = prepared_[{config.engine, config.threads}];
+    const bool gpu = isGpuEngine(config.engine);
+    Prepared& prepared = prepared_[gpu ? keyOf(config) : config.engine + "|" + std::to_string(config.threads)];
     if (!prepared.engine) prepared.engine = find(kinds_, config.engine)->make(config.threads);
     if (prepared.scene != scene) {
         if (!prepared.engine->setScene(scene, &cancel)) return nullptr;

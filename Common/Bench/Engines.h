@@ -19,7 +19,8 @@ struct EngineKind {
     std::string missing;                                                     // and this is why
 };
 
-// Engines are made when first used and keep the scene that they have.
+// Engines are made when first used and keep the scene that they have. GPU engines also keep the pipeline that their settings ask
+// for, which may take long to compile: each configuration has one of its own.
 class Engines {
   public:
     explicit Engines(std::vector<EngineKind> kinds) : kinds_(std::move(kinds)) {}
@@ -40,7 +41,7 @@ class Engines {
         std::shared_ptr<const scene::CompiledScene> scene;
     };
     std::vector<EngineKind> kinds_;
-    std::map<std::pair<std::string, std::uint32_t>, Prepared> prepared_; // by name and threads
+    std::map<std::string, Prepared> prepared_;
 };
 
 } // namespace rt::bench

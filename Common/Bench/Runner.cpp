@@ -75,7 +75,7 @@ class SuiteRunner {
     void runExperiment(const Experiment& experiment);
     std::vector<Group> groupsOf(const Experiment& experiment);
     void runGroup(const Experiment& experiment, Group& group);
-    void measureDeviceRate(const Measured& measured, app::Engine& engine);
+    void measureDeviceRate(Config config);
     bool measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
     Ladder ladderFor(const Experiment& experiment, const Config& config);
     void loadScene(const std::string& source);
@@ -199,15 +199,16 @@ Ladder SuiteRunner::ladderFor(const Experiment& experiment, const Config& config
 }
 
 // What a device does with rays of the camera alone: coherent, hardly any shading.
-void SuiteRunner::measureDeviceRate(const Measured& measured, app::Engine& engine) {
-    Figure& rate = ceilings_[{sceneSource_, measured.config.engine}];
+void SuiteRunner::measureDeviceRate(Config config) {
+    Figure& rate = ceilings_[{sceneSource_, config.engine}];
     if (rate) return;
-    app::RenderSettings settings = measured.config.settings;
-    settings.maxDepth = 1;
-    settings.lightSampling = app::LightSampling::Bsdf;
-    settings.sampler = app::SamplerKind::Independent;
-    settings.features.reset();
-    const Run run = measure(engine, *scene_, settings, {{}, {kRateSeconds}, 1e30}, 0, stop_);
+    config.settings.maxDepth = 1;
+    config.settings.lightSampling = app::LightSampling::Bsdf;
+    config.settings.sampler = app::SamplerKind::Independent;
+    config.settings.features.reset();
+    app::Engine* engine = engines_.prepare(config, scene_, stop_);
+    if (engine == nullptr) return;
+    const Run run = measure(*engine, *scene_, config.settings, {{}, {kRateSeconds}, 1e30}, 0, stop_);
     if (run.snapshots.empty()) return;
     const Snapshot& snapshot = run.snapshots.back();
     rate =
@@ -218,7 +219,7 @@ bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, 
     const std::string what = experiment.name + ": " + describe(experiment, measured.config);
     app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
     if (engine == nullptr) return false;
-    if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured, *engine);
+    if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured.config);
     const Ladder ladder = ladderFor(experiment, measured.config);
     measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_));
     const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;
