@@ -10,6 +10,7 @@
 #include "Common/Shared/Media.h"
 #include "Common/Shared/Random.h"
 #include "Common/Shared/Shapes.h"
+#include "Common/Shared/Tonemap.h"
 
 RT_SHARED_BEGIN
 
@@ -46,7 +47,9 @@ const uint kProbeSphereProjected = 27u; // lights by projected solid angle, seve
 const uint kProbeQuadProjected = 28u;
 const uint kProbeTriangleProjected = 29u;
 const uint kProbeCluster = 30u;
-const uint kProbeCount = 31u;
+const uint kProbeSpherePoint = 31u;
+const uint kProbeTonemap = 32u;
+const uint kProbeCount = 33u;
 
 // A source of arguments. At most one of them stands in a call: C++ leaves open which is evaluated first.
 struct Arguments {
@@ -148,7 +151,12 @@ RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
     vec3 position = cubePoint(a);
     vec3 normal = vec3(0.0f, 1.0f, 0.0f);
     uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights;
-    LightSample s = sampleLight(features, probeParams(), light, position, normal, 0.0f, uniformPair(a));
+    RenderParams params = probeParams();
+    uint shape = a.key % 3u == 0u ? kShapeAuto : (a.key % 3u == 1u ? kShapeSolidAngle : kShapeArea);
+    params.sphereLight = shape;
+    params.quadLight = shape;
+    params.triangleLight = shape;
+    LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
     return floatWords(s.wi, s.pdf);
 }
 
@@ -299,7 +307,7 @@ RT_FN uvec4 probe(uint which, uint i) {
         return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
     }
     if (which == kProbeCluster) return probeCluster(a);
-    if (which >= kProbeSphereProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
+    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
     if (which <= kProbeTriangleHit) return probeShape(a, which);
     Ray ray = probeRay(a);
     if (which <= kProbeBoxMedium) {
@@ -310,6 +318,15 @@ RT_FN uvec4 probe(uint which, uint i) {
         float u = toFineUniform(hash1(i), hash1(i + 1u));
         return floatWords(sampleFreeFlight(u, 0.5f), transmittance(3.0f * u), collisionProbability(u), 0.0f);
     }
+    if (which == kProbeSpherePoint) {
+        // Every second sphere is huge against the ray.
+        float radius = (i & 1u) == 0u ? 0.25f + uniformNumber(a) : 1000.0f;
+        vec3 center = cubePoint(a) * 0.5f - vec3(0.0f, radius > 2.0f ? radius : 0.0f, 0.0f);
+        float t = intersectSphere(ray, center, radius, kInfinity);
+        if (t < 0.0f) return floatWords(t, 0.0f, 0.0f, 0.0f);
+        return floatWords(spherePoint(ray, center, radius, t).position, 0.0f);
+    }
+    if (which == kProbeTonemap) return floatWords(tonemap(8.0f * (cubePoint(a) + 1.0f), 0.5f, i % 3u), 0.0f);
     vec2 image = uniformPair(a);
     ray = generateCameraRay(kFeatureThinLens, probeCamera(), uvec2(i % 640u, i % 360u), uvec2(640u, 360u), image,
                             uniformPair(a), 0.0f);

@@ -109,6 +109,8 @@ constexpr Bound kBounds[] = {
     {shared::kProbeQuadProjected, "quad light by projected solid angle", 1e-4, 200},
     {shared::kProbeTriangleProjected, "triangle light by projected solid angle", 1e-4, 200},
     {shared::kProbeCluster, "contribution of a cluster", 1e-4, 50},
+    {shared::kProbeSpherePoint, "point on a sphere", 1e-4, 100}, // grazing rays, and misses
+    {shared::kProbeTonemap, "tone curves", 1e-5, 0},
 };
 static_assert(std::size(kBounds) == shared::kProbeCount - shared::kProbeFloats);
 
