@@ -82,7 +82,8 @@ void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what
         expect();
     }
     settings.lightSampling = app::LightSampling::Mis;
-    for (const auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Area}) {
+    for (const auto shape : {app::ShapeSampling::Auto, app::ShapeSampling::SolidAngle, app::ShapeSampling::Projected,
+                             app::ShapeSampling::Area}) {
         settings.sphereLight = settings.quadLight = settings.triangleLight = shape;
         expect();
     }
