@@ -1,5 +1,6 @@
 #include "RayTracingCPU/CpuEngine.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "Common/Accel/CpuAccel.h"
+#include "Common/Accel/LargeArray.h"
 #include "Common/App/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Scene/CameraRecord.h"
@@ -79,11 +81,21 @@ LightBoundsSoa makeLightBoundsSoa(const scene::CompiledScene& scene) {
     return soa;
 }
 
+// Descents through a large tree of lights jump about in it, and so does what they end at.
+template <class T>
+accel::LargeArray<T> copyToLargePages(const std::vector<T>& records) {
+    accel::LargeArray<T> copy(records.size());
+    std::copy(records.begin(), records.end(), copy.data());
+    return copy;
+}
+
 // A scene with everything that tracing it on the CPU needs.
 struct PreparedScene {
     std::shared_ptr<const scene::CompiledScene> compiled;
     std::unique_ptr<const accel::CpuAccel> accel;
     LightBoundsSoa lightBounds;
+    accel::LargeArray<shared::LightNode> lightNodes;
+    accel::LargeArray<shared::Light> lights; // if there are many
     std::array<float, 256> srgbToLinear = makeSrgbTable();
     CpuScene view;
 };
@@ -111,10 +123,10 @@ CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     view.perlinGradients = s.perlinGradients.data();
     view.perlinPermutations = s.perlinPermutations.data();
     view.media = s.media.data();
-    view.lights = s.lights.data();
+    view.lights = prepared.lights.size() > 0 ? prepared.lights.data() : s.lights.data();
     view.lightBounds = s.lightBounds.data();
     view.lightBoundsSoa = &prepared.lightBounds;
-    view.lightNodes = s.lightNodes.data();
+    view.lightNodes = prepared.lightNodes.data();
     view.lightPlaces = s.lightPlaces.data();
     view.skyCdf = s.skyCdf.data();
     view.globals = s.globals;
@@ -138,6 +150,10 @@ class CpuEngine final : public app::Engine {
         prepared->accel = accel::CpuAccel::build(input, {}, cancel);
         if (!prepared->accel) return false;
         prepared->lightBounds = makeLightBoundsSoa(s);
+        if (!s.lightNodes.empty()) {
+            prepared->lightNodes = copyToLargePages(s.lightNodes);
+            prepared->lights = copyToLargePages(s.lights);
+        }
         prepared->compiled = std::move(compiled);
         prepared->view = makeView(*prepared, set_);
         scene_ = std::move(prepared);
