@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "Common/Image/Convergence.h"
 #include "Common/Image/Summary.h"

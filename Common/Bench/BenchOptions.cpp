@@ -1,6 +1,7 @@
 #include "Common/Bench/BenchOptions.h"
 
 #include <algorithm>
+#include <iterator>
 #include <sstream>
 
 #include <CLI/CLI.hpp>

@@ -1,6 +1,7 @@
 #include "Common/Bench/Config.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "Common/App/Names.h"

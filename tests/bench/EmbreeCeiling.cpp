@@ -12,6 +12,7 @@ std::optional<double> embreeRaysPerSecond(const scene::CompiledScene&) {
 
 #else
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <memory>

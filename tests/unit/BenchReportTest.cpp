@@ -1,4 +1,5 @@
 // From results to files and back, and two results side by side.
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>

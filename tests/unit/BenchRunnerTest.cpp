@@ -1,4 +1,6 @@
 // Measurements with an engine whose samples are known.
+#include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
