@@ -317,13 +317,12 @@ TEST_P(LightCase, ProjectedHasNoVariance) {
 }
 
 // Relative variances of single samples of the irradiance, to 10 %.
-TEST(Lights, VarianceOfSolidAngleSampling) {
-    const auto variance = [](const Light& light) {
+TEST(Lights, VarianceOfSolidAngleAndAreaSampling) {
+    const auto variance = [](const Light& light, uint method = kShapeSolidAngle) {
         Uniforms uniform(7);
         Mean mean;
         for (int i = 0; i < 1 << 18; ++i) {
-            const LightSample s =
-                sampleLight(kFeatureAll, withMethod(kShapeSolidAngle), light, vec3(0), kUp, 0, uniform.pair());
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
             mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
         }
         return mean.relativeVariance();
@@ -333,6 +332,11 @@ TEST(Lights, VarianceOfSolidAngleSampling) {
     EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.9)), 0.052, 0.005);
     EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)), 0.93, 0.09);
     EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)), 3.7, 0.37);
+    // What solid angle saves near lights; uniform in area it is tens to hundreds of times as much.
+    EXPECT_NEAR(variance(quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}), kShapeArea), 1.45, 0.15);
+    EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.2), kShapeArea), 2.8, 0.28);
+    EXPECT_GT(variance(quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2}), kShapeArea), 10.0);
+    EXPECT_GT(variance(sphere({0, 0, 1}, 0.9), kShapeArea), 10.0);
 }
 
 // ---- choosing -------------------------------------------------------------------------------------------------------

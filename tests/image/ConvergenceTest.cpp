@@ -1,0 +1,79 @@
+// How fast the error of a smooth picture falls with the number of samples: a floor under one light, no edges in sight.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/image/AnalyticScenes.h"
+#include "tests/image/Harness.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using glm::dvec3;
+
+SceneDesc litFloor(bool sphere) {
+    SceneDesc desc = emptyScene({3, 2, 4}, {1.5, 0, 2}, 8);
+    MaterialDesc floor;
+    floor.albedo = dvec3(0.6);
+    desc.materials["floor"] = floor;
+    MaterialDesc light;
+    light.kind = MaterialKind::Emitter;
+    light.emission = dvec3(3);
+    light.sides = Sides::Both;
+    desc.materials["light"] = light;
+    desc.objects.push_back({QuadDesc{{-6, 0, 6}, {12, 0, 0}, {0, 0, -12}, "floor"}});
+    if (sphere) {
+        desc.objects.push_back({SphereDesc{{0, 0.6, 0}, 0.6, {}, "light"}});
+    } else {
+        desc.objects.push_back({QuadDesc{{-1, 0.1, -1}, {2, 0, 0}, {0, 1.5, 0.3}, "light"}});
+    }
+    return desc;
+}
+
+image::Image renderOnce(app::Engine& engine, const CompiledScene& scene, app::SamplerKind sampler, std::uint32_t spp,
+                        std::uint32_t seed) {
+    app::RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.spp = spp;
+    settings.maxDepth = 2;
+    settings.sampler = sampler;
+    settings.seed = seed;
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
+    }
+    return engine.film().resolve();
+}
+
+// Root of the mean squared error over pixels and eight scramblings.
+double error(app::Engine& engine, const CompiledScene& scene, app::SamplerKind sampler, std::uint32_t spp,
+             const image::Image& reference) {
+    double sum = 0;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        const image::Image image = renderOnce(engine, scene, sampler, spp, seed);
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            sum += std::pow(static_cast<double>(image.data[i]) - static_cast<double>(reference.data[i]), 2);
+    }
+    return std::sqrt(sum / 8 / static_cast<double>(reference.data.size()));
+}
+
+// Independent numbers: -1/2. Sobol's over position in the pixel and on the light, four dimensions: at least -0.7; a
+// scrambling that is not nested, or one for several dimensions, makes it -1/2.
+TEST(Convergence, SobolIsSteeperThanIndependentAndNeverWorse) {
+    for (const bool sphere : {false, true}) {
+        const auto scene = compileScene(litFloor(sphere));
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        const image::Image reference = renderOnce(*engine, *scene, app::SamplerKind::Sobol, 1u << 14, 77);
+        const double few = error(*engine, *scene, app::SamplerKind::Sobol, 16, reference);
+        const double many = error(*engine, *scene, app::SamplerKind::Sobol, 1024, reference);
+        EXPECT_GE(std::log(few / many) / std::log(64.0), 0.7) << few << " to " << many;
+        for (const std::uint32_t spp : {1u, 4u, 16u, 64u, 256u}) {
+            EXPECT_LE(error(*engine, *scene, app::SamplerKind::Sobol, spp, reference),
+                      1.05 * error(*engine, *scene, app::SamplerKind::Independent, spp, reference))
+                << spp;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace rt::test
