@@ -23,7 +23,8 @@ std::vector<Row> makeRows(const Experiment& experiment, const Measured& measured
 // The errors of the rows that makeRows() made of `measured`.
 void addErrors(std::vector<Row>& rows, const Measured& measured, const image::Reference& reference);
 
-// Speed-up and gain of all rows of an experiment over its baseline, at the same samples per pixel or the baseline's last.
+// Speed-up and gain of all rows of an experiment over its baseline, at the same samples per pixel or the baseline's
+// last.
 void addBaselines(const Experiment& experiment, std::vector<Row>& rows);
 
 // The rows of one scene's configurations as curves, compared at equal time and at equal error.

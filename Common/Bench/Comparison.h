@@ -24,8 +24,9 @@ struct Comparison {
     std::size_t regressions() const;
 };
 
-// Times count as changed beyond the larger of 5 % and twice the spread (half of least to most, over the median) of both;
-// errors beyond their 95 % intervals, at least 2 %. Rows are matched by experiment, axes and samples per pixel (or time budget).
+// Times count as changed beyond the larger of 5 % and twice the spread (half of least to most, over the median) of
+// both; errors beyond their 95 % intervals, at least 2 %. Rows are matched by experiment, axes and samples per pixel
+// (or time budget).
 Comparison compareResults(const Results& before, const Results& after);
 
 // A results.json, or the folder of a report. Throws InputError.

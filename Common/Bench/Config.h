@@ -1,5 +1,5 @@
-// What is measured: a scene on an engine under settings. Each thing that a suite may vary is an axis, one row of a table
-// that suites, reports and comparisons go by.
+// What is measured: a scene on an engine under settings. Each thing that a suite may vary is an axis, one row of a
+// table that suites, reports and comparisons go by.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -24,7 +24,8 @@ struct Table {
 using Block = std::variant<Heading, Paragraph, Table, Chart, PictureGrid>;
 using Document = std::vector<Block>;
 
-// `linkOf` gives the file of the chart with this number, counted from 0, or "" where charts are not shown. Pictures are not.
+// `linkOf` gives the file of the chart with this number, counted from 0, or "" where charts are not shown. Pictures are
+// not.
 std::string toMarkdown(const Document& document, const std::function<std::string(std::size_t)>& linkOf);
 
 // Self-contained.

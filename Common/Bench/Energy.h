@@ -7,8 +7,8 @@
 
 namespace rt::bench {
 
-// From its making on. Reads the counters of the packages that Linux shows below /sys/class/powercap (Intel's and AMD's RAPL);
-// elsewhere, or where they may not be read, nothing is known.
+// From its making on. Reads the counters of the packages that Linux shows below /sys/class/powercap (Intel's and AMD's
+// RAPL); elsewhere, or where they may not be read, nothing is known.
 class EnergyMeter {
   public:
     explicit EnergyMeter(const std::filesystem::path& folder = "/sys/class/powercap");

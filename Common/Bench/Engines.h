@@ -19,8 +19,8 @@ struct EngineKind {
     std::string missing;                                                     // and this is why
 };
 
-// Engines are made when first used and keep the scene that they have. GPU engines also keep the pipeline that their settings ask
-// for, which may take long to compile: each configuration has one of its own.
+// Engines are made when first used and keep the scene that they have. GPU engines also keep the pipeline that their
+// settings ask for, which may take long to compile: each configuration has one of its own.
 class Engines {
   public:
     explicit Engines(std::vector<EngineKind> kinds) : kinds_(std::move(kinds)) {}

@@ -34,9 +34,9 @@ struct Run {
     app::EngineReport report; // of its end
 };
 
-// `engine` has the scene; `settings` are complete but for spp and seed. A short render beforehand warms up caches, clocks
-// and shaders that drivers compile late. Samplers that lay out strata for a known number of samples are started anew for
-// each step. When `stop` becomes true, the step in progress is left out.
+// `engine` has the scene; `settings` are complete but for spp and seed. A short render beforehand warms up caches,
+// clocks and shaders that drivers compile late. Samplers that lay out strata for a known number of samples are started
+// anew for each step. When `stop` becomes true, the step in progress is left out.
 Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
             std::uint32_t seed, const std::atomic<bool>& stop);
 

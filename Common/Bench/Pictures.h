@@ -7,8 +7,8 @@
 
 namespace rt::bench {
 
-// The reference, then for each configuration its image and a map of its error, all at the largest number of samples that all
-// have reached; made smaller so that a report stays small.
+// The reference, then for each configuration its image and a map of its error, all at the largest number of samples
+// that all have reached; made smaller so that a report stays small.
 PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& measured,
                      const image::Reference& reference);
 

@@ -1,5 +1,5 @@
-// References: images so good that what is measured against them is not their own error. Kept on disk, and made better when a
-// later measurement asks for more.
+// References: images so good that what is measured against them is not their own error. Kept on disk, and made better
+// when a later measurement asks for more.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -41,8 +41,8 @@ class ReferenceStore {
     // `folder` empty: nothing is kept. With `fresh` what is there is not read.
     ReferenceStore(std::filesystem::path folder, bool fresh) : folder_(std::move(folder)), fresh_(fresh) {}
 
-    // Adds samples until every image of `measured` is at least three times as far off, standard error against error, both of
-    // mse and of relmse. The engine has the scene. Nothing when stopped before there was anything.
+    // Adds samples until every image of `measured` is at least three times as far off, standard error against error,
+    // both of mse and of relmse. The engine has the scene. Nothing when stopped before there was anything.
     std::optional<ReferenceResult> provide(const ReferenceRequest& request,
                                            std::span<const image::Image* const> measured, app::Engine& engine,
                                            const std::atomic<bool>& stop);

@@ -70,7 +70,8 @@ Table makeTable(const std::vector<Column<T>>& columns, const std::vector<const T
     return table;
 }
 
-// Axes that have more than one value among the rows; scene and engine always, the height, which follows the width, never.
+// Axes that have more than one value among the rows; scene and engine always, the height, which follows the width,
+// never.
 template <class T>
 std::vector<Column<T>> axisColumns(const std::vector<const T*>& rows) {
     std::vector<Column<T>> columns;

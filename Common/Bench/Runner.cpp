@@ -98,7 +98,8 @@ class SuiteRunner {
     bool referenceSuffices_ = false;
 };
 
-// Tests and benchmarks use the generated assets even where the user has others, so that figures compare across machines.
+// Tests and benchmarks use the generated assets even where the user has others, so that figures compare across
+// machines.
 void SuiteRunner::loadScene(const std::string& source) {
     if (source == sceneSource_) return;
     engines_.clear();

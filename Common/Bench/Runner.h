@@ -13,13 +13,13 @@ namespace rt::bench {
 
 struct RunnerHooks {
     std::function<void(const std::string&)> say; // one line on what happens
-    // Rays per second that the processor's hardware can do with this scene's rays alone, by another library, on all threads;
-    // nothing where that is not known. May be empty.
+    // Rays per second that the processor's hardware can do with this scene's rays alone, by another library, on all
+    // threads; nothing where that is not known. May be empty.
     std::function<Figure(const scene::CompiledScene&)> rayCeiling;
 };
 
-// What was measured when `stop` becomes true is returned, with complete == false. Engines that are not there are left out with
-// a notice. Throws InputError for a scene that does not exist.
+// What was measured when `stop` becomes true is returned, with complete == false. Engines that are not there are left
+// out with a notice. Throws InputError for a scene that does not exist.
 Results runSuite(const Suite& suite, Engines& engines, ReferenceStore& references, const RunnerHooks& hooks,
                  const std::atomic<bool>& stop);
 

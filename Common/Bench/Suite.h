@@ -57,8 +57,8 @@ Suite loadSuite(const std::string& nameOrFile);
 void replaceScenes(Suite& suite, const std::vector<std::string>& scenes);
 void restrictEngines(Suite& suite, const std::vector<std::string>& engines);
 
-// All combinations without those that mean the same (threads of an engine that has one, how lights are chosen where none is
-// sampled) or need more threads than there are.
+// All combinations without those that mean the same (threads of an engine that has one, how lights are chosen where
+// none is sampled) or need more threads than there are.
 std::vector<Config> combinations(const Experiment& experiment, std::uint32_t hardwareThreads);
 
 } // namespace rt::bench

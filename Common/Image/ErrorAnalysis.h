@@ -12,18 +12,20 @@ struct Reference {
 };
 
 struct ErrorAnalysis {
-    // As in ErrorFigures, but the reference's own variance is subtracted from mse, rmse and relmse: their expectations are
-    // those against an exact reference. Chance may make them negative (rmse: 0) where the image is as good as the reference.
+    // As in ErrorFigures, but the reference's own variance is subtracted from mse, rmse and relmse: their expectations
+    // are those against an exact reference. Chance may make them negative (rmse: 0) where the image is as good as the
+    // reference.
     double mse = 0, rmse = 0, relmse = 0;
     double mae = 0, psnr = 0, flip = 0;           // against the reference as it is
     double referenceMse = 0, referenceRelmse = 0; // what was subtracted
-    // Standard error of mse from the spread of tiles of 8x8 pixels. Tiles also differ because the picture does, so this is an
-    // upper bound.
+    // Standard error of mse from the spread of tiles of 8x8 pixels. Tiles also differ because the picture does, so this
+    // is an upper bound.
     double mseError = 0;
-    // Of the test that both have the same mean over all pixels: standard deviations from 0 in the worst channel. Pixels have
-    // independent random numbers, so |z| > 4 says that one of the two is biased.
+    // Of the test that both have the same mean over all pixels: standard deviations from 0 in the worst channel. Pixels
+    // have independent random numbers, so |z| > 4 says that one of the two is biased.
     double biasZ = 0;
-    // Pixels that are brighter than the reference by more than 10 times the rmse in some channel, and what share of the mse is theirs.
+    // Pixels that are brighter than the reference by more than 10 times the rmse in some channel, and what share of the
+    // mse is theirs.
     std::size_t fireflies = 0;
     double fireflyShare = 0;
 };

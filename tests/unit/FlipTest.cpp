@@ -79,8 +79,8 @@ TEST(Flip, IsSymmetricAndClamps) {
     EXPECT_EQ(flip(bright, b), flip(clamped, b)); // a screen shows no more
 }
 
-// What the eye blurs away counts little: fine noise less than the same noise in coarse blocks; and the finer the screen, the
-// less is seen.
+// What the eye blurs away counts little: fine noise less than the same noise in coarse blocks; and the finer the
+// screen, the less is seen.
 TEST(Flip, FineNoiseIsSeenLess) {
     const std::uint32_t side = 64;
     const Image grey = constant(side, 0.4f, 0.4f, 0.4f);
