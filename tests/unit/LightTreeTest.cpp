@@ -204,6 +204,31 @@ TEST(LightTreePower, ChiSquareSeesTwoPercent) {
     EXPECT_LT(chiSquareP(counts, weights), kSignificance);
 }
 
+// The sky is a child of the root, whatever else shines, and is drawn as stated.
+TEST(LightTree, HoldsTheSky) {
+    CompiledScene s = randomLights(200, 8);
+    s.lightBounds.clear(), s.lightNodes.clear(), s.lightPlaces.clear();
+    Light sky{};
+    sky.kind = kLightSky;
+    sky.sides = kSidesBoth;
+    sky.radius = 10;
+    sky.area = 4 * kPi * 100;
+    sky.emission = vec3(0.01f);
+    s.globals.skyLight = 200;
+    s.lights.push_back(sky);
+    scene::finishLights(s);
+    EXPECT_EQ(s.lightPlaces[200], 0u);
+    Uniforms uniform(9);
+    for (int k = 0; k < 4; ++k) {
+        const vec3 position = vec3(inBox(uniform, 4)), normal = glm::normalize(vec3(inBox(uniform, 1)));
+        std::vector<std::uint64_t> counts(2);
+        const double probability = double(treeProbability({s}, 200, position, normal));
+        EXPECT_GT(probability, 0.0);
+        for (int n = 0; n < 1 << 16; ++n) ++counts[chooseFromTree({s}, uniform.pair(), position, normal).light == 200];
+        EXPECT_GT(chiSquareP(counts, {1 - probability, probability}), kSignificance) << k;
+    }
+}
+
 TEST(LightTree, OfLightsInOnePlaceAndOfDarkOnes) {
     CompiledScene s;
     s.globals.skyLight = kNone;
