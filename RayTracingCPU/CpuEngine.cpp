@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <mutex>
@@ -212,6 +213,32 @@ class CpuEngine final : public app::Engine {
             }
         });
         return images;
+    }
+
+    bool knowsCost() const override { return true; }
+    image::Image renderCost(std::uint32_t samples) override {
+        const std::uint32_t count = std::clamp(samples, 1u, Film::kBlock);
+        image::Image rays(settings_.width, settings_.height, 1);
+        std::atomic<std::uint32_t> nextRow{0};
+        runWorkers(policy_, threads_, [&](std::uint32_t) {
+            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < rays.height;
+                 y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
+                for (std::uint32_t x = 0; x < rays.width; ++x) {
+                    float sum[3] = {};
+                    KernelCounters counters;
+                    TileTask task;
+                    task.x = x;
+                    task.y = y;
+                    task.width = task.height = task.stride = 1;
+                    task.count = count;
+                    task.sum = sum;
+                    kernel_->renderTile(context_, task, counters);
+                    const std::uint64_t all = counters.camera + counters.scattered + counters.shadow;
+                    *rays.pixel(x, y) = static_cast<float>(all) / static_cast<float>(count);
+                }
+            }
+        });
+        return rays;
     }
 
     app::EngineReport report() const override {

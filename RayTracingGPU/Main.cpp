@@ -59,6 +59,8 @@ class OwningEngine final : public rt::app::Engine {
     rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
         return engine_->renderAovs(request, samples);
     }
+    bool knowsCost() const override { return engine_->knowsCost(); }
+    rt::image::Image renderCost(std::uint32_t samples) override { return engine_->renderCost(samples); }
     rt::app::EngineReport report() const override { return engine_->report(); }
 
     static std::uint64_t validationMessages() { return allMessages_; }

@@ -15,6 +15,7 @@ layout(push_constant) uniform Constants {
     uint width; // of both images; 0: none
     uint height;
     uint curve;
+    uint plain;   // bit 0: the picture, bit 1: the held image is display intensities already
     float split;  // the held image is shown to the left of this, in pixels of the window
     float surroundR; // what lies around the image, sRGB
     float surroundG;
@@ -40,13 +41,15 @@ void main() {
         return;
     }
     // Averages are taken of what is shown, so that a small bright light does not bleed into its surroundings.
+    const bool isPlain = (plain >> (isHeld ? 1u : 0u) & 1u) != 0u;
     const int steps = clamp(int(ceil(1.0 / scale - 0.01)), 1, 8);
     vec3 sum = vec3(0.0);
     for (int y = 0; y < steps; y++) {
         for (int x = 0; x < steps; x++) {
             const vec2 offset = (vec2(x, y) + 0.5) / float(steps) - 0.5;
             const ivec2 p = clamp(ivec2(floor(at + offset / scale)), ivec2(0), ivec2(size) - 1);
-            sum += tonemap(texel(p, isHeld), exposure, curve);
+            const vec3 value = texel(p, isHeld);
+            sum += isPlain ? clamp(value, 0.0, 1.0) : tonemap(value, exposure, curve);
         }
     }
     color = vec4(srgbEncode(sum / float(steps * steps)), 1.0);

@@ -73,6 +73,13 @@ struct Engine {
     // is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
+    // Rays that each pixel costs, camera, scattered and shadow, averaged over the first `samples` samples; one channel. The
+    // film stays as it is. An engine that does not know the cost returns an image without pixels.
+    virtual bool knowsCost() const { return false; }
+    virtual image::Image renderCost(std::uint32_t samples) {
+        (void)samples;
+        return {};
+    }
     virtual EngineReport report() const = 0;
 };
 

@@ -3,15 +3,11 @@
 #include "Common/Image/Metrics.h"
 
 namespace rt::app {
-namespace {
 
-// A variance needs two replicates, or two blocks of one.
 bool hasVariance(const image::Film& film) {
     if (film.desc().replicates >= 2) return film.minSamples() >= 2;
     return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
 }
-
-} // namespace
 
 FilmEstimate estimate(const image::Film& film) {
     FilmEstimate result;

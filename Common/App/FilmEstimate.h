@@ -13,6 +13,9 @@ struct FilmEstimate {
     std::optional<std::array<double, 3>> standardError; // of meanRadiance
     std::optional<double> relmse;                       // estimatedRelMse() of Metrics.h
 };
+// Whether a variance can be told: it needs two replicates with samples, or two blocks of one.
+bool hasVariance(const image::Film& film);
+
 FilmEstimate estimate(const image::Film& film);
 
 } // namespace rt::app

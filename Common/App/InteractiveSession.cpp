@@ -1,28 +1,13 @@
 #include "Common/App/InteractiveSession.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "Common/App/Draft.h"
-#include "Common/App/FilmEstimate.h"
-#include "Common/App/Outputs.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
-#include "Common/Image/Display.h"
-#include "Common/Image/ImageIo.h"
 
 namespace rt::app {
 namespace {
-
-constexpr double kDraftSeconds = 0.04;     // of what is shown first after a change
-constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
-constexpr std::uint32_t kDraftSpp = 4;     // at most
-constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
-constexpr double kEarlySeconds = 2;        // pictures come often at first
-constexpr double kEarlyInterval = 0.04;
-constexpr double kLateInterval = 0.15;
 
 std::string messageOf(const std::exception_ptr& failure) {
     try {
@@ -66,8 +51,7 @@ void InteractiveSession::post(bool interrupt, Change change) {
     wake_.notify_one();
 }
 
-template <class Change>
-void InteractiveSession::update(Change change) {
+void InteractiveSession::update(const std::function<void(SessionState&)>& change) {
     {
         const std::scoped_lock lock(mutex_);
         change(state_);
@@ -115,6 +99,19 @@ void InteractiveSession::reset() {
 }
 void InteractiveSession::save(SaveRequest request) {
     post(false, [&](Requests& requests) { requests.saves.push_back(std::move(request)); });
+}
+
+void InteractiveSession::view(const ViewRequest& view) {
+    post(false, [&](Requests& requests) { requests.view = view; });
+}
+void InteractiveSession::renderReference(std::uint32_t spp) {
+    post(true, [&](Requests& requests) { requests.referenceSpp = spp; });
+}
+void InteractiveSession::loadReference(const std::string& file) {
+    post(false, [&](Requests& requests) { requests.referenceFile = file; });
+}
+void InteractiveSession::pickFocus(std::uint32_t x, std::uint32_t y) {
+    post(false, [&](Requests& requests) { requests.focus = {x, y}; });
 }
 
 SessionState InteractiveSession::state() const {
@@ -167,14 +164,29 @@ void InteractiveSession::apply(Requests requests) {
         request_ = *requests.request;
         filmIsStale_ = true;
         round_ = 0;
+        referenceSpp_.reset();
     }
     if (requests.scene) adopt(std::move(*requests.scene));
     if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
         camera_ = requests.camera->second;
         filmIsStale_ = true;
         round_ = 0;
+        referenceSpp_.reset();
     }
     for (const SaveRequest& save : requests.saves) write(save);
+    if (requests.referenceFile) readReferenceFile(*requests.referenceFile);
+    if (requests.referenceSpp) {
+        referenceSpp_ = requests.referenceSpp;
+        filmIsStale_ = true;
+        setActivity(Activity::Rendering);
+    }
+    if (requests.focus && !filmIsStale_) findFocus((*requests.focus)[0], (*requests.focus)[1]);
+    if (requests.view && *requests.view != view_) {
+        featureView_ = nullptr;
+        featureIsFull_ = false;
+        view_ = *requests.view;
+        if (engine_ && scene_ && !filmIsStale_) publish();
+    }
     if (requests.command) obey(*requests.command);
     // What was changed is looked at, unless the user has stopped rendering.
     if (filmIsStale_ && activity_ != Activity::Stopped && activity_ != Activity::Rendering) {
@@ -188,6 +200,8 @@ void InteractiveSession::makeEngine() {
         std::unique_ptr<Engine> engine = setup_.makeEngine(choice_);
         if (scene_ && !engine->setScene(scene_, &cancelBuild_)) return;
         engine_ = std::move(engine);
+        const bool canShowCost = engine_->knowsCost();
+        update([&](SessionState& state) { state.canShowCost = canShowCost; });
         filmIsStale_ = filmIsNew_ = true;
     } catch (...) {
         fail(std::current_exception(), !engine_);
@@ -219,6 +233,7 @@ void InteractiveSession::adopt(LoadedScene loaded) {
     }
     filmIsStale_ = filmIsNew_ = true;
     round_ = 0;
+    referenceSpp_.reset();
     for (const std::string& notice : scene_->notices) logInfo(scene_->id + ": " + notice);
     update([&](SessionState& state) {
         state.stage.clear();
@@ -241,6 +256,12 @@ void InteractiveSession::obey(Command command) {
             }
             break;
         case Command::Stop:
+            if (referenceSpp_) { // the picture before comes back
+                referenceSpp_.reset();
+                filmIsStale_ = true;
+                setActivity(Activity::Rendering);
+                break;
+            }
             if (activity_ == Activity::Rendering || activity_ == Activity::Paused) finish(StopReason::Interrupted);
             break;
         case Command::Reset:
@@ -263,181 +284,6 @@ void InteractiveSession::fail(const std::exception_ptr& failure, bool fatal) {
 void InteractiveSession::setActivity(Activity activity) {
     activity_ = activity;
     update([activity](SessionState& state) { state.activity = activity; });
-}
-
-// ---- rendering -------------------------------------------------------------------------------------------------------
-
-void InteractiveSession::startFilm() {
-    Options options;
-    options.size = request_.size;
-    options.settings = request_.settings;
-    settleImageSize(options, scene_->defaults.aspect);
-    RenderSettings settings = options.settings;
-    settings.seed += round_;
-    settings.sppIsKnown = !request_.timeLimit;
-    settings.secondMoments = settings.replicates < 2;
-    if (!request_.accumulate) {
-        settings.spp = request_.samplesPerFrame;
-        settings.secondMoments = false;
-    }
-    settings.replicates = std::min(settings.replicates, settings.spp);
-
-    if (filmIsNew_) setStage("Preparing " + scene_->title); // kernels may have to be compiled
-    filmIsNew_ = false;
-    if (round_ == 0) renderDraft(settings);
-    engine_->reset(camera_, settings);
-    settings_ = settings;
-    filmIsStale_ = false;
-    status_ = {};
-    status_.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
-    renderSeconds_ = 0;
-    sinceStart_ = {};
-    update([&](SessionState& state) {
-        state.stage.clear();
-        state.settings = settings;
-        state.status = status_;
-        state.renderSeconds = 0;
-        state.report = engine_->report();
-    });
-}
-
-// Something to look at at once, where the first samples of the whole image would take longer.
-void InteractiveSession::renderDraft(const RenderSettings& settings) {
-    const double pixels = static_cast<double>(settings.width) * settings.height;
-    const double affordable = samplesPerSecond_ * kDraftSeconds;
-    const double firstPass = pixels * std::min(settings.spp, image::Film::kBlock);
-    draft_ = {};
-    if (affordable >= firstPass) return;
-    const double scale = std::sqrt(std::min(1.0, affordable / pixels));
-    RenderSettings draft = settings;
-    draft.width = std::max(1u, static_cast<std::uint32_t>(settings.width * scale));
-    draft.height = std::max(1u, static_cast<std::uint32_t>(settings.height * scale));
-    draft.spp = std::clamp(static_cast<std::uint32_t>(affordable / pixels), 1u, kDraftSpp);
-    draft.replicates = 1;
-    draft.secondMoments = false;
-    engine_->reset(camera_, draft);
-    const Stopwatch watch;
-    // Not interrupted by the next change: a camera in motion would never show anything.
-    RenderStatus status;
-    do status = engine_->renderSome({std::chrono::duration<double>(kDraftSeconds), &cancelBuild_});
-    while (!status.finished && !cancelBuild_ && (!cancelRender_ || watch.seconds() < kMostDraftSeconds));
-    const double seconds = std::max(watch.seconds(), 1e-4);
-    samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status.samplesDone) / seconds;
-    if (!status.finished) return;
-    draft_ = engine_->film().resolve();
-    auto picture = std::make_shared<image::Image>(enlarge(draft_, settings.width, settings.height));
-    update([&](SessionState& state) {
-        state.picture.image = std::move(picture);
-        state.picture.spp = 0;
-        ++state.picture.serial;
-    });
-}
-
-void InteractiveSession::renderSlice() {
-    if (filmIsStale_) startFilm();
-    const Stopwatch watch;
-    const std::uint64_t before = status_.samplesDone;
-    status_ = engine_->renderSome({std::chrono::duration<double>(setup_.sliceSeconds), &cancelRender_});
-    const double seconds = watch.seconds();
-    renderSeconds_ += seconds;
-    if (seconds > 0.5 * setup_.sliceSeconds && !cancelRender_) {
-        samplesPerSecond_ = 0.9 * samplesPerSecond_ + 0.1 * static_cast<double>(status_.samplesDone - before) / seconds;
-    }
-    if (status_.finished) return finish(StopReason::Spp);
-    if (request_.timeLimit && renderSeconds_ >= *request_.timeLimit) return finish(StopReason::TimeLimit);
-    const double interval = sinceStart_.seconds() < kEarlySeconds ? kEarlyInterval : kLateInterval;
-    if (!cancelRender_ && sincePublished_.seconds() > std::max(interval, publishSeconds_ / kPublishShare)) publish();
-}
-
-void InteractiveSession::finish(StopReason reason) {
-    publish();
-    const bool again = reason != StopReason::Interrupted && (request_.loop || !request_.accumulate);
-    const std::uint64_t spp = engine_->film().minSamples();
-    const EngineReport report = engine_->report();
-    const LastRun run{{loadSeconds_, renderSeconds_, 0}, report.accelBuildSeconds, report.pipelineSeconds, spp};
-    bool recorded = false;
-    if (setup_.history != nullptr && request_.accumulate && spp > 0) {
-        RunRecord record;
-        record.time = utcNow();
-        record.app = setup_.program;
-        record.engine = report.engine;
-        record.device = report.device;
-        record.scene = scene_->id;
-        record.lightSampling = nameOf(kLightSamplings, settings_.lightSampling);
-        record.sampler = nameOf(kSamplers, settings_.sampler);
-        record.width = settings_.width;
-        record.height = settings_.height;
-        record.maxDepth = settings_.maxDepth;
-        record.threads = report.threads;
-        record.spp = spp;
-        record.loadSeconds = loadSeconds_;
-        record.buildSeconds = report.accelBuildSeconds;
-        record.pipelineSeconds = report.pipelineSeconds;
-        record.renderSeconds = renderSeconds_;
-        const double rays = static_cast<double>(report.rays.camera + report.rays.scattered + report.rays.shadow);
-        if (renderSeconds_ > 0) {
-            record.samplesPerSecond = static_cast<double>(status_.samplesDone) / renderSeconds_;
-            record.raysPerSecond = rays / renderSeconds_;
-        }
-        record.relmse = estimate(engine_->film()).relmse.value_or(0);
-        try {
-            setup_.history->append(record);
-            recorded = true;
-        } catch (...) {
-            fail(std::current_exception(), false); // the render itself is well
-        }
-    }
-    update([&](SessionState& state) {
-        state.lastRun = run;
-        if (recorded) ++state.historySerial;
-    });
-    if (again) {
-        ++round_;
-        filmIsStale_ = true;
-    } else {
-        setActivity(reason == StopReason::Interrupted ? Activity::Stopped : Activity::Finished);
-    }
-}
-
-void InteractiveSession::publish() {
-    const Stopwatch watch;
-    const image::Film& film = engine_->film();
-    auto picture = std::make_shared<image::Image>(film.resolve());
-    const std::uint64_t spp = film.minSamples();
-    if (spp == 0 && !draft_.data.empty()) fillFromDraft(*picture, film, draft_);
-    update([&](SessionState& state) {
-        state.picture.image = std::move(picture);
-        state.picture.spp = spp;
-        ++state.picture.serial;
-        state.status = status_;
-        state.renderSeconds = renderSeconds_;
-        state.seconds.load = loadSeconds_;
-        state.seconds.render = renderSeconds_;
-        state.report = engine_->report();
-    });
-    publishSeconds_ = watch.seconds();
-    sincePublished_ = {};
-}
-
-void InteractiveSession::write(const SaveRequest& request) {
-    if (!engine_ || !scene_ || filmIsStale_) {
-        const RenderError early("nothing to save yet: the picture is being prepared");
-        return fail(std::make_exception_ptr(early), false);
-    }
-    const image::Image radiance = engine_->film().resolve();
-    for (const std::string& file : request.files) {
-        try {
-            const bool display = image::isDisplayReferred(file);
-            const auto curve = static_cast<std::uint32_t>(request.tonemap);
-            image::writeImage(file, display ? image::toDisplay(radiance, request.exposure, curve) : radiance);
-            update([&](SessionState& state) {
-                state.message = "Saved " + file;
-                ++state.messageSerial;
-            });
-        } catch (...) {
-            fail(std::current_exception(), false);
-        }
-    }
 }
 
 } // namespace rt::app

@@ -22,6 +22,7 @@
 #include "Common/App/Settings.h"
 #include "Common/App/Statistics.h"
 #include "Common/App/Stopwatch.h"
+#include "Common/App/ViewImage.h"
 
 namespace rt::app {
 
@@ -49,11 +50,15 @@ struct RenderRequest {
 
 enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
 
-// What is shown: linear radiance of the whole image.
+// What is shown of the whole image.
 struct Picture {
-    std::shared_ptr<const image::Image> image;
-    std::uint64_t serial = 0; // grows with each new picture
-    std::uint64_t spp = 0;    // of the pixel with the fewest samples; 0: partly a draft of lower resolution
+    std::shared_ptr<const image::Image> image;    // linear
+    std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
+    bool isDisplay = false;                       // no exposure and no tone curve belong to it
+    std::uint64_t serial = 0;                     // grows with each new picture
+    std::uint64_t spp = 0; // of the pixel with the fewest samples; 0: partly a draft of lower resolution
+    // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
+    std::shared_ptr<const image::Image> variance, samples;
 };
 
 struct ErrorPoint {
@@ -92,6 +97,15 @@ struct SessionState {
     Seconds seconds;
     EngineReport report;
     std::optional<LastRun> lastRun;
+
+    std::string reference;           // what it is; empty: there is none
+    bool referenceFits = false;      // it is of this scene, camera, size and depth
+    bool isReferenceRender = false;  // what is being rendered will be the reference
+    std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
+    std::vector<ErrorPoint> curve;   // of this film, against the reference
+    bool canShowCost = false;        // the engine knows what a pixel costs
+    double focusDistance = 0;        // that makes sharp what was picked last
+    std::uint64_t focusSerial = 0;   // grows with each pick that met something
     std::uint64_t historySerial = 0; // grows when a run is added to the history
 };
 
@@ -129,6 +143,13 @@ class InteractiveSession {
     void stop();
     void reset(); // begins anew
     void save(SaveRequest request);
+    void view(const ViewRequest& view);
+    // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear image
+    // file of the present size. Stop gives a render up, and what was the reference before stays.
+    void renderReference(std::uint32_t spp);
+    void loadReference(const std::string& file);
+    // Finds the focus distance for what is seen in a pixel: the state tells.
+    void pickFocus(std::uint32_t x, std::uint32_t y);
 
     SessionState state() const;
 
@@ -142,13 +163,19 @@ class InteractiveSession {
         std::optional<std::pair<std::uint64_t, scene::CameraDesc>> camera;
         std::optional<Command> command;
         std::vector<SaveRequest> saves;
-        bool any() const { return quit || engine || request || scene || camera || command || !saves.empty(); }
+        std::optional<ViewRequest> view;
+        std::optional<std::uint32_t> referenceSpp;
+        std::optional<std::string> referenceFile;
+        std::optional<std::array<std::uint32_t, 2>> focus;
+        bool any() const {
+            return quit || engine || request || scene || camera || command || !saves.empty() || view || referenceSpp ||
+                   referenceFile || focus;
+        }
     };
 
     template <class Change>
     void post(bool interrupt, Change change);
-    template <class Change>
-    void update(Change change);
+    void update(const std::function<void(SessionState&)>& change);
     void setStage(const std::string& stage);
 
     // On the worker thread.
@@ -167,6 +194,21 @@ class InteractiveSession {
     void finish(StopReason reason);
     void publish();
     void write(const SaveRequest& request);
+    // What a reference must agree in with a film that is compared with it.
+    struct FilmKey {
+        std::uint64_t sceneHash = 0;
+        scene::CameraDesc camera;
+        std::uint32_t width = 0, height = 0, maxDepth = 0;
+        bool operator==(const FilmKey&) const = default;
+    };
+    FilmKey filmKey() const;
+    bool referenceFits() const;
+    void adoptReference(image::Image image, const std::string& name);
+    void readReferenceFile(const std::string& file);
+    void followError(const image::Image& picture, bool last);
+    void findFocus(std::uint32_t x, std::uint32_t y);
+    RunRecord makeRecord() const;
+    std::shared_ptr<const image::Image> shownImage(const std::shared_ptr<const image::Image>& radiance);
 
     Setup setup_;
 
@@ -197,6 +239,14 @@ class InteractiveSession {
     double loadSeconds_ = 0;
     double samplesPerSecond_ = 2e5; // for the size of drafts; a cautious guess at first
     image::Image draft_;
+    ViewRequest view_;
+    std::shared_ptr<const image::Image> featureView_; // of the film, for modes that samples do not change
+    bool featureIsFull_ = false;                      // in the film's resolution
+    std::optional<std::uint32_t> referenceSpp_;       // of the reference that is being rendered
+    std::shared_ptr<const image::Image> reference_;
+    std::string referenceName_;
+    FilmKey referenceKey_;
+    std::vector<ErrorPoint> curve_;
     Stopwatch sinceStart_;
     Stopwatch sincePublished_;
     double publishSeconds_ = 0;

@@ -1,7 +1,5 @@
 #include "Common/App/Session.h"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <stdexcept>
@@ -10,6 +8,7 @@
 #include "Common/App/Interrupt.h"
 #include "Common/App/Outputs.h"
 #include "Common/App/Platform.h"
+#include "Common/App/Reference.h"
 #include "Common/App/RenderLoop.h"
 #include "Common/App/Resume.h"
 #include "Common/App/SceneSource.h"
@@ -17,7 +16,6 @@
 #include "Common/App/Stopwatch.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Log.h"
-#include "Common/Image/ImageIo.h"
 #include "Common/Scene/SceneJson.h"
 
 namespace rt::app {
@@ -39,21 +37,6 @@ void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& s
     std::string names;
     for (const std::string& name : featureNames(missing)) names += (names.empty() ? "" : ",") + name;
     throw UsageError("--features: the scene also needs " + names);
-}
-
-image::Image readReference(const std::string& file, const RenderSettings& settings) {
-    if (!isLinearFormat(file)) throw InputError(file + ": a reference must be linear: .exr, .hdr or .pfm");
-    image::Image reference = image::readImage(file);
-    const auto size = [](std::uint32_t width, std::uint32_t height, std::uint32_t channels) {
-        return std::to_string(width) + "x" + std::to_string(height) + " pixels of " + std::to_string(channels) +
-               " channels";
-    };
-    if (reference.width != settings.width || reference.height != settings.height || reference.channels != 3)
-        throw InputError(file + ": has " + size(reference.width, reference.height, reference.channels) +
-                         ", but the render " + size(settings.width, settings.height, 3));
-    if (!std::all_of(reference.data.begin(), reference.data.end(), [](float value) { return std::isfinite(value); }))
-        throw InputError(file + ": has values that are not finite");
-    return reference;
 }
 
 std::string describeEnd(const Statistics& statistics) {
@@ -114,7 +97,7 @@ void HeadlessRender::load() {
     for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
     settleImageSize(options_, scene_->defaults.aspect);
     checkFeatures(options_.settings, *scene_);
-    if (!options_.reference.empty()) reference_ = readReference(options_.reference, options_.settings);
+    if (!options_.reference.empty()) reference_ = readReference(options_.reference, options_.settings.width, options_.settings.height);
     statistics_.seconds.load = watch.seconds();
 }
 

@@ -1,10 +1,13 @@
 #include "Common/Gui/App.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <deque>
 #include <filesystem>
+#include <optional>
 
 #include <GLFW/glfw3.h>
 
@@ -31,6 +34,12 @@ void Gui::openScene(const std::string& source) {
         return;
     }
     session.open(source);
+}
+
+void Gui::hold() {
+    held = held ? nullptr : state.picture.image;
+    heldIsDisplay = state.picture.isDisplay;
+    split = 0.5f;
 }
 
 void Gui::say(const std::string& text, bool isError) {
@@ -119,6 +128,8 @@ class App {
     void handleKey(const Window::KeyPress& press);
     void stepScene(int step);
     void handlePointer(const Rect& area);
+    std::optional<std::array<std::uint32_t, 2>> pixelUnderPointer(const Rect& area) const;
+    void inspect(const std::optional<std::array<std::uint32_t, 2>>& pixel);
     void fly(double seconds);
     void sendChanges();
     void save();
@@ -141,11 +152,13 @@ class App {
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
     scene::CameraDesc sentCamera_;
+    app::ViewRequest sentView_;
+    const image::Image* shownHeld_ = nullptr;
     app::InteractiveSession session_;
     Gui gui_;
 
     Rect area_; // of the picture, in the window's units
-    std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0;
+    std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
     std::vector<std::string> dropped_;
     app::Stopwatch sinceInput_, sinceFrame_, sinceStored_;
     std::deque<std::pair<double, double>> turns_; // when it ended, and how long it took; seconds
@@ -180,7 +193,6 @@ void App::turn() {
     imgui_.beginFrame();
     handleKeys();
     drawInterface();
-    handlePointer(area_);
     fly(seconds);
     imgui_.endFrame();
     sendChanges();
@@ -201,6 +213,13 @@ void App::takeState() {
         window_.setTitle(state.scene->title + " - " + options_.program);
     }
     if (!state.source.empty()) settings_.scene = state.source;
+    if (state.focusSerial != focusSerial_) {
+        focusSerial_ = state.focusSerial;
+        camera_.focusAt(state.focusDistance, 1);
+    }
+    if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
+        gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to compare with any more
+    }
     if (state.picture.image && state.picture.serial != pictureSerial_) {
         pictureSerial_ = state.picture.serial;
         presenter_.setPicture(state.picture.image);
@@ -228,6 +247,9 @@ void App::handleKey(const Window::KeyPress& press) {
     switch (press.key) { // these work while text is typed, too
         case GLFW_KEY_F1:
             gui_.showHelp = !gui_.showHelp;
+            return;
+        case GLFW_KEY_F3:
+            settings_.showComparison = !settings_.showComparison;
             return;
         case GLFW_KEY_F2:
             settings_.showStatistics = !settings_.showStatistics;
@@ -299,6 +321,14 @@ void App::handleKey(const Window::KeyPress& press) {
         case GLFW_KEY_F:
             gui_.view = {};
             return;
+        case GLFW_KEY_B:
+            if (gui_.held || gui_.state.picture.image) gui_.hold();
+            return;
+        case GLFW_KEY_H: {
+            const bool isOn = gui_.viewRequest.mode == app::ViewMode::Heat;
+            if (gui_.state.canShowCost) gui_.viewRequest.mode = isOn ? app::ViewMode::Picture : app::ViewMode::Heat;
+            return;
+        }
         case GLFW_KEY_PAGE_UP:
             stepScene(-1);
             return;
@@ -324,6 +354,44 @@ void App::stepScene(int step) {
     gui_.openScene(std::string(scenes[static_cast<std::size_t>(index)].id));
 }
 
+std::optional<std::array<std::uint32_t, 2>> App::pixelUnderPointer(const Rect& area) const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr) return std::nullopt;
+    const ImVec2 mouse = ImGui::GetIO().MousePos, pixels = ImGui::GetIO().DisplayFramebufferScale;
+    const PresentConstants place = placePicture(area);
+    const float x = std::floor((mouse.x * pixels.x - place.originX) / place.scale);
+    const float y = std::floor((mouse.y * pixels.y - place.originY) / place.scale);
+    if (!(x >= 0 && y >= 0 && x < static_cast<float>(image->width) && y < static_cast<float>(image->height))) {
+        return std::nullopt;
+    }
+    return {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}};
+}
+
+// The inspector's text for a pixel.
+void App::inspect(const std::optional<std::array<std::uint32_t, 2>>& pixel) {
+    gui_.inspected.clear();
+    const app::Picture& picture = gui_.state.picture;
+    if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
+    const auto [x, y] = *pixel;
+    const auto has = [&](const std::shared_ptr<const image::Image>& image) {
+        return image && x < image->width && y < image->height;
+    };
+    if (!has(picture.radiance)) return;
+    const float* rgb = picture.radiance->pixel(x, y);
+    char text[160];
+    std::snprintf(text, sizeof text, "Pixel (%u, %u)\nradiance %.4g  %.4g  %.4g", x, y, rgb[0], rgb[1], rgb[2]);
+    gui_.inspected = text;
+    if (has(picture.variance)) {
+        const float* variance = picture.variance->pixel(x, y);
+        std::snprintf(text, sizeof text, "\nvariance %.3g  %.3g  %.3g", variance[0], variance[1], variance[2]);
+        gui_.inspected += text;
+    }
+    if (has(picture.samples)) {
+        std::snprintf(text, sizeof text, "\nsamples %.0f", *picture.samples->pixel(x, y));
+        gui_.inspected += text;
+    }
+}
+
 void App::handlePointer(const Rect& area) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool inside = area.contains(io.MousePos.x, io.MousePos.y) && !io.WantCaptureMouse;
@@ -333,6 +401,14 @@ void App::handlePointer(const Rect& area) {
         ImGui::SetWindowFocus(nullptr);
     }
     if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) dragging = false;
+    const std::optional<std::array<std::uint32_t, 2>> pixel = inside ? pixelUnderPointer(area) : std::nullopt;
+    inspect(pixel);
+    if (inside && io.MouseClicked[0] && gui_.pickFocus) {
+        gui_.pickFocus = false;
+        if (pixel) session_.pickFocus((*pixel)[0], (*pixel)[1]);
+    } else if (dragging && io.MouseDown[0] && gui_.held && !io.KeyAlt) {
+        gui_.split = std::clamp((io.MousePos.x - area.x) / std::max(1.0f, area.width), 0.0f, 1.0f);
+    }
     const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
     if (dragging && (dx != 0 || dy != 0)) {
         const float height =
@@ -397,6 +473,14 @@ void App::sendChanges() {
         sentEngine_ = settings_.engine;
         session_.choose(sentEngine_);
     }
+    if (gui_.viewRequest != sentView_) {
+        sentView_ = gui_.viewRequest;
+        session_.view(sentView_);
+    }
+    if (gui_.held.get() != shownHeld_) {
+        shownHeld_ = gui_.held.get();
+        if (gui_.held) presenter_.setHeld(gui_.held);
+    }
     if (sceneSerial_ > 0 && camera_.camera() != sentCamera_) {
         sentCamera_ = camera_.camera();
         session_.moveCamera(sentCamera_, sceneSerial_);
@@ -449,8 +533,12 @@ void App::drawInterface() {
             panels.push_back({"Statistics", Place::Side, false, [this] { drawStatisticsPanel(gui_); }});
         }
     }
+    if (settings_.showComparison) {
+        panels.push_back({"Comparison", Panel::Place::Bottom, true, [this] { drawComparisonPanel(gui_); }});
+    }
     area_ = imgui_.layOut(
         panels, [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
+    handlePointer(area_);
     drawOverlay(area_);
     drawHelp(gui_);
 }
@@ -459,6 +547,11 @@ void App::drawInterface() {
 void App::drawOverlay(const Rect& area) {
     const bool waiting = !gui_.state.stage.empty() && gui_.state.stageSeconds > 0.3;
     const bool talking = ImGui::GetTime() - gui_.toastTime < kToastSeconds && !gui_.toast.empty();
+    if (!gui_.inspected.empty()) {
+        ImGui::BeginTooltip();
+        ImGui::TextUnformatted(gui_.inspected.c_str());
+        ImGui::EndTooltip();
+    }
     if (!waiting && !talking) return;
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
@@ -500,6 +593,8 @@ PresentConstants App::placePicture(const Rect& area) const {
         constants.originY = std::round(top * pixels.y);
         constants.scale = scale * pixels.x;
     }
+    constants.plain = (gui_.state.picture.isDisplay ? 1u : 0u) | (gui_.heldIsDisplay ? 2u : 0u);
+    if (gui_.held) constants.split = (area.x + gui_.split * area.width) * pixels.x;
     constants.exposure = settings_.exposure;
     constants.curve = static_cast<std::uint32_t>(settings_.tonemap);
     const Rgb surround = surroundColor(settings_.colorMode);

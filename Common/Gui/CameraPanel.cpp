@@ -28,9 +28,15 @@ void drawCameraPanel(Gui& gui) {
     changed |= sliderReal("Focus distance", "Where things are sharp, in units of the scene", camera.focusDistance,
                           std::min(camera.focusDistance, 0.01 * distance),
                           std::max(camera.focusDistance, 10 * distance), "%.4g", true);
-    if (button("Focus on the target", "Makes sharp what the camera looks at", true, -1)) {
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (button("Focus on target", "Makes sharp what the camera looks at", true, half)) {
         camera.focusDistance = distance;
         changed = true;
+    }
+    ImGui::SameLine();
+    if (button(gui.pickFocus ? "Click in the picture" : "Pick focus",
+               "The next click in the picture makes sharp what is there", true, half)) {
+        gui.pickFocus = !gui.pickFocus;
     }
     changed |= editVector("Position", "Where the camera is", camera.lookFrom);
     changed |= editVector("Target", "What it looks at", camera.lookAt);

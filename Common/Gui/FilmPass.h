@@ -20,7 +20,8 @@ struct PresentConstants {
     float exposure = 0;             // stops
     std::uint32_t width = 0, height = 0;
     std::uint32_t curve = 0;
-    float split = -1; // the held image is shown to the left of this; pixels of the window
+    std::uint32_t plain = 0; // bit 0: the picture, bit 1: the held image is display intensities already
+    float split = -1;        // the held image is shown to the left of this; pixels of the window
     float surround[3] = {};
 };
 

@@ -28,6 +28,8 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl + wheel", "zoom the picture"},
     {"Ctrl + right drag", "move the picture"},
     {"F", "fit the picture"},
+    {"H", "heat map: rays that each pixel costs"},
+    {"B", "hold the picture for comparison, let it go"},
     {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},
     {"Ctrl + plus, minus", "larger, smaller interface"},
     {"Arrows, Tab, Enter", "walk through controls and use them"},

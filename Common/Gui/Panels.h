@@ -1,6 +1,7 @@
 // The panels of the window: each shows a part of the state and changes a part of the settings; App sends what has changed.
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,15 @@ struct Gui {
 
     app::SessionState state; // of this frame
     PictureView view;
+    app::ViewRequest viewRequest;
+    std::shared_ptr<const image::Image> held; // for comparison with the picture
+    bool heldIsDisplay = false;
+    float split = 0.5f;     // share of the picture's part that shows the held image
+    bool pickFocus = false; // the next click in the picture tells what is to be sharp
+    std::string inspected;  // what the pixel under the pointer holds
+    std::uint32_t referenceSpp = 1024;
+    std::string referencePath;
+    bool onlyThisScene = true;
     UiFigures figures;
     bool showHelp = false;
     bool focusOpen = false; // the keyboard is to go to the field of the path
@@ -45,6 +55,7 @@ struct Gui {
     bool toastIsError = false;
 
     void openScene(const std::string& source);
+    void hold(); // the picture, for comparison; or lets it go
     void say(const std::string& text, bool isError);
 };
 
@@ -54,6 +65,7 @@ void drawRenderPanel(Gui& gui);
 void drawCameraPanel(Gui& gui);
 void drawViewPanel(Gui& gui);
 void drawStatisticsPanel(Gui& gui);
+void drawComparisonPanel(Gui& gui);
 void drawHelp(Gui& gui);
 void drawStatusLine(Gui& gui);
 

@@ -67,21 +67,28 @@ void drawRenderControl(Gui& gui) {
                             ? static_cast<float>(static_cast<double>(state.status.samplesDone) /
                                                  static_cast<double>(state.status.samplesTotal))
                             : 0.0f;
-    ImGui::ProgressBar(share, {-1, 0}, progressText(state, share).c_str());
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::ProgressBar(share, {-1, 0}, "");
+    const ImVec2 bar = ImGui::GetItemRectSize();
+    const std::string text = progressText(state, share);
+    const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+    ImGui::GetWindowDrawList()->AddText({corner.x + 0.5f * (bar.x - extent.x), corner.y + 0.5f * (bar.y - extent.y)},
+                                        ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
     std::string line = activityText(state.activity);
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
     if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty()) line += ", " + left;
     ImGui::TextDisabled("%s", line.c_str());
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
-        ImGui::PushTextWrapPos(0);
-        ImGui::Text("Last rendering time: %s", durationText(run.seconds.render).c_str());
-        ImGui::PopTextWrapPos();
+        ImGui::Text("Last rendering time: %.1f ms", 1000 * run.seconds.render);
         tooltip("Wall time of sampling alone, as in the statistics of a render without a window");
-        note(std::to_string(run.spp) + " spp; load " + shortDuration(run.seconds.load) + ", build " +
-             shortDuration(run.accelBuild) + ", pipeline " + shortDuration(run.pipeline));
+        ImGui::Text("%s, %llu spp", durationText(run.seconds.render).c_str(), static_cast<unsigned long long>(run.spp));
+        ImGui::TextDisabled("%s", ("load " + shortDuration(run.seconds.load) + ", build " +
+                                   shortDuration(run.accelBuild) + ", pipeline " + shortDuration(run.pipeline))
+                                      .c_str());
     } else {
         ImGui::TextDisabled("Last rendering time: none yet");
+        ImGui::TextDisabled(" ");
         ImGui::TextDisabled(" ");
     }
     ImGui::Separator();

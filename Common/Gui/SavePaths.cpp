@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <cstdlib>
-#include <filesystem>
 
 namespace rt::gui {
 namespace {
@@ -26,8 +25,12 @@ fs::path defaultFolder() {
 
 } // namespace
 
+std::filesystem::path saveFolder(const std::string& folder) {
+    return folder.empty() ? defaultFolder() : fs::path(folder);
+}
+
 std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state) {
-    const fs::path place = folder.empty() ? defaultFolder() : fs::path(folder);
+    const fs::path place = saveFolder(folder);
     std::string name = state.scene->id;
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '-';

@@ -1,5 +1,6 @@
 // Names for pictures that are saved without being asked for one.
 #pragma once
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -7,7 +8,10 @@
 
 namespace rt::gui {
 
-// A PNG and an EXR in `folder`, or where that is empty in the user's pictures folder or home; no such file exists yet.
+// `folder`, or where that is empty the user's pictures folder or home.
+std::filesystem::path saveFolder(const std::string& folder);
+
+// A PNG and an EXR in saveFolder(folder); no such file exists yet.
 std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state);
 
 } // namespace rt::gui

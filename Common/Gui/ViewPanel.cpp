@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/Widgets.h"
 
@@ -9,10 +12,65 @@ constexpr app::Named<app::Tonemap> kTonemapNames[] = {
 constexpr app::Named<app::ColorMode> kColorModeNames[] = {
     {"Dark", app::ColorMode::Dark}, {"Light", app::ColorMode::Light}, {"High contrast", app::ColorMode::HighContrast}};
 
+using app::ViewMode;
+
+struct Mode {
+    const char* name;
+    ViewMode mode;
+    const char* tip;
+};
+constexpr Mode kModes[] = {
+    {"Picture", ViewMode::Picture, "Radiance, with exposure and tone curve"},
+    {"Albedo", ViewMode::Albedo, "Colour of the first surface"},
+    {"Normal", ViewMode::Normal, "Direction of the first surface, as red, green, blue"},
+    {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright"},
+    {"Noise", ViewMode::Noise, "Standard error of each pixel relative to its value, after 16 samples"},
+    {"Error", ViewMode::Error, "Difference from the reference relative to it"},
+    {"Heat map", ViewMode::Heat, "Rays that each pixel costs, on a logarithmic scale (H)"},
+};
+
+bool isAvailable(const Gui& gui, ViewMode mode) {
+    if (mode == ViewMode::Error) return gui.state.referenceFits;
+    if (mode == ViewMode::Heat) return gui.state.canShowCost;
+    return true;
+}
+
+void drawModes(Gui& gui) {
+    app::ViewRequest& view = gui.viewRequest;
+    row("Show", "What is drawn");
+    const Mode* current =
+        std::find_if(std::begin(kModes), std::end(kModes), [&](const Mode& m) { return m.mode == view.mode; });
+    if (ImGui::BeginCombo("##mode", current->name)) {
+        for (const Mode& mode : kModes) {
+            if (!isAvailable(gui, mode.mode)) continue;
+            if (ImGui::Selectable(mode.name, mode.mode == view.mode)) view.mode = mode.mode;
+            tooltip(mode.tip);
+        }
+        ImGui::EndCombo();
+    }
+    if (view.mode == ViewMode::Noise || view.mode == ViewMode::Error || view.mode == ViewMode::Heat) {
+        sliderReal("Scale", "Values are multiplied by this before they get a colour, from blue over green to yellow",
+                   view.scale, 0.1, 100, "%.2f", true);
+    }
+    ImGui::Checkbox("Inspect pixels", &view.inspect);
+    tooltip("Shows what the pixel under the pointer holds");
+    ImGui::SameLine();
+    if (button(gui.held ? "Let go" : "Hold picture (B)",
+               "Keeps what is shown; it stays on the left of a line that the mouse moves, the picture is on the right",
+               gui.held || gui.state.picture.image, -1)) {
+        gui.hold();
+    }
+    if (gui.held) {
+        row("Split", "Share of the held picture");
+        ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    }
+}
+
 } // namespace
 
 void drawViewPanel(Gui& gui) {
     app::GuiSettings& settings = gui.settings;
+    drawModes(gui);
     double exposure = settings.exposure;
     if (sliderReal("Exposure", "Stops, of what is shown and of PNG files", exposure, -10, 10, "%.2f")) {
         settings.exposure = static_cast<float>(exposure);

@@ -166,8 +166,7 @@ std::string bytesText(std::uint64_t bytes) {
 
 std::string durationText(double seconds) {
     const auto all = static_cast<long long>(std::llround(std::min(seconds, 1e12) * 1000));
-    return format("%.1f ms (%lld h %lld min %lld s %lld ms)", seconds * 1000, all / 3600000, all / 60000 % 60,
-                  all / 1000 % 60, all % 1000);
+    return format("%lld h %lld min %lld s %lld ms", all / 3600000, all / 60000 % 60, all / 1000 % 60, all % 1000);
 }
 
 std::string shortDuration(double seconds) {

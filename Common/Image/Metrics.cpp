@@ -38,6 +38,8 @@ double displayed(float linear) {
     return shared::srgbEncode(std::clamp(linear, 0.0f, 1.0f));
 }
 
+} // namespace
+
 // Dark blue to yellow at even steps of lightness; in between linear in sRGB.
 Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint32_t height) {
     constexpr float kRamp[][3] = {{0.02f, 0.02f, 0.10f}, {0.10f, 0.12f, 0.42f}, {0.08f, 0.31f, 0.52f},
@@ -54,8 +56,6 @@ Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint3
     }
     return image;
 }
-
-} // namespace
 
 ErrorFigures compare(const Image& image, const Image& reference) {
     checkComparable(image, reference);

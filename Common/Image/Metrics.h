@@ -24,6 +24,9 @@ ErrorFigures compare(const Image& image, const Image& reference);
 // for .png.
 Image heatMap(const Image& image, const Image& reference);
 
+// Values from 0 to 1 in the same colours; what is outside is clamped.
+Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint32_t height);
+
 // The relMSE to expect of `mean`, whose pixels have this variance: mean(variance / (mean^2 + 0.01)).
 double estimatedRelMse(const Image& mean, const Image& variance);
 

@@ -1,10 +1,12 @@
 // The session of a window with an engine whose samples cost nothing, without any window.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <thread>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -242,6 +244,91 @@ TEST_F(InteractiveSessionTest, RunsThatEndGoIntoTheHistory) {
     EXPECT_EQ(records[0].width, 24u);
     EXPECT_GT(records[0].renderSeconds, 0);
     EXPECT_GT(records[0].samplesPerSecond, 0);
+}
+
+TEST_F(InteractiveSessionTest, ErrorsAreTakenAgainstAReferenceOfTheSameView) {
+    RunHistory history(folder_ / "history.jsonl");
+    InteractiveSession::Setup s = setup(20);
+    s.history = &history;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.renderReference(40);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return isFinished(state) && state.referenceFits; }));
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return !state.curve.empty(); }));
+    const SessionState state = session.state();
+    EXPECT_FALSE(state.isReferenceRender);
+    EXPECT_EQ(state.settings.spp, 20u);
+    EXPECT_EQ(state.curve.back().spp, 20);
+    EXPECT_GT(state.curve.back().relmse, 0);
+    ASSERT_TRUE(
+        reaches(session, [](const SessionState& st) { return st.historySerial == 2; })); // the reference is no run
+    EXPECT_TRUE(history.records().back().hasReference);
+    EXPECT_EQ(history.records().back().relmse, state.curve.back().relmse);
+
+    scene::CameraDesc camera = state.scene->camera;
+    camera.verticalFov += 1;
+    session.moveCamera(camera, state.sceneSerial);
+    EXPECT_TRUE(reaches(
+        session, [](const SessionState& st) { return isFinished(st) && !st.referenceFits && st.curve.empty(); }));
+    session.moveCamera(state.scene->camera, state.sceneSerial); // back to what the reference shows
+    EXPECT_TRUE(reaches(session, [](const SessionState& st) { return isFinished(st) && st.referenceFits; }));
+}
+
+TEST_F(InteractiveSessionTest, ReferencesAreReadFromLinearFilesOfTheSameSize) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    image::writeImage(folder_ / "right.pfm", image::Image(24, 24));
+    image::writeImage(folder_ / "wrong.pfm", image::Image(25, 24));
+    session.loadReference((folder_ / "wrong.pfm").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_NE(session.state().error.find("25x24"), std::string::npos);
+    EXPECT_TRUE(session.state().reference.empty());
+    session.loadReference((folder_ / "right.pfm").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.referenceFits && !s.curve.empty(); }));
+}
+
+TEST_F(InteractiveSessionTest, StopGivesAReferenceUp) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.renderReference(1'000'000);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.isReferenceRender; }));
+    session.stop();
+    EXPECT_TRUE(reaches(session, [](const SessionState& s) { return isFinished(s) && !s.isReferenceRender; }));
+    EXPECT_TRUE(session.state().reference.empty());
+    EXPECT_EQ(session.state().settings.spp, 4u);
+}
+
+TEST_F(InteractiveSessionTest, ShowsFeaturesAndWhatAPixelHolds) {
+    InteractiveSession session(setup(20));
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_FALSE(session.state().picture.isDisplay);
+    session.view({ViewMode::Albedo, 1, true});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.picture.isDisplay; }));
+    SessionState state = session.state();
+    EXPECT_EQ(state.picture.image->data, std::vector<float>(24 * 24 * 3, 0.25f)); // of the fake engine
+    EXPECT_NE(state.picture.radiance->data, state.picture.image->data);
+    ASSERT_TRUE(state.picture.samples && state.picture.variance);
+    EXPECT_EQ(state.picture.samples->data, std::vector<float>(24 * 24, 20.0f));
+    session.view({ViewMode::Noise, 1, false});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.samples; }));
+    EXPECT_TRUE(session.state().picture.isDisplay);
+    session.view({ViewMode::Error, 1, false}); // without a reference it is the picture
+    EXPECT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.isDisplay; }));
+    EXPECT_EQ(session.state().activity, Activity::Finished); // a view renders nothing anew
+}
+
+TEST_F(InteractiveSessionTest, FocusIsThePlaneThroughWhatIsSeen) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.pickFocus(0, 12);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.focusSerial == 1; }));
+    const double half = std::tan(0.5 * session.state().scene->camera.verticalFov * 3.14159265358979323846 / 180);
+    const double right = half * (1.0 / 24 - 1), up = half * (25.0 / 24 - 1);
+    EXPECT_NEAR(session.state().focusDistance, 8 / std::sqrt(1 + right * right + up * up), 1e-6);
+    session.pickFocus(1000, 1000); // outside: nothing
+    session.save({{(folder_ / "a.png").string()}, 0, Tonemap::None});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 1; }));
+    EXPECT_EQ(session.state().focusSerial, 1u);
 }
 
 } // namespace

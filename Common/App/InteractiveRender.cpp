@@ -1,0 +1,362 @@
+// The worker's side of InteractiveSession: films, what is shown of them, and what they are compared with.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "Common/App/Draft.h"
+#include "Common/App/FilmEstimate.h"
+#include "Common/App/InteractiveSession.h"
+#include "Common/App/Reference.h"
+#include "Common/Core/Error.h"
+#include "Common/Image/Display.h"
+#include "Common/Image/ImageIo.h"
+#include "Common/Image/Metrics.h"
+
+namespace rt::app {
+namespace {
+
+constexpr double kDraftSeconds = 0.04;     // of what is shown first after a change
+constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
+constexpr std::uint32_t kDraftSpp = 4;     // at most
+constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
+constexpr double kEarlySeconds = 2;        // pictures come often at first
+constexpr double kEarlyInterval = 0.04;
+constexpr double kLateInterval = 0.15;
+constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
+constexpr double kRestSeconds = 0.3;     // after which a camera rests
+
+// Quiet, and independent of what it will be compared with.
+RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
+    settings.spp = spp;
+    settings.sppIsKnown = true;
+    settings.seed ^= 0x5f3759dfu;
+    settings.lightSampling = LightSampling::Mis;
+    settings.sampler = SamplerKind::Sobol;
+    settings.replicates = 1;
+    settings.secondMoments = false;
+    return settings;
+}
+
+} // namespace
+
+// ---- rendering -------------------------------------------------------------------------------------------------------
+
+void InteractiveSession::startFilm() {
+    Options options;
+    options.size = request_.size;
+    options.settings = request_.settings;
+    settleImageSize(options, scene_->defaults.aspect);
+    RenderSettings settings = options.settings;
+    settings.seed += round_;
+    settings.sppIsKnown = !request_.timeLimit;
+    settings.secondMoments = settings.replicates < 2;
+    if (!request_.accumulate) {
+        settings.spp = request_.samplesPerFrame;
+        settings.secondMoments = false;
+    }
+    if (referenceSpp_) settings = referenceSettings(settings, *referenceSpp_);
+    settings.replicates = std::min(settings.replicates, settings.spp);
+
+    if (filmIsNew_) setStage("Preparing " + scene_->title); // kernels may have to be compiled
+    filmIsNew_ = false;
+    featureView_ = nullptr;
+    featureIsFull_ = false;
+    curve_.clear();
+    if (round_ == 0) renderDraft(settings);
+    engine_->reset(camera_, settings);
+    settings_ = settings;
+    filmIsStale_ = false;
+    status_ = {};
+    status_.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
+    renderSeconds_ = 0;
+    sinceStart_ = {};
+    update([&](SessionState& state) {
+        state.stage.clear();
+        state.settings = settings;
+        state.status = status_;
+        state.renderSeconds = 0;
+        state.report = engine_->report();
+        state.isReferenceRender = referenceSpp_.has_value();
+        state.referenceFits = referenceFits();
+        state.relmse.reset();
+        state.curve.clear();
+    });
+}
+
+// Something to look at at once, where the first samples of the whole image would take longer.
+void InteractiveSession::renderDraft(const RenderSettings& settings) {
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    const double affordable = samplesPerSecond_ * kDraftSeconds;
+    const double firstPass = pixels * std::min(settings.spp, image::Film::kBlock);
+    draft_ = {};
+    if (affordable >= firstPass) return;
+    const double scale = std::sqrt(std::min(1.0, affordable / pixels));
+    RenderSettings draft = settings;
+    draft.width = std::max(1u, static_cast<std::uint32_t>(settings.width * scale));
+    draft.height = std::max(1u, static_cast<std::uint32_t>(settings.height * scale));
+    draft.spp = std::clamp(static_cast<std::uint32_t>(affordable / pixels), 1u, kDraftSpp);
+    draft.replicates = 1;
+    draft.secondMoments = false;
+    engine_->reset(camera_, draft);
+    const Stopwatch watch;
+    // Not interrupted by the next change: a camera in motion would never show anything.
+    RenderStatus status;
+    do status = engine_->renderSome({std::chrono::duration<double>(kDraftSeconds), &cancelBuild_});
+    while (!status.finished && !cancelBuild_ && (!cancelRender_ || watch.seconds() < kMostDraftSeconds));
+    const double seconds = std::max(watch.seconds(), 1e-4);
+    samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status.samplesDone) / seconds;
+    if (!status.finished) return;
+    draft_ = engine_->film().resolve();
+    Picture picture;
+    picture.radiance = std::make_shared<image::Image>(enlarge(draft_, settings.width, settings.height));
+    picture.image = picture.radiance;
+    if (aovsFor(view_.mode).any() || view_.mode == ViewMode::Heat) {
+        const image::Image shown = view_.mode == ViewMode::Heat
+                                       ? showCost(engine_->renderCost(1), view_.scale)
+                                       : showFeatures(view_.mode, engine_->renderAovs(aovsFor(view_.mode), 1));
+        if (!shown.data.empty()) {
+            featureView_ = std::make_shared<image::Image>(enlarge(shown, settings.width, settings.height));
+            picture.image = featureView_;
+            picture.isDisplay = true;
+        }
+    }
+    update([&](SessionState& state) {
+        picture.serial = state.picture.serial + 1;
+        state.picture = std::move(picture);
+    });
+}
+
+void InteractiveSession::renderSlice() {
+    if (filmIsStale_) startFilm();
+    const Stopwatch watch;
+    const std::uint64_t before = status_.samplesDone;
+    status_ = engine_->renderSome({std::chrono::duration<double>(setup_.sliceSeconds), &cancelRender_});
+    const double seconds = watch.seconds();
+    renderSeconds_ += seconds;
+    if (seconds > 0.5 * setup_.sliceSeconds && !cancelRender_) {
+        samplesPerSecond_ = 0.9 * samplesPerSecond_ + 0.1 * static_cast<double>(status_.samplesDone - before) / seconds;
+    }
+    if (status_.finished) return finish(StopReason::Spp);
+    if (request_.timeLimit && renderSeconds_ >= *request_.timeLimit) return finish(StopReason::TimeLimit);
+    const double interval = sinceStart_.seconds() < kEarlySeconds ? kEarlyInterval : kLateInterval;
+    if (!cancelRender_ && sincePublished_.seconds() > std::max(interval, publishSeconds_ / kPublishShare)) publish();
+}
+
+// What the engine holds becomes the reference, or a run of the history.
+void InteractiveSession::finish(StopReason reason) {
+    publish();
+    const std::uint64_t spp = engine_->film().minSamples();
+    if (referenceSpp_) {
+        adoptReference(engine_->film().resolve(), "rendered, " + std::to_string(spp) + " spp");
+        referenceSpp_.reset();
+        filmIsStale_ = true;
+        return;
+    }
+    const EngineReport report = engine_->report();
+    const LastRun run{{loadSeconds_, renderSeconds_, 0}, report.accelBuildSeconds, report.pipelineSeconds, spp};
+    bool recorded = false;
+    if (setup_.history != nullptr && request_.accumulate && spp > 0) {
+        try {
+            setup_.history->append(makeRecord());
+            recorded = true;
+        } catch (...) {
+            fail(std::current_exception(), false); // the render itself is well
+        }
+    }
+    update([&](SessionState& state) {
+        state.lastRun = run;
+        if (recorded) ++state.historySerial;
+    });
+    if (reason != StopReason::Interrupted && (request_.loop || !request_.accumulate)) {
+        ++round_;
+        filmIsStale_ = true;
+    } else {
+        setActivity(reason == StopReason::Interrupted ? Activity::Stopped : Activity::Finished);
+    }
+}
+
+RunRecord InteractiveSession::makeRecord() const {
+    const EngineReport report = engine_->report();
+    RunRecord record;
+    record.time = utcNow();
+    record.app = setup_.program;
+    record.engine = report.engine;
+    record.device = report.device;
+    record.scene = scene_->id;
+    record.lightSampling = nameOf(kLightSamplings, settings_.lightSampling);
+    record.sampler = nameOf(kSamplers, settings_.sampler);
+    record.width = settings_.width;
+    record.height = settings_.height;
+    record.maxDepth = settings_.maxDepth;
+    record.threads = report.threads;
+    record.spp = engine_->film().minSamples();
+    record.loadSeconds = loadSeconds_;
+    record.buildSeconds = report.accelBuildSeconds;
+    record.pipelineSeconds = report.pipelineSeconds;
+    record.renderSeconds = renderSeconds_;
+    const double rays = static_cast<double>(report.rays.camera + report.rays.scattered + report.rays.shadow);
+    if (renderSeconds_ > 0) {
+        record.samplesPerSecond = static_cast<double>(status_.samplesDone) / renderSeconds_;
+        record.raysPerSecond = rays / renderSeconds_;
+    }
+    record.hasReference = !curve_.empty();
+    record.relmse = record.hasReference ? curve_.back().relmse : estimate(engine_->film()).relmse.value_or(0);
+    for (const ErrorPoint& point : curve_) record.curve.push_back({point.seconds, point.relmse});
+    return record;
+}
+
+// ---- what is shown ---------------------------------------------------------------------------------------------------
+
+void InteractiveSession::publish() {
+    const Stopwatch watch;
+    const image::Film& film = engine_->film();
+    auto radiance = std::make_shared<image::Image>(film.resolve());
+    Picture picture;
+    picture.spp = film.minSamples();
+    if (picture.spp == 0 && !draft_.data.empty()) fillFromDraft(*radiance, film, draft_);
+    followError(*radiance, status_.finished);
+    picture.radiance = std::move(radiance);
+    picture.image = shownImage(picture.radiance);
+    picture.isDisplay = picture.image != picture.radiance;
+    if (view_.inspect) {
+        picture.samples = std::make_shared<image::Image>(film.sampleCounts());
+        if (hasVariance(film)) picture.variance = std::make_shared<image::Image>(film.varianceOfMean());
+    }
+    std::optional<double> relmse;
+    if (!curve_.empty())
+        relmse = curve_.back().relmse;
+    else if (status_.finished)
+        relmse = estimate(film).relmse;
+    const EngineReport report = engine_->report();
+    update([&](SessionState& state) {
+        picture.serial = state.picture.serial + 1;
+        state.picture = std::move(picture);
+        state.status = status_;
+        state.renderSeconds = renderSeconds_;
+        state.seconds.load = loadSeconds_;
+        state.seconds.render = renderSeconds_;
+        state.report = report;
+        state.relmse = relmse;
+        state.curve = curve_;
+    });
+    publishSeconds_ = watch.seconds();
+    sincePublished_ = {};
+}
+
+// The radiance itself where there is nothing else to be shown.
+std::shared_ptr<const image::Image> InteractiveSession::shownImage(
+    const std::shared_ptr<const image::Image>& radiance) {
+    const double pixels = static_cast<double>(settings_.width) * settings_.height;
+    const auto affordable = [&](std::uint32_t most) { // samples
+        return static_cast<std::uint32_t>(std::clamp(samplesPerSecond_ * kFeatureSeconds / pixels, 1.0, most * 1.0));
+    };
+    switch (view_.mode) {
+        case ViewMode::Picture:
+            break;
+        case ViewMode::Noise:
+            if (!hasVariance(engine_->film())) break;
+            return std::make_shared<image::Image>(showNoise(engine_->film(), view_.scale));
+        case ViewMode::Error:
+            if (!referenceFits() || engine_->film().minSamples() == 0) break;
+            return std::make_shared<image::Image>(showError(*radiance, *reference_, view_.scale));
+        case ViewMode::Heat:
+        case ViewMode::Albedo:
+        case ViewMode::Normal:
+        case ViewMode::Depth:
+            // In full resolution once the camera rests.
+            if (featureView_ && (featureIsFull_ || sinceStart_.seconds() < kRestSeconds)) return featureView_;
+            if (view_.mode == ViewMode::Heat) {
+                const image::Image cost = engine_->renderCost(affordable(16));
+                if (cost.data.empty()) break;
+                featureView_ = std::make_shared<image::Image>(showCost(cost, view_.scale));
+            } else {
+                const AovImages aovs = engine_->renderAovs(aovsFor(view_.mode), affordable(8));
+                featureView_ = std::make_shared<image::Image>(showFeatures(view_.mode, aovs));
+            }
+            featureIsFull_ = true;
+            return featureView_;
+    }
+    return radiance;
+}
+
+void InteractiveSession::findFocus(std::uint32_t x, std::uint32_t y) {
+    if (x >= settings_.width || y >= settings_.height) return;
+    AovRequest request;
+    request.depth = true;
+    const AovImages aovs = engine_->renderAovs(request, 1);
+    const float distance = *aovs.depth.pixel(x, y);
+    if (!(distance > 0)) return; // the sky
+    const double half = std::tan(0.5 * camera_.verticalFov * 0.017453292519943295);
+    const double up = half * ((y + 0.5) / settings_.height * 2 - 1);
+    const double right = half * ((x + 0.5) / settings_.width * 2 - 1) * settings_.width / settings_.height;
+    const double cosine = 1 / std::sqrt(1 + up * up + right * right);
+    update([&](SessionState& state) {
+        state.focusDistance = distance * cosine;
+        ++state.focusSerial;
+    });
+}
+
+void InteractiveSession::write(const SaveRequest& request) {
+    if (!engine_ || !scene_ || filmIsStale_) {
+        const RenderError early("nothing to save yet: the picture is being prepared");
+        return fail(std::make_exception_ptr(early), false);
+    }
+    const image::Image radiance = engine_->film().resolve();
+    for (const std::string& file : request.files) {
+        try {
+            const bool display = image::isDisplayReferred(file);
+            const auto curve = static_cast<std::uint32_t>(request.tonemap);
+            image::writeImage(file, display ? image::toDisplay(radiance, request.exposure, curve) : radiance);
+            update([&](SessionState& state) {
+                state.message = "Saved " + file;
+                ++state.messageSerial;
+            });
+        } catch (...) {
+            fail(std::current_exception(), false);
+        }
+    }
+}
+
+// ---- the reference ---------------------------------------------------------------------------------------------------
+
+InteractiveSession::FilmKey InteractiveSession::filmKey() const {
+    return {scene_->hash, camera_, settings_.width, settings_.height, settings_.maxDepth};
+}
+
+bool InteractiveSession::referenceFits() const {
+    return reference_ && !referenceSpp_ && referenceKey_ == filmKey();
+}
+
+void InteractiveSession::adoptReference(image::Image image, const std::string& name) {
+    reference_ = std::make_shared<image::Image>(std::move(image));
+    referenceKey_ = filmKey();
+    referenceName_ = name;
+    curve_.clear();
+    update([&](SessionState& state) {
+        state.reference = name;
+        state.referenceFits = referenceFits();
+    });
+}
+
+void InteractiveSession::readReferenceFile(const std::string& file) {
+    try {
+        if (!scene_ || filmIsStale_) throw InputError(file + ": nothing to compare with yet");
+        adoptReference(readReference(file, settings_.width, settings_.height), file);
+        publish();
+    } catch (...) {
+        fail(std::current_exception(), false);
+    }
+}
+
+// The error so far, at times that grow by a tenth.
+void InteractiveSession::followError(const image::Image& picture, bool last) {
+    const std::uint64_t spp = engine_->film().minSamples();
+    if (spp == 0 || !referenceFits()) return;
+    if (!curve_.empty() && !last && renderSeconds_ < 1.1 * curve_.back().seconds) return;
+    if (!curve_.empty() && renderSeconds_ <= curve_.back().seconds) return;
+    const double pixels = static_cast<double>(settings_.width) * settings_.height;
+    const double samples = static_cast<double>(status_.samplesDone) / pixels;
+    curve_.push_back({renderSeconds_, samples, image::compare(picture, *reference_).relmse});
+}
+
+} // namespace rt::app

@@ -1,0 +1,182 @@
+#include "tests/gui/Desktop.h"
+
+#include <array>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fcntl.h>
+#include <fstream>
+#include <sstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Runs a command and returns what it writes.
+std::string output(const std::string& command) {
+    std::string text;
+    FILE* pipe = popen((command + " 2>/dev/null").c_str(), "r");
+    if (pipe == nullptr) return text;
+    std::array<char, 256> buffer{};
+    while (fgets(buffer.data(), buffer.size(), pipe) != nullptr) text += buffer.data();
+    pclose(pipe);
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+    return text;
+}
+
+// A process with this environment and its messages in a file.
+int spawn(const std::vector<std::string>& arguments,
+          const std::vector<std::pair<std::string, std::string>>& environment, const fs::path& log) {
+    const int process = fork();
+    if (process != 0) return process;
+    for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
+    unsetenv("WAYLAND_DISPLAY");
+    const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    dup2(file, 1);
+    dup2(file, 2);
+    std::vector<char*> pointers;
+    for (const std::string& argument : arguments) pointers.push_back(const_cast<char*>(argument.c_str()));
+    pointers.push_back(nullptr);
+    execvp(pointers[0], pointers.data());
+    _exit(127);
+}
+
+std::string read(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+// An exit code, or 128 and the signal's number.
+int waitFor(int process) {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+} // namespace
+
+void Desktop::SetUp() {
+    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    std::string name = std::string(test.test_suite_name()) + "-" + test.name();
+    for (char& c : name)
+        if (c == '/') c = '-';
+    folder_ = fs::path(testing::TempDir()) / name;
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "pictures");
+    const std::string screen = std::to_string(kWidth) + "x" + std::to_string(kHeight) + "x24";
+    // The server chooses a free number and says which.
+    screen_ = spawn({"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"}, {},
+                    folder_ / "screen.log");
+    ASSERT_TRUE(eventually([this] {
+        std::istringstream lines(read(folder_ / "screen.log"));
+        int number = -1;
+        for (std::string line; std::getline(lines, line);)
+            if (!line.empty() && line.find_first_not_of("0123456789") == std::string::npos) number = std::stoi(line);
+        display_ = ":" + std::to_string(number);
+        return number >= 0;
+    })) << "Xvfb does not start; Debian, Ubuntu: apt install xvfb xdotool\n"
+        << read(folder_ / "screen.log");
+}
+
+void Desktop::TearDown() {
+    if (program_ > 0) {
+        kill(program_, SIGKILL);
+        waitFor(program_);
+    }
+    if (screen_ > 0) {
+        kill(screen_, SIGTERM);
+        waitFor(screen_);
+    }
+    if (!HasFailure()) fs::remove_all(folder_);
+}
+
+void Desktop::start(const std::string& program, const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {
+        std::string(RT_PROGRAM_DIR) + "/" + program, "--no-config", "--validation", "--width", "48", "--spp", "4"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    program_ = spawn(all,
+                     {{"DISPLAY", display_},
+                      {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+                      {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}},
+                     folder_ / "program.log");
+    window_.clear();
+    ASSERT_TRUE(eventually([&] {
+        if (!isRunning()) return true;
+        window_ = output("DISPLAY=" + display_ + " xdotool search --onlyvisible --pid " + std::to_string(program_));
+        return !window_.empty();
+    }));
+    ASSERT_FALSE(window_.empty()) << log();
+    // The scene is there when the title names it.
+    ASSERT_TRUE(eventually([&] { return !isRunning() || title().find(" - ") != std::string::npos; }));
+    ASSERT_TRUE(isRunning()) << log();
+    act("mousemove " + std::to_string(kWidth - 200) + " 300"); // keys go to the window under the pointer
+}
+
+bool Desktop::isRunning() {
+    if (program_ <= 0) return false;
+    int status = 0;
+    if (waitpid(program_, &status, WNOHANG) == 0) return true;
+    program_ = -1;
+    return false;
+}
+
+int Desktop::quit() {
+    if (!isRunning()) return -1;
+    key("Escape");
+    key("ctrl+q");
+    const int process = program_;
+    int status = 0;
+    const bool ended = eventually([&] { return waitpid(process, &status, WNOHANG) != 0; });
+    if (!ended) return -2;
+    program_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string Desktop::log() const {
+    return read(folder_ / "program.log");
+}
+
+void Desktop::act(const std::string& commands) {
+    output("DISPLAY=" + display_ + " xdotool " + commands);
+}
+
+void Desktop::type(const std::string& text) {
+    act("type --delay 5 '" + text + "'");
+}
+
+std::string Desktop::title() {
+    return output("DISPLAY=" + display_ + " xdotool getwindowname " + window_);
+}
+
+void Desktop::resize(int width, int height) {
+    act("windowsize " + window_ + " " + std::to_string(width) + " " + std::to_string(height));
+}
+
+std::uint64_t Desktop::residentBytes() const {
+    std::ifstream statm("/proc/" + std::to_string(program_) + "/statm");
+    std::uint64_t total = 0, resident = 0;
+    statm >> total >> resident;
+    return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+bool Desktop::eventually(const std::function<bool()>& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(90);
+    while (std::chrono::steady_clock::now() < end) {
+        if (condition()) return true;
+        pause(50);
+    }
+    return condition();
+}
+
+void Desktop::pause(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+} // namespace rt::test

@@ -1,0 +1,51 @@
+// A screen of its own (Xvfb) with one of the programs on it, driven by keyboard and mouse (xdotool).
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace rt::test {
+
+class Desktop : public testing::Test {
+  protected:
+    static constexpr int kWidth = 1280, kHeight = 900; // of the screen
+
+    void SetUp() override;
+    void TearDown() override;
+
+    // Starts "ray-tracing-cpu" or "ray-tracing-gpu" with validation, a small image and no stored settings but those of this
+    // test; waits for its window.
+    void start(const std::string& program, const std::vector<std::string>& arguments = {});
+    // Closes the window by Ctrl+Q; the exit code tells of validation's messages, too.
+    int quit();
+    bool isRunning();
+    std::string log() const; // what the program has written
+
+    // Commands of xdotool, in one go: "mousemove 10 20 click 1".
+    void act(const std::string& commands);
+    void key(const std::string& name) { act("key " + name); }
+    void type(const std::string& text);
+    std::string title();
+    void resize(int width, int height);
+    std::uint64_t residentBytes() const;
+
+    // Waits for what takes a while on a busy machine; the time only ends a test that fails.
+    static bool eventually(const std::function<bool()>& condition);
+    static void pause(int milliseconds);
+
+    std::filesystem::path folder_; // of this test: settings, pictures, files
+
+  private:
+    std::string environment() const;
+
+    std::string display_; // ":99"
+    int screen_ = -1;     // processes
+    int program_ = -1;
+    std::string window_; // xdotool's number
+};
+
+} // namespace rt::test

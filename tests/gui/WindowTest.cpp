@@ -1,0 +1,232 @@
+// Both programs with their windows: what a user does, and what a user should not do.
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "Common/Image/ImageIo.h"
+#include "Common/Scene/BuiltinScenes.h"
+#include "tests/gui/Desktop.h"
+
+namespace rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
+  protected:
+    void start(const std::vector<std::string>& arguments = {}) { Desktop::start(GetParam(), arguments); }
+    void expectCleanEnd() {
+        ASSERT_TRUE(isRunning()) << log();
+        EXPECT_EQ(quit(), 0) << log(); // 1 where validation had something to say
+    }
+    nlohmann::json settings() const {
+        std::ifstream in(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json"));
+        return nlohmann::json::parse(in, nullptr, false);
+    }
+    void openPath(const std::string& path) {
+        key("ctrl+o");
+        pause(300);
+        key("ctrl+a");
+        type(path);
+        key("Return");
+        key("Escape");
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(, WindowTest, testing::Values("ray-tracing-cpu", "ray-tracing-gpu"),
+                         [](const auto& info) { return std::string(info.param) == "ray-tracing-cpu" ? "Cpu" : "Gpu"; });
+
+TEST_P(WindowTest, ShowsEveryScene) {
+    start({"--width", "32", "--spp", "1"});
+    ASSERT_FALSE(HasFatalFailure());
+    for (std::size_t i = 1; i < scene::builtinScenes().size(); ++i) {
+        key("Next");
+        const std::string wanted = std::string(scene::builtinScenes()[i].title) + " - " + GetParam();
+        ASSERT_TRUE(eventually([&] { return !isRunning() || title() == wanted; }));
+        ASSERT_EQ(title(), wanted) << log();
+    }
+    expectCleanEnd();
+}
+
+TEST_P(WindowTest, OpensFilesAndKeepsTheSceneWhereTheyAreBad) {
+    const fs::path good = folder_ / "good.json", bad = folder_ / "bad.json";
+    std::ofstream(good) << R"({"version": 1, "title": "Just opened",
+        "camera": {"look_from": [0, 0, 3], "look_at": [0, 0, 0]},
+        "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},
+        "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+        "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
+    std::ofstream(bad) << R"({"camera": 12)";
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    const std::string before = title();
+    openPath(bad.string());
+    ASSERT_TRUE(eventually([&] { return log().find("bad.json") != std::string::npos; })) << log();
+    EXPECT_EQ(title(), before);
+    openPath((folder_ / "missing.obj").string());
+    ASSERT_TRUE(eventually([&] { return log().find("missing.obj") != std::string::npos; })) << log();
+    EXPECT_EQ(title(), before);
+    openPath(good.string());
+    EXPECT_TRUE(eventually([&] { return title().find("Just opened") == 0; })) << title() << log();
+    expectCleanEnd();
+    EXPECT_EQ(settings()["recent"][0], good.string());
+}
+
+TEST_P(WindowTest, SavesThePictureAndRemembersSettings) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    pause(500);
+    const auto isSaved = [this] {
+        key("F12"); // too early where there is no sample yet
+        pause(300);
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "pictures"))
+            if (entry.path().extension() == ".exr") return true;
+        return false;
+    };
+    ASSERT_TRUE(eventually(isSaved)) << log();
+    key("ctrl+equal");
+    key("F3");
+    pause(300);
+    expectCleanEnd();
+    bool isWhole = false;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "pictures"))
+        if (entry.path().extension() == ".exr") isWhole = image::readImage(entry.path()).width == 48;
+    EXPECT_TRUE(isWhole);
+    const nlohmann::json stored = settings();
+    EXPECT_EQ(stored["ui_scale"], 1.25);
+    EXPECT_EQ(stored["show_comparison"], true);
+    EXPECT_EQ(stored["render"]["width"], 48);
+    EXPECT_TRUE(fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"));
+}
+
+TEST_P(WindowTest, SurvivesEverySize) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    for (const auto& [width, height] :
+         {std::pair{1, 1}, {2, 700}, {1200, 3}, {40, 40}, {1279, 899}, {300, 200}, {1, 1}}) {
+        resize(width, height);
+        pause(150);
+        ASSERT_TRUE(isRunning()) << width << "x" << height << "\n" << log();
+    }
+    resize(1000, 700);
+    for (int i = 0; i < 2; ++i) {
+        key("F11");
+        pause(300);
+    }
+    expectCleanEnd();
+}
+
+// Clicks into every place of the panels, which opens, toggles, types and drags whatever there is.
+TEST_P(WindowTest, EveryControlCanBeTouched) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    for (int page = 0; page < 3; ++page) {
+        for (const int x : {30, 200, 320}) {
+            std::string clicks;
+            for (int y = 6; y < 850; y += 13) {
+                // The first column folds headers, which the others unfold: what is hidden comes to light.
+                clicks += "mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1 ";
+            }
+            act(clicks);
+            ASSERT_TRUE(isRunning()) << log();
+            key("Escape");
+        }
+        act("mousemove 200 500 click --repeat 8 5");
+    }
+    std::string clicks;
+    for (int x = 380; x < 1270; x += 60)
+        for (int y = 520; y < 860; y += 40)
+            clicks += "mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1 ";
+    act(clicks);
+    act("mousemove " + std::to_string(kWidth - 100) + " 200");
+    expectCleanEnd();
+}
+
+// What 200 actions that nobody would think of leave behind: a program that runs, answers and ends as it should.
+TEST_P(WindowTest, SurvivesRandomActions) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    const char* const keys[] = {"F1",
+                                "F2",
+                                "F3",
+                                "F4",
+                                "space",
+                                "1",
+                                "2",
+                                "5",
+                                "r",
+                                "f",
+                                "h",
+                                "b",
+                                "F12",
+                                "Tab",
+                                "Return",
+                                "Escape",
+                                "Down",
+                                "Right",
+                                "ctrl+plus",
+                                "ctrl+minus",
+                                "ctrl+r",
+                                "shift+Tab",
+                                "ctrl+o",
+                                "ctrl+shift+c",
+                                "ctrl+shift+v",
+                                "9"};
+    std::mt19937 random(20260101);
+    const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    const auto place = [&] { return std::to_string(below(kWidth)) + " " + std::to_string(below(kHeight)); };
+    std::uint64_t halfway = 0;
+    // The second half is the first one again: whatever memory it needs beyond that is lost.
+    constexpr int kActions = 200;
+    for (int i = 0; i < kActions; ++i) {
+        if (i == kActions / 2) random.seed(20260101);
+        const std::string button = std::to_string(1 + below(3));
+        switch (below(7)) {
+            case 0:
+            case 1:
+                act("mousemove " + place() + " click " + button);
+                break;
+            case 2:
+                act("mousemove " + place() + " mousedown " + button + " mousemove " + place() + " mouseup " + button);
+                break;
+            case 3:
+                act("mousemove " + place() + " click " + std::to_string(4 + below(2)));
+                break;
+            case 4:
+                type(std::to_string(below(100)) + "-e.x");
+                break;
+            case 5: {
+                const std::string held = std::string(1, "wasdqe"[below(6)]);
+                act("keydown " + held + " sleep 0.05 keyup " + held);
+                break;
+            }
+            default:
+                key(keys[static_cast<std::size_t>(below(static_cast<int>(std::size(keys))))]);
+                break;
+        }
+        if (i % 50 == 49) { // and back to what is the same each time
+            resize(1 + below(kWidth), 1 + below(kHeight));
+            key("Escape");
+            act("mousemove 1 1");
+            resize(1100, 800);
+        }
+        ASSERT_TRUE(isRunning()) << "after action " << i << "\n" << log();
+        if (i == kActions / 2 - 1) {
+            pause(1000);
+            halfway = residentBytes();
+        }
+    }
+    pause(1000);
+    const std::uint64_t end = residentBytes();
+    EXPECT_LT(static_cast<double>(end), 1.05 * static_cast<double>(halfway)) << halfway << " bytes halfway";
+    act("mousemove 1000 700");
+    key("Escape");
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace rt::test
