@@ -24,7 +24,8 @@ fail() {
 usage() {
     cat <<'END'
 ./build.sh               install what is needed and build Release into build/
-./build.sh run           the same, then render the default scene on CPU and GPU and compare them
+./build.sh run [gpu]     the same, then open the window of ray-tracing-cpu, or of ray-tracing-gpu; without a display
+                         render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run all tests
 ./build.sh bench [ARGS]  the same, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -67,6 +68,16 @@ build() {
     cmake --build --preset "$preset" "$@"
 }
 
+# open_window cpu|gpu
+open_window() {
+    [[ $1 == cpu || $1 == gpu ]] || fail "run $1: must be cpu or gpu"
+    # Any driver shows the CPU's picture; the GPU program needs one that traces rays.
+    if [[ $1 == gpu ]] || ! has_vulkan_driver; then
+        provide_device || fail "$no_device_reason"
+    fi
+    "build/bin/ray-tracing-$1"
+}
+
 run_tests() {
     local log=build/test.log status=0
     ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(nproc)" 2>&1 | tee $log || status=$?
@@ -86,7 +97,11 @@ case $verb in
         install_packages "${build_packages[@]}"
         configure
         build
-        compare_engines
+        if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+            open_window "${1:-cpu}"
+        else
+            compare_engines
+        fi
         ;;
     test)
         install_packages "${build_packages[@]}" "${test_packages[@]}"

@@ -5,6 +5,7 @@ namespace {
 using std::uint32_t; // the generated headers say uint32_t
 
 #include <Aov.rgen.h>
+#include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
@@ -21,6 +22,7 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
         case Shader::RayGeneration: return RayTracing_rgen;
         case Shader::AovGeneration: return Aov_rgen;
+        case Shader::CostGeneration: return Cost_rgen;
         case Shader::Miss: return RayTracing_rmiss;
         case Shader::TriangleHit: return RayTracing_rchit;
         case Shader::QuadHit: return RayTracing_Quad_rchit;

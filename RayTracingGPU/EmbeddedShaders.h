@@ -8,6 +8,7 @@ namespace rt::gpu {
 enum class Shader {
     RayGeneration,
     AovGeneration,
+    CostGeneration,
     Miss,
     TriangleHit,
     QuadHit,

@@ -13,6 +13,7 @@
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/AovPass.h"
+#include "RayTracingGPU/CostPass.h"
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/Launches.h"
@@ -59,6 +60,8 @@ class GpuEngine final : public app::Engine {
     app::RenderStatus renderSome(const app::Budget& budget) override;
     const Film& film() override;
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
+    bool knowsCost() const override { return true; }
+    image::Image renderCost(std::uint32_t samples) override;
     app::EngineReport report() const override;
 
   private:
@@ -290,6 +293,12 @@ app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32
     const RtPipeline pipeline(context_, cache_, bindings_, makeDecisions(features_, params_), Shader::AovGeneration);
     cache_.save();
     return renderAovPass(context_, bindings_, pipeline, settings_.width, settings_.height, request, samples);
+}
+
+image::Image GpuEngine::renderCost(std::uint32_t samples) {
+    const RtPipeline pipeline(context_, cache_, bindings_, makeDecisions(features_, params_), Shader::CostGeneration);
+    cache_.save();
+    return renderCostPass(context_, bindings_, pipeline, settings_.width, settings_.height, std::max(samples, 1u));
 }
 
 app::EngineReport GpuEngine::report() const {

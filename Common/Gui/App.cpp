@@ -124,7 +124,6 @@ class App {
     bool awake();
     void turn();
     void takeState();
-    void handleKeys();
     void handleKey(const Window::KeyPress& press);
     void stepScene(int step);
     void handlePointer(const Rect& area);
@@ -190,8 +189,11 @@ void App::turn() {
     const double seconds = std::min(sinceFrame_.seconds(), 0.1);
     sinceFrame_ = {};
     imgui_.setStyle({settings_.colorMode, settings_.uiScale * window_.contentScale(), settings_.font});
-    imgui_.beginFrame();
-    handleKeys();
+    const std::vector<Window::KeyPress> presses = window_.takeKeys();
+    std::vector<int> keys;
+    for (const Window::KeyPress& press : presses) keys.push_back(press.key);
+    imgui_.beginFrame(keys);
+    for (const Window::KeyPress& press : presses) handleKey(press);
     drawInterface();
     fly(seconds);
     imgui_.endFrame();
@@ -236,11 +238,6 @@ void App::takeState() {
 
 // ---- keyboard and mouse ----------------------------------------------------------------------------------------------
 
-void App::handleKeys() {
-    const std::vector<Window::KeyPress> presses = window_.takeKeys();
-    for (const Window::KeyPress& press : presses) handleKey(press);
-}
-
 void App::handleKey(const Window::KeyPress& press) {
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
     const bool shift = (press.modifiers & GLFW_MOD_SHIFT) != 0;
@@ -278,6 +275,7 @@ void App::handleKey(const Window::KeyPress& press) {
             case GLFW_KEY_O:
                 settings_.showPanels = true;
                 gui_.focusOpen = true;
+                gui_.path.clear();
                 return;
             case GLFW_KEY_R:
                 session_.reset();

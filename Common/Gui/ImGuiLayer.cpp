@@ -169,8 +169,21 @@ void ImGuiLayer::applyStyle() {
 
 // ---- frames ----------------------------------------------------------------------------------------------------------
 
-void ImGuiLayer::beginFrame() {
+void ImGuiLayer::beginFrame(std::span<const int> pressed) {
     if (!started_ || wanted_ != style_) applyStyle();
+#if IMGUI_VERSION_NUM < 18700
+    // A key that went down and up between two frames would not be seen; later versions queue events.
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : briefKeys_) io.KeysDown[key] = false;
+    briefKeys_.clear();
+    for (const int key : pressed) {
+        if (key < 0 || key >= IM_ARRAYSIZE(io.KeysDown) || io.KeysDown[key]) continue;
+        io.KeysDown[key] = true;
+        briefKeys_.push_back(key);
+    }
+#else
+    (void)pressed;
+#endif
     ImGui_ImplVulkan_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();

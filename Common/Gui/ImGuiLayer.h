@@ -55,7 +55,8 @@ class ImGuiLayer {
 
     void setStyle(const Style& style); // takes effect at the next beginFrame; costs nothing when it is the same
     float scale() const { return style_.scale; }
-    void beginFrame();
+    // `pressed`: keys that went down since the frame before, as GLFW numbers them, also those that are up again.
+    void beginFrame(std::span<const int> pressed);
     // Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the
     // side, `status` in a line at the bottom.
     Rect layOut(std::span<const Panel> panels, const std::function<void()>& header,
@@ -75,6 +76,7 @@ class ImGuiLayer {
     Style style_;
     Style wanted_;
     bool started_ = false;
+    std::vector<int> briefKeys_; // down for this frame only
 };
 
 } // namespace rt::gui

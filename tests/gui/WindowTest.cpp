@@ -28,12 +28,11 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         return nlohmann::json::parse(in, nullptr, false);
     }
     void openPath(const std::string& path) {
-        key("ctrl+o");
-        pause(300);
-        key("ctrl+a");
+        key("ctrl+o"); // the field is empty then
+        pause(1500);   // for a frame or two of a busy machine
         type(path);
+        pause(500);
         key("Return");
-        key("Escape");
     }
 };
 
@@ -124,10 +123,10 @@ TEST_P(WindowTest, EveryControlCanBeTouched) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
-    for (int page = 0; page < 3; ++page) {
+    for (int page = 0; page < 2; ++page) {
         for (const int x : {30, 200, 320}) {
             std::string clicks;
-            for (int y = 6; y < 850; y += 13) {
+            for (int y = 6; y < 850; y += 19) {
                 // The first column folds headers, which the others unfold: what is hidden comes to light.
                 clicks += "mousemove " + std::to_string(x) + " " + std::to_string(y) + " click 1 ";
             }
@@ -135,7 +134,7 @@ TEST_P(WindowTest, EveryControlCanBeTouched) {
             ASSERT_TRUE(isRunning()) << log();
             key("Escape");
         }
-        act("mousemove 200 500 click --repeat 8 5");
+        act("mousemove 200 500 click --repeat 12 --delay 20 5");
     }
     std::string clicks;
     for (int x = 380; x < 1270; x += 60)
