@@ -22,10 +22,14 @@ constexpr Named<LightSampling> kLightSamplingNames[] = {{"Light sampling with MI
 constexpr Named<LightSelection> kSelectionNames[] = {{"By contribution", LightSelection::Contribution},
                                                      {"By power", LightSelection::Power},
                                                      {"Uniform", LightSelection::Uniform}};
-constexpr Named<ShapeSampling> kSphereNames[] = {
-    {"Automatic", ShapeSampling::Auto}, {"Cone", ShapeSampling::SolidAngle}, {"Area", ShapeSampling::Area}};
-constexpr Named<ShapeSampling> kFlatNames[] = {
-    {"Automatic", ShapeSampling::Auto}, {"Solid angle", ShapeSampling::SolidAngle}, {"Area", ShapeSampling::Area}};
+constexpr Named<ShapeSampling> kSphereNames[] = {{"Automatic", ShapeSampling::Auto},
+                                                 {"Cone", ShapeSampling::SolidAngle},
+                                                 {"Projected cap", ShapeSampling::Projected},
+                                                 {"Area", ShapeSampling::Area}};
+constexpr Named<ShapeSampling> kFlatNames[] = {{"Automatic", ShapeSampling::Auto},
+                                               {"Solid angle", ShapeSampling::SolidAngle},
+                                               {"Projected solid angle", ShapeSampling::Projected},
+                                               {"Area", ShapeSampling::Area}};
 constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
                                                 {"Stratified", SamplerKind::Stratified},
                                                 {"Normal (independent)", SamplerKind::Independent}};
@@ -82,11 +86,17 @@ void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
               "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or "
               "all alike",
               kSelectionNames, settings.lightSelection);
-        combo("Sphere lights", "Where on a sphere: automatic takes the cone of directions that it is seen in",
+        combo("Sphere lights",
+              "Where on a sphere: in the cone of directions that it is seen in, in that cone weighted by the cosine at "
+              "the surface (projected), or on its area; automatic chooses",
               kSphereNames, settings.sphereLight);
-        combo("Quad lights", "Where on a quad: in the solid angle that it is seen in, or on its area", kFlatNames,
-              settings.quadLight);
-        combo("Triangle lights", "Where on a triangle: in the solid angle that it is seen in, or on its area",
+        combo("Quad lights",
+              "Where on a quad: in the solid angle that it is seen in, in that weighted by the cosine at the surface "
+              "(projected), or on its area; automatic chooses",
+              kFlatNames, settings.quadLight);
+        combo("Triangle lights",
+              "Where on a triangle: in the solid angle that it is seen in, in that weighted by the cosine at the "
+              "surface (projected), or on its area; automatic chooses",
               kFlatNames, settings.triangleLight);
     }
     checkbox("Unidirectional light",
