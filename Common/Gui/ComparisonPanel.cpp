@@ -151,8 +151,6 @@ void drawReference(Gui& gui) {
         !gui.referencePath.empty()) {
         gui.session.loadReference(gui.referencePath);
     }
-    ImGui::SameLine(0, space);
-    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
 }
 
 std::vector<ChartSeries> makeSeries(Gui& gui, const std::vector<const RunRecord*>& runs) {
@@ -188,7 +186,10 @@ void drawComparisonPanel(Gui& gui) {
     drawReference(gui);
     ImGui::Checkbox("This scene only", &gui.onlyThisScene);
     ImGui::SameLine(0, 2 * space);
+    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
+    ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(speedUp(runs).c_str());
+    ImGui::PopTextWrapPos();
     drawTable(runs, {0, std::max(1.0f, ImGui::GetContentRegionAvail().y)});
     ImGui::EndChild();
     ImGui::SameLine(0, space);

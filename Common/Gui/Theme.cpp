@@ -96,7 +96,10 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode) {
     c[ImGuiCol_Separator] = faded(p.line, 0.7f);
     c[ImGuiCol_Tab] = blend(p.window, p.field, 0.8f);
     c[ImGuiCol_TabHovered] = blend(p.field, p.accent, 0.5f);
-    c[ImGuiCol_PlotHistogram] = p.accent;
+    // Text is drawn over it.
+    c[ImGuiCol_PlotHistogram] = contrast                        ? ImVec4{0.0f, 0.33f, 0.72f, 1}
+                                : mode == app::ColorMode::Light ? blend(p.accent, p.window, 0.5f)
+                                                                : blend(p.accent, p.window, 0.25f);
     c[ImGuiCol_PlotLines] = p.accent;
     c[ImGuiCol_TableHeaderBg] = blend(p.window, p.field, 0.8f);
     c[ImGuiCol_TableBorderStrong] = c[ImGuiCol_TableBorderLight] = faded(p.line, 0.6f);
