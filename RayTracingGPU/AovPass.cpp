@@ -24,9 +24,8 @@ void copyPixels(std::span<const float> values, std::size_t firstPixel, app::AovI
 
 }  // namespace
 
-app::AovImages renderAovPass(vulkan::VulkanContext& context, const RenderBindings& bindings, const RtPipeline& pipeline,
-                             std::uint32_t width, std::uint32_t height, const app::AovRequest& request,
-                             std::uint32_t samples) {
+app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width, std::uint32_t height,
+                             const app::AovRequest& request, std::uint32_t samples) {
     app::AovImages images;
     if (request.albedo) images.albedo = image::Image(width, height, 3);
     if (request.normal) images.normal = image::Image(width, height, 3);
@@ -38,12 +37,13 @@ app::AovImages renderAovPass(vulkan::VulkanContext& context, const RenderBinding
     const vulkan::Buffer buffer(context, values.size() * sizeof(float), 0, vulkan::Memory::Device, "features");
     for (std::uint32_t row = 0; row < height; row += bandRows) {
         const std::uint32_t rows = std::min(bandRows, height - row);
-        const shared::AovLaunch launch{buffer.address(), row, samples};
+        const std::uint32_t pixels = width * rows;
+        const shared::AovLaunch launch{buffer.address(), row, pixels, samples};
         context.run([&](VkCommandBuffer commands) {
-            pipeline.trace(commands, bindings, launch, width, rows);
+            kernel.launch(commands, launch, pixels);
             vulkan::barrier(commands);
         });
-        const std::span<float> band = std::span(values).first(std::size_t{width} * rows * shared::kAovValues);
+        const std::span<float> band = std::span(values).first(std::size_t{pixels} * shared::kAovValues);
         vulkan::download(context, buffer, std::as_writable_bytes(band));
         copyPixels(band, std::size_t{row} * width, images);
     }

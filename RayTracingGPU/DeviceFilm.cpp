@@ -5,7 +5,7 @@
 #include <span>
 
 #include "Common/Vulkan/Check.h"
-#include "RayTracingGPU/RtPipeline.h"
+#include "RayTracingGPU/Kernel.h"
 
 namespace rt::gpu {
 namespace {

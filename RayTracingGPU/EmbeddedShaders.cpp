@@ -4,9 +4,12 @@ namespace {
 
 using std::uint32_t; // the generated headers say uint32_t
 
+#include <Aov.comp.h>
 #include <Aov.rgen.h>
+#include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
+#include <PathTrace.comp.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
 #include <RayTracing.Quad.rchit.h>
@@ -20,6 +23,9 @@ namespace rt::gpu {
 
 std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
+        case Shader::PathCompute: return PathTrace_comp;
+        case Shader::AovCompute: return Aov_comp;
+        case Shader::CostCompute: return Cost_comp;
         case Shader::RayGeneration: return RayTracing_rgen;
         case Shader::AovGeneration: return Aov_rgen;
         case Shader::CostGeneration: return Cost_rgen;

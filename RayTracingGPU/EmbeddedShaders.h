@@ -6,6 +6,9 @@
 namespace rt::gpu {
 
 enum class Shader {
+    PathCompute,
+    AovCompute,
+    CostCompute,
     RayGeneration,
     AovGeneration,
     CostGeneration,

@@ -13,8 +13,10 @@
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/AovPass.h"
+#include "RayTracingGPU/ComputePipeline.h"
 #include "RayTracingGPU/CostPass.h"
 #include "RayTracingGPU/DeviceFilm.h"
+#include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/Launches.h"
 #include "RayTracingGPU/RtPipeline.h"
@@ -34,13 +36,21 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+// What a kernel is compiled for.
+struct KernelKey {
+    PipelineDecisions decisions;
+    TraversalShape shape; // of the compute engine
+    bool operator==(const KernelKey&) const = default;
+};
+
 class GpuEngine final : public app::Engine {
   public:
     GpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options)
         : context_(context),
           options_(options),
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
-          bindings_(context, std::max(sizeof(shared::FilmLaunch), sizeof(shared::AovLaunch))),
+          engine_(chooseEngine(options.engine, context.info())),
+          bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::AovLaunch))),
           reducer_(context, cache_),
           constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
                      "constants"),
@@ -48,7 +58,7 @@ class GpuEngine final : public app::Engine {
           countersOnHost_(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
-        auto prepared = std::make_unique<GpuScene>(context_, std::move(compiled));
+        auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return false;
         scene_ = std::move(prepared);
         launchSize_.reset();
@@ -67,6 +77,9 @@ class GpuEngine final : public app::Engine {
   private:
     static constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
 
+    bool isCompute() const { return engine_ == app::GpuEngineKind::Compute; }
+    std::unique_ptr<Kernel> makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const;
+    std::uint32_t maxInvocations() const;
     void setFilm(Film film);
     void uploadConstants(const scene::CameraDesc& camera);
     bool beginPass(double seconds);
@@ -81,6 +94,7 @@ class GpuEngine final : public app::Engine {
     vulkan::VulkanContext& context_;
     GpuEngineOptions options_;
     vulkan::PipelineCache cache_;
+    app::GpuEngineKind engine_; // which was chosen
     RenderBindings bindings_;
     FilmReducer reducer_;
     vulkan::Buffer constants_;
@@ -92,7 +106,8 @@ class GpuEngine final : public app::Engine {
     app::RenderSettings settings_;
     shared::RenderParams params_{};
     std::uint32_t features_ = 0;
-    std::optional<RtPipeline> pipeline_;
+    std::unique_ptr<Kernel> kernel_;
+    KernelKey kernelKey_;
 
     Film film_;                          // the whole film, on the host
     std::unique_ptr<DeviceFilm> region_; // the part that is being rendered: all of it unless it is large
@@ -118,12 +133,18 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     params_ = app::makeRenderParams(settings);
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
     uploadConstants(camera);
-    bindings_.update(scene_->accel().topLevel(), constants_);
+    if (isCompute()) {
+        bindings_.update(constants_, scene_->flatLists());
+    } else {
+        bindings_.update(constants_, scene_->topLevel());
+    }
 
-    const PipelineDecisions decisions = makeDecisions(features_, params_);
-    if (!pipeline_ || pipeline_->decisions() != decisions) {
+    const KernelKey key{makeDecisions(features_, params_), scene_->shape()};
+    if (!kernel_ || kernelKey_ != key) {
         const Clock::time_point start = Clock::now();
-        pipeline_.emplace(context_, cache_, bindings_, decisions, Shader::RayGeneration);
+        kernel_ = nullptr;
+        kernel_ = makeKernel(key, Shader::PathCompute, Shader::RayGeneration);
+        kernelKey_ = key;
         cache_.save();
         report_.pipelineSeconds = secondsSince(start);
         launchSize_.reset();
@@ -134,10 +155,18 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     report_.renderDeviceSeconds = 0;
 }
 
+std::unique_ptr<Kernel> GpuEngine::makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const {
+    if (isCompute()) {
+        return std::make_unique<ComputePipeline>(context_, cache_, bindings_, key.decisions, key.shape, compute);
+    }
+    return std::make_unique<RtPipeline>(context_, cache_, bindings_, key.decisions, rayGeneration);
+}
+
 void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     const scene::CompiledScene& s = scene_->compiled();
     shared::RenderConstants constants;
     constants.arrays = scene_->arrays();
+    constants.tree = scene_->tree();
     constants.globals = s.globals;
     constants.params = params_;
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
@@ -222,6 +251,10 @@ void GpuEngine::launchNext(double seconds) {
     if (nextSlot_ == region_->slotCount()) inPass_ = nextRegion();
 }
 
+std::uint32_t GpuEngine::maxInvocations() const {
+    return isCompute() ? kInvocations : std::min(kInvocations, context_.limits().maxInvocations);
+}
+
 void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
     shared::FilmLaunch launch = launchWithoutBuffers;
     const std::uint32_t items = launch.slotCount * launch.blocks * shared::kTilePixels;
@@ -232,11 +265,11 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
     }
     launch.blockSums = blockSums_.address();
     launch.counters = counters_.address();
-    const std::uint32_t invocations = std::min({items, kInvocations, context_.limits().maxInvocations});
+    const std::uint32_t invocations = std::min(items, maxInvocations());
     const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
-        pipeline_->trace(commands, bindings_, launch, invocations, 1);
+        kernel_->launch(commands, launch, invocations);
         vulkan::barrier(commands);
         reducer_.reduce(commands, launch);
         const VkBufferCopy all{0, 0, kCounterBytes};
@@ -290,25 +323,25 @@ const Film& GpuEngine::film() {
 // ---- the rest --------------------------------------------------------------------------------------------------------
 
 app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32_t samples) {
-    const RtPipeline pipeline(context_, cache_, bindings_, makeDecisions(features_, params_), Shader::AovGeneration);
+    const std::unique_ptr<Kernel> kernel = makeKernel(kernelKey_, Shader::AovCompute, Shader::AovGeneration);
     cache_.save();
-    return renderAovPass(context_, bindings_, pipeline, settings_.width, settings_.height, request, samples);
+    return renderAovPass(context_, *kernel, settings_.width, settings_.height, request, samples);
 }
 
 image::Image GpuEngine::renderCost(std::uint32_t samples) {
-    const RtPipeline pipeline(context_, cache_, bindings_, makeDecisions(features_, params_), Shader::CostGeneration);
+    const std::unique_ptr<Kernel> kernel = makeKernel(kernelKey_, Shader::CostCompute, Shader::CostGeneration);
     cache_.save();
-    return renderCostPass(context_, bindings_, pipeline, settings_.width, settings_.height, std::max(samples, 1u));
+    return renderCostPass(context_, *kernel, settings_.width, settings_.height, std::max(samples, 1u));
 }
 
 app::EngineReport GpuEngine::report() const {
     app::EngineReport report = report_;
-    report.engine = "pipeline";
+    report.engine = app::nameOf(app::kGpuEngines, engine_);
     report.device = context_.info().name;
     report.features = features_;
     report.lightSampling = app::describeLightShapes(settings_, features_);
-    if (pipeline_) report.kernel = pipeline_->name();
-    if (scene_) report.accelBuildSeconds = scene_->accel().buildSeconds();
+    if (kernel_) report.kernel = kernel_->name();
+    if (scene_) report.accelBuildSeconds = scene_->buildSeconds();
     report.deviceBytes = context_.deviceBytes();
     return report;
 }

@@ -1,10 +1,12 @@
-// The GPU renderer: paths through the Vulkan ray tracing pipeline, in launches of bounded time.
+// The GPU renderer, in launches of bounded time: paths through the Vulkan ray tracing pipeline, or through compute shaders with
+// a tree of our own.
 #pragma once
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "Common/App/Engine.h"
+#include "Common/App/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {
@@ -15,10 +17,11 @@ struct GpuEngineOptions {
     // Tiles (times replicates) of the film that are on the device at a time: 4096 x 4096 pixels, 400 MB. Larger images are
     // rendered part by part, to the same bits.
     std::uint32_t regionSlots = 1u << 18;
+    app::GpuEngineKind engine = app::GpuEngineKind::Auto;
 };
 
-// `context` must outlive the engine. Failures of the device are RenderErrors; film() then returns the last copy on the host,
-// which is at most kRefreshSeconds old.
+// `context` must outlive the engine. Throws NoDeviceError when its device has no ray tracing pipeline and one is asked for.
+// Failures of the device are RenderErrors; film() then returns the last copy on the host, which is at most kRefreshSeconds old.
 std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options = {});
 
 inline constexpr double kRefreshSeconds = 5;

@@ -1,6 +1,9 @@
 #include "RayTracingGPU/GpuScene.h"
 
+#include <optional>
 #include <utility>
+
+#include "Common/App/Stopwatch.h"
 
 namespace rt::gpu {
 
@@ -12,17 +15,20 @@ std::uint64_t GpuScene::add(vulkan::VulkanContext& context, const std::vector<T>
     return buffers_.back().address();
 }
 
-GpuScene::GpuScene(vulkan::VulkanContext& context, std::shared_ptr<const scene::CompiledScene> compiled)
+GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
+                   std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel)
     : compiled_(std::move(compiled)) {
     const scene::CompiledScene& s = *compiled_;
-    constexpr VkBufferUsageFlags kBuildInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
+    const bool pipeline = engine == app::GpuEngineKind::Pipeline;
+    const VkBufferUsageFlags buildInput =
+        pipeline ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR : 0;
     arrays_.spheres = add(context, s.spheres, "spheres");
     arrays_.sphereMotions = add(context, s.sphereMotions, "motion");
     arrays_.quads = add(context, s.quads, "quads");
-    arrays_.positions = add(context, s.positions, "vertices", kBuildInput);
+    arrays_.positions = add(context, s.positions, "vertices", buildInput);
     arrays_.normals = add(context, s.normals, "normals");
     arrays_.uvs = add(context, s.uvs, "texture coordinates");
-    arrays_.triangles = add(context, s.triangles, "triangles", kBuildInput);
+    arrays_.triangles = add(context, s.triangles, "triangles", buildInput);
     arrays_.meshes = add(context, s.meshes, "meshes");
     arrays_.triangleMesh = add(context, s.triangleMesh, "triangles");
     arrays_.geometries = add(context, s.geometries, "geometries");
@@ -39,13 +45,43 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, std::shared_ptr<const scene::
     arrays_.lightNodes = add(context, s.lightNodes, "the light tree");
     arrays_.lightPlaces = add(context, s.lightPlaces, "the light tree");
     arrays_.skyCdf = add(context, s.skyCdf, "sky");
+    if (!pipeline) {
+        buildTree(context, cancel);
+        return;
+    }
     accel_ = std::make_unique<AccelStructure>(context, s, arrays_);
+    buildSeconds_ = accel_->buildSeconds();
+}
+
+void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel) {
+    const app::Stopwatch watch;
+    const scene::CompiledScene& s = *compiled_;
+    const accel::AccelInput input{s.spheres, s.sphereMotions, s.quads, s.positions, s.triangles, s.geometries, s.instances};
+    const std::optional<accel::GpuBvh> bvh = accel::buildGpuBvh(input, {}, cancel);
+    if (!bvh) return;
+    buildSeconds_ = watch.seconds();
+    shape_ = traversalShape(*bvh);
+    const accel::GpuTrees& t = bvh->trees;
+    tree_.nodes = add(context, t.nodes, "the tree");
+    tree_.spheres = add(context, t.spheres, "the tree's spheres");
+    tree_.sphereMotions = add(context, t.sphereMotions, "the tree's motion");
+    tree_.sphereIndices = add(context, t.sphereIndices, "the tree's spheres");
+    tree_.quads = add(context, t.quads, "the tree's quads");
+    tree_.triangles = add(context, t.triangles, "the tree's triangles");
+    tree_.instanceRoots = add(context, t.instanceRoots, "the tree's instances");
+    tree_.root = t.root;
+
+    std::vector<shared::vec4> lists = bvh->flat.vectors;
+    lists.resize(shared::kFlatVectors);
+    flatLists_ = vulkan::deviceArray<shared::vec4>(context, lists, "primitives", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 }
 
 void GpuScene::provideMotion(vulkan::VulkanContext& context) {
     if (arrays_.sphereMotions != 0) return;
     const std::vector<shared::vec3> rest(compiled_->spheres.size(), shared::vec3(0.0f));
     arrays_.sphereMotions = add(context, rest, "motion");
+    if (tree_.spheres == 0) return;
+    tree_.sphereMotions = add(context, std::vector<shared::vec4>(rest.size(), shared::vec4(0.0f)), "the tree's motion");
 }
 
 }  // namespace rt::gpu

@@ -1,28 +1,41 @@
 // The compiled scene on the device.
 #pragma once
+#include <atomic>
 #include <memory>
 
+#include "Common/App/Names.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/AccelStructure.h"
+#include "RayTracingGPU/ComputePipeline.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
 
-// The arrays that exist, and the acceleration structure over them. Immutable.
+// The arrays that exist, and what rays are traced through: the acceleration structure of the pipeline engine, or the tree or the
+// lists of the compute engine. Immutable.
 class GpuScene {
   public:
-    // Uploads and builds. Throws RenderError.
-    GpuScene(vulkan::VulkanContext& context, std::shared_ptr<const scene::CompiledScene> compiled);
+    // Uploads and builds. Useless when *cancel became true. Throws RenderError.
+    GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
+             std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel);
 
     // A superset of the scene's features may look for motion where there is none: sets it to zero.
     void provideMotion(vulkan::VulkanContext& context);
 
     const scene::CompiledScene& compiled() const { return *compiled_; }
     const shared::SceneArrays& arrays() const { return arrays_; }
-    const AccelStructure& accel() const { return *accel_; }
+    const shared::TreeArrays& tree() const { return tree_; }
+    double buildSeconds() const { return buildSeconds_; }
+
+    // Of the pipeline engine.
+    VkAccelerationStructureKHR topLevel() const { return accel_->topLevel(); }
+    // Of the compute engine.
+    const vulkan::Buffer& flatLists() const { return flatLists_; }
+    const TraversalShape& shape() const { return shape_; }
 
   private:
+    void buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel);
     template <class T>
     std::uint64_t add(vulkan::VulkanContext& context, const std::vector<T>& data, const char* name,
                       VkBufferUsageFlags usage = 0);
@@ -30,7 +43,11 @@ class GpuScene {
     std::shared_ptr<const scene::CompiledScene> compiled_;
     std::vector<vulkan::Buffer> buffers_;
     shared::SceneArrays arrays_{};
+    shared::TreeArrays tree_{};
     std::unique_ptr<AccelStructure> accel_;
+    vulkan::Buffer flatLists_;
+    TraversalShape shape_;
+    double buildSeconds_ = 0;
 };
 
 }  // namespace rt::gpu

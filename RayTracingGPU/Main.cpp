@@ -22,12 +22,16 @@ namespace {
 
 using rt::app::kGpuProgram;
 
+bool needsRayTracing(const rt::app::Options& options) {
+    return options.gpuEngine == rt::app::GpuEngineKind::Pipeline;
+}
+
 // The device is opened only when something is to be rendered.
 rt::ExitCode render(const rt::app::Options& options) {
     std::optional<rt::vulkan::VulkanContext> context;
     const rt::ExitCode code = rt::app::runSession(options, [&] {
-        context.emplace(rt::vulkan::ContextOptions{options.device, options.validation});
-        return rt::gpu::makeGpuEngine(*context);
+        context.emplace(rt::vulkan::ContextOptions{options.device, options.validation, needsRayTracing(options)});
+        return rt::gpu::makeGpuEngine(*context, {.engine = options.gpuEngine});
     });
     if (context && context->validationMessages() > 0) {
         throw rt::RenderError(std::to_string(context->validationMessages()) + " messages of Vulkan's validation");
@@ -40,8 +44,8 @@ rt::ExitCode render(const rt::app::Options& options) {
 // An engine and the device that it alone uses.
 class OwningEngine final : public rt::app::Engine {
   public:
-    explicit OwningEngine(const rt::vulkan::ContextOptions& options)
-        : context_(options), engine_(rt::gpu::makeGpuEngine(context_)) {}
+    OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind)
+        : context_(options), engine_(rt::gpu::makeGpuEngine(context_, {.engine = kind})) {}
 
     bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         return engine_->setScene(std::move(scene), cancel);
@@ -80,12 +84,14 @@ class OwningEngine final : public rt::app::Engine {
 rt::ExitCode showWindow(const rt::app::Options& options) {
     rt::gui::WindowProgram program;
     program.makeEngine = [&options](const rt::app::EngineChoice& choice) {
-        return std::make_unique<OwningEngine>(rt::vulkan::ContextOptions{choice.device, options.validation});
+        const rt::vulkan::ContextOptions context{choice.device, options.validation, needsRayTracing(options)};
+        return std::make_unique<OwningEngine>(context, options.gpuEngine);
     };
     {
         const rt::vulkan::Instance instance(false);
         for (const rt::vulkan::DeviceInfo& device : rt::vulkan::findDevices(instance)) {
-            if (device.suitable()) program.devices.push_back(device.name);
+            const bool serves = needsRayTracing(options) ? device.tracesRays() : device.suitable();
+            if (serves) program.devices.push_back(device.name);
         }
     }
     const rt::ExitCode code = rt::gui::runWindow(options, program);

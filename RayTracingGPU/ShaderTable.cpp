@@ -48,9 +48,9 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     hit_ = {start + rayGenerationSize + missSize, stride, hitSize};
 }
 
-void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const {
+void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t invocations) const {
     const VkStridedDeviceAddressRegionKHR callable{};
-    cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &callable, width, height, 1);
+    cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &callable, invocations, 1, 1);
 }
 
 }  // namespace rt::gpu

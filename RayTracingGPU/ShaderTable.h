@@ -20,8 +20,8 @@ class ShaderTable {
   public:
     ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, const ShaderGroups& groups);
 
-    // width * height invocations of the ray generation shader.
-    void trace(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) const;
+    // Runs this many invocations of the ray generation shader.
+    void trace(VkCommandBuffer commands, std::uint32_t invocations) const;
 
   private:
     PFN_vkCmdTraceRaysKHR cmdTraceRays_;

@@ -1,6 +1,7 @@
-// What every stage of the pipeline is bound to. One specialisation constant for each decision that is the same for all paths,
-// so that nothing is compiled that a render does not need.
-#extension GL_EXT_ray_tracing : require
+// What every shader of a render is bound to. One specialisation constant for each decision that is the same for all paths, so
+// that nothing is compiled that a render does not need.
+#ifndef RT_SHADERS_BINDINGS_GLSL
+#define RT_SHADERS_BINDINGS_GLSL
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 
@@ -16,7 +17,6 @@ layout(constant_id = 5) const uint kTriangleLight = kShapeAuto;
 layout(constant_id = 6) const uint kSamplerKind = kSamplerSobol;
 layout(constant_id = 7) const uint kRussianRoulette = 1u;
 
-layout(set = 0, binding = 0) uniform accelerationStructureEXT topLevel;
 layout(set = 0, binding = 1, scalar) uniform Constants { RenderConstants constants; };
 
 // The settings, those that are specialisation constants as such.
@@ -32,11 +32,4 @@ RenderParams renderParams() {
     return params;
 }
 
-// What the hit shaders report of the nearest hit.
-struct HitPayload {
-    float t;        // negative: nothing was hit
-    uint kind;
-    uint primitive; // index into the whole scene's array
-    uint instance;
-    vec2 uv;
-};
+#endif

@@ -1,5 +1,5 @@
 // Where the primitive at hand stands in the scene. Of closest hit and intersection shaders.
-#include "Bindings.glsl"
+#include "RayTracing.glsl"
 
 // Instances are numbered from 1 in the acceleration structure; the world's own geometry is 0.
 uint hitInstance() {

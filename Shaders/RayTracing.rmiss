@@ -1,7 +1,7 @@
 // Nothing was hit.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "Bindings.glsl"
+#include "RayTracing.glsl"
 
 layout(location = 0) rayPayloadInEXT HitPayload payload;
 

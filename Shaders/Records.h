@@ -2,16 +2,23 @@
 // the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
+#include "Common/Shared/TreeRecords.h"
 #include "Common/Shared/Types.h"
 
 // A read-only array of `Type` on the device; in C++ its address.
 #ifdef __cplusplus
 #define RT_ARRAY(Name, Type) using Name = std::uint64_t;
+#define RT_VECTOR_ARRAY(Name, Type) using Name = std::uint64_t;
 #define RT_MUTABLE_ARRAY(Name, Type) using Name = std::uint64_t;
 #else
 #define RT_ARRAY(Name, Type)                                                    \
     layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Name { \
         Type at[];                                                              \
+    };
+// Of records made of vectors of four, each of which is one load.
+#define RT_VECTOR_ARRAY(Name, Type)                                              \
+    layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Name { \
+        Type at[];                                                               \
     };
 #define RT_MUTABLE_ARRAY(Name, Type)                                   \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
@@ -68,9 +75,28 @@ struct SceneArrays {
     FloatArray skyCdf;
 };
 
+RT_VECTOR_ARRAY(TreeNodeArray, TreeNode)
+RT_VECTOR_ARRAY(TreeQuadArray, TreeQuad)
+RT_VECTOR_ARRAY(TreeTriangleArray, TreeTriangle)
+RT_VECTOR_ARRAY(FourArray, vec4)
+
+// The tree of the compute engine, see Common/Shared/TreeRecords.h; zero without one.
+struct TreeArrays {
+    TreeNodeArray nodes;
+    FourArray spheres;       // center, radius
+    FourArray sphereMotions; // of each of them, if the features have motion
+    WordArray sphereIndices; // of each of them in the scene
+    TreeQuadArray quads;
+    TreeTriangleArray triangles;
+    WordArray instanceRoots; // of each instance
+    uint root;
+    uint unused; // C++ ends records of addresses at a multiple of 8 bytes, scalar layout does not
+};
+
 // The uniform buffer.
 struct RenderConstants {
     SceneArrays arrays;
+    TreeArrays tree;
     SceneGlobals globals;
     RenderParams params;
     Camera camera;
@@ -158,10 +184,11 @@ RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
-// Push constants of Aov.rgen: rows firstRow and following, one invocation a pixel.
+// Push constants of FirstHit.glsl: rows firstRow and following, one invocation a pixel.
 struct AovLaunch {
     MutableFloatArray values; // kAovValues per pixel: albedo, normal, depth
     uint firstRow;
+    uint pixels;  // of the rows
     uint samples;
 };
 const uint kAovValues = 7u;

@@ -1,9 +1,7 @@
-// Gives Common/Shared its access to the scene on the GPU: SceneRef, every load...(), tracing. Of a ray generation shader.
+// Gives Common/Shared its access to the scene on the GPU: SceneRef and every load...().
 #include "Bindings.glsl"
 #include "Common/Shared/Color.h"
 #include "Common/Shared/Lights.h"
-
-layout(location = 0) rayPayloadEXT HitPayload hitPayload;
 
 struct SceneRef {
     uint unused;
@@ -61,23 +59,4 @@ LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
     uint count = min(constants.globals.lightCount, kContributionLights);
     for (uint i = 0u; i < count; i++) weights.weight[i] = lightContribution(constants.arrays.lightBounds.at[i], position, normal);
     return weights;
-}
-
-float rayTMin(uint features, Ray ray) {
-    return has(features, kFeatureMovingSpheres) ? ray.time * kTimeToTMin : 0.0f;
-}
-
-// What the ray meets in (0, tMax); a negative t if nothing. With gl_RayFlagsSkipClosestHitShaderEXT only the sign of t
-// tells anything.
-Hit traceRay(uint features, Ray ray, uint flags, float tMax) {
-    hitPayload.t = 0.0f;
-    traceRayEXT(topLevel, flags, 0xffu, 0u, 1u, 0u, ray.origin, rayTMin(features, ray), ray.direction, tMax, 0);
-    Hit hit;
-    hit.t = hitPayload.t;
-    hit.kind = hitPayload.kind;
-    hit.primitive = hitPayload.primitive;
-    hit.instance = hitPayload.instance;
-    hit.u = hitPayload.uv.x;
-    hit.v = hitPayload.uv.y;
-    return hit;
 }

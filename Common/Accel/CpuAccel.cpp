@@ -1,19 +1,19 @@
 #include "Common/Accel/CpuAccel.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "Common/Accel/AccelStorage.h"
 #include "Common/Accel/BlockFill.h"
 #include "Common/Accel/Parallel.h"
-#include "Common/Accel/TreeItems.h"
+#include "Common/Accel/SceneTrees.h"
 #include "Common/Accel/WideBvh.h"
 #include "Common/Shared/Features.h"
 
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kBoxChunk = 1u << 13;   // items whose boxes are made at a time
 constexpr std::size_t kLeafChunk = 1u << 10;  // leaves whose blocks are filled at a time
 
 // One geometry's tree between its construction and the filling of its leaf blocks.
@@ -53,13 +53,10 @@ class Assembly {
 
     bool buildTrees();  // false: cancelled
     void fill(AccelStorage& storage);
-    bool hasWorld() const {
-        return boxes_[0].lower.x <= boxes_[0].upper.x;
-    }  // instances may all be of empty geometries
+    bool hasWorld() const { return hasWorld_; }  // instances may all be of empty geometries
     Reference root() const { return roots_[0]; }
 
   private:
-    bool buildTree(std::uint32_t geometry, std::vector<std::uint32_t> instances);
     void fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const;
 
     const AccelInput& input_;
@@ -68,48 +65,18 @@ class Assembly {
     std::atomic<std::uint64_t>* primitivesDone_;
     WideBvh wide_;
     std::vector<BuiltTree> trees_;
-    std::vector<Box> boxes_;        // of each geometry; empty for one that is not used or has nothing in it
     std::vector<Reference> roots_;  // of each geometry
+    bool hasWorld_ = false;
 };
 
-bool Assembly::buildTree(std::uint32_t geometry, std::vector<std::uint32_t> instances) {
-    BuiltTree tree{TreeItems(input_, input_.geometries[geometry], std::move(instances)), {}, {}};
-    if (tree.items.size() == 0) return true;
-    std::vector<Box> boxes(tree.items.size());
-    const Chunks chunks(boxes.size(), kBoxChunk);
-    parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
-        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-            boxes[i] = tree.items.box(static_cast<std::uint32_t>(i), boxes_);
-        }
-    });
-    const std::vector<std::uint8_t> kinds = tree.items.kinds();
-    BvhSettings settings = settings_.tree;
-    settings.singleGroup = static_cast<std::uint32_t>(LeafKind::Instance);
-    std::optional<Bvh> bvh = buildBvh({boxes, kinds}, settings, cancel_, primitivesDone_);
-    if (!bvh) return false;
-    boxes_[geometry] = bvh->nodes[0].box;
-    roots_[geometry] = wide_.append(*bvh, kinds, tree.leaves);
-    tree.order = std::move(bvh->items);
-    trees_.push_back(std::move(tree));
-    return true;
-}
-
 bool Assembly::buildTrees() {
-    boxes_.resize(input_.geometries.size());
     roots_.resize(input_.geometries.size());
-    std::vector<bool> used(input_.geometries.size(), false);
-    for (const shared::Instance& instance : input_.instances) {
-        used[instance.geometry] = true;
-    }
-    for (std::uint32_t g = 1; g < input_.geometries.size(); ++g) {
-        if (used[g] && !buildTree(g, {})) return false;
-    }
-    std::vector<std::uint32_t> placed;
-    for (std::uint32_t i = 0; i < input_.instances.size(); ++i) {
-        const Box& box = boxes_[input_.instances[i].geometry];
-        if (box.lower.x <= box.upper.x) placed.push_back(i);
-    }
-    return buildTree(0, std::move(placed));
+    return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
+        std::vector<WideLeaf> leaves;
+        roots_[tree.geometry] = wide_.append(tree.bvh, tree.kinds, leaves);
+        hasWorld_ = hasWorld_ || tree.geometry == 0;
+        trees_.push_back({std::move(tree.items), std::move(tree.bvh.items), std::move(leaves)});
+    });
 }
 
 void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const {

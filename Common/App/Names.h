@@ -10,6 +10,8 @@ namespace rt::app {
 
 // Execution policy of the CPU engine.
 enum class Policy { Par, Seq, ParUnseq };
+// How the GPU engine traces rays.
+enum class GpuEngineKind { Auto, Pipeline, Compute };
 // How radiance is brought into [0,1] for display.
 enum class Tonemap : std::uint32_t {
     None = shared::kTonemapNone, // clamped
@@ -42,6 +44,8 @@ inline constexpr Named<SamplerKind> kSamplers[] = {
     {"sobol", SamplerKind::Sobol}, {"stratified", SamplerKind::Stratified}, {"independent", SamplerKind::Independent}};
 inline constexpr Named<Policy> kPolicies[] = {
     {"par", Policy::Par}, {"seq", Policy::Seq}, {"par_unseq", Policy::ParUnseq}};
+inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
+    {"auto", GpuEngineKind::Auto}, {"pipeline", GpuEngineKind::Pipeline}, {"compute", GpuEngineKind::Compute}};
 inline constexpr Named<Tonemap> kTonemaps[] = {
     {"none", Tonemap::None}, {"reinhard", Tonemap::Reinhard}, {"aces", Tonemap::Aces}};
 inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},

@@ -152,12 +152,8 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
     flags.addSwitch("--list-devices", parsed.listDevices, "print devices, and why one is unsuitable, and exit")
         ->configurable(false);
     flags.addSwitch("--validation", parsed.options.validation, "check every Vulkan call; a message makes exit code 1");
-    flags.add("--engine", "auto|pipeline", "pipeline: Vulkan's ray tracing pipeline",
-              [](const std::string& flag, const std::string& text) {
-                  if (text == "compute")
-                      throw UsageError(flag + " compute: not available yet; must be auto or pipeline");
-                  if (text != "auto" && text != "pipeline") refuseValue(flag, text, "auto or pipeline");
-              });
+    flags.addChoice("--engine", kGpuEngines, parsed.options.gpuEngine,
+                    "Vulkan's ray tracing pipeline, or compute shaders; auto: the faster one");
     for (const char* flag : {"--threads", "--policy"}) flags.refuse(flag, "a flag of ray-tracing-cpu");
 }
 

@@ -49,6 +49,7 @@ struct Options {
 
     std::uint32_t threads = 0; // 0: all
     Policy policy = Policy::Par;
+    GpuEngineKind gpuEngine = GpuEngineKind::Auto;
     std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
     bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
 

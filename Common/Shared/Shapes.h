@@ -31,17 +31,20 @@ RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
 // The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the centre,
 // not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision Improvements for
 // Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance to the centre: that is
-// what the origin of a ray that leaves the sphere is offset by.
-RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
+// what the origin of a ray that leaves the sphere is offset by. inverseSquaredLength: 1 / dot(direction, direction).
+RT_FN float intersectSphere(Ray ray, float inverseSquaredLength, vec3 center, float radius, float tMax) {
     vec3 f = center - ray.origin;
-    float a = dot(ray.direction, ray.direction);
-    float middle = dot(f, ray.direction) / a;
+    float middle = dot(f, ray.direction) * inverseSquaredLength;
     vec3 l = f - middle * ray.direction; // to the centre from the point of the line that is nearest to it
-    float squaredHalf = (radius * radius - dot(l, l)) / a;
+    float squaredHalf = (radius * radius - dot(l, l)) * inverseSquaredLength;
     if (!(squaredHalf >= 0.0f)) return -1.0f;
     float halfChord = sqrt(squaredHalf);
     float t = middle - halfChord > 0.0f ? middle - halfChord : middle + halfChord;
     return t > 0.0f && t < tMax ? t : -1.0f;
+}
+
+RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
+    return intersectSphere(ray, 1.0f / dot(ray.direction, ray.direction), center, radius, tMax);
 }
 
 struct SpherePoint {
@@ -107,20 +110,24 @@ RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
 }
 
 // The parallelogram is closed and widened by what rounding may take off its edges, so that quads which share an edge
-// leave no gap. Only rays within the plane are rejected for their angle.
-RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) {
+// leave no gap. Only rays within the plane are rejected for their angle. rayLength: length(direction).
+RT_FN ShapeHit intersectQuad(Ray ray, float rayLength, vec3 corner, QuadFrame frame, float tMax) {
     ShapeHit hit = missedShape();
     vec3 f = corner - ray.origin;
     float t = dot(frame.normal, f) / dot(frame.normal, ray.direction);
     if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
     float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
     float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
-    float reach = 0.5f + kQuadError + t * frame.margin * length(ray.direction);
+    float reach = 0.5f + kQuadError + t * frame.margin * rayLength;
     if (!(max(abs(u - 0.5f), abs(v - 0.5f)) <= reach)) return hit;
     hit.t = t;
     hit.u = clamp(u, 0.0f, 1.0f);
     hit.v = clamp(v, 0.0f, 1.0f);
     return hit;
+}
+
+RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) {
+    return intersectQuad(ray, length(ray.direction), corner, frame, tMax);
 }
 
 // p.x q.y - p.y q.x, rounded alike for both directions of an edge, however a compiler fuses products with sums: the two
@@ -138,33 +145,57 @@ RT_FN uint largestAxis(vec3 v) {
     return m.x > m.y ? (m.x > m.z ? 0u : 2u) : (m.y > m.z ? 1u : 2u);
 }
 
+// What the tests of all triangles have in common for a ray: the axis that it mostly runs along, and the shear that makes it run
+// along that axis exactly.
+struct TriangleRay {
+    uint axis;
+    float shearX;
+    float shearY;
+    float along; // component of the direction on the axis
+};
+
+// The components in cyclic order, that of `axis` last.
+RT_FN vec3 axisLast(vec3 v, uint axis) {
+    if (axis == 2u) return v;
+    return axis == 0u ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y);
+}
+
+RT_FN TriangleRay makeTriangleRay(vec3 direction) {
+    TriangleRay r;
+    r.axis = largestAxis(direction);
+    vec3 d = axisLast(direction, r.axis);
+    r.shearX = d.x / d.z;
+    r.shearY = d.y / d.z;
+    r.along = d.z;
+    return r;
+}
+
 // Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along
 // an axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
-RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
+RT_FN ShapeHit intersectTriangle(vec3 origin, RT_IN(TriangleRay) ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
     ShapeHit hit = missedShape();
-    uint kz = largestAxis(ray.direction);
-    uint kx = kz == 2u ? 0u : kz + 1u;
-    uint ky = kx == 2u ? 0u : kx + 1u;
-    float shearX = ray.direction[kx] / ray.direction[kz];
-    float shearY = ray.direction[ky] / ray.direction[kz];
-    vec3 a = vertex0 - ray.origin;
-    vec3 b = vertex1 - ray.origin;
-    vec3 c = vertex2 - ray.origin;
-    vec2 a2 = vec2(a[kx] - shearX * a[kz], a[ky] - shearY * a[kz]);
-    vec2 b2 = vec2(b[kx] - shearX * b[kz], b[ky] - shearY * b[kz]);
-    vec2 c2 = vec2(c[kx] - shearX * c[kz], c[ky] - shearY * c[kz]);
+    vec3 a = axisLast(vertex0 - origin, ray.axis);
+    vec3 b = axisLast(vertex1 - origin, ray.axis);
+    vec3 c = axisLast(vertex2 - origin, ray.axis);
+    vec2 a2 = vec2(a.x - ray.shearX * a.z, a.y - ray.shearY * a.z);
+    vec2 b2 = vec2(b.x - ray.shearX * b.z, b.y - ray.shearY * b.z);
+    vec2 c2 = vec2(c.x - ray.shearX * c.z, c.y - ray.shearY * c.z);
 
     float wa = edgeFunction(c2, b2);
     float wb = edgeFunction(a2, c2);
     float wc = edgeFunction(b2, a2);
     if (min(wa, min(wb, wc)) < 0.0f && max(wa, max(wb, wc)) > 0.0f) return hit;
     float sum = wa + wb + wc;
-    float t = (wa * a[kz] + wb * b[kz] + wc * c[kz]) / (sum * ray.direction[kz]);
+    float t = (wa * a.z + wb * b.z + wc * c.z) / (sum * ray.along);
     if (!(t > 0.0f && t < tMax)) return hit; // not a number where the triangle is seen edge-on
     hit.t = t;
     hit.u = wb / sum;
     hit.v = wc / sum;
     return hit;
+}
+
+RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
+    return intersectTriangle(ray.origin, makeTriangleRay(ray.direction), vertex0, vertex1, vertex2, tMax);
 }
 
 RT_SHARED_END

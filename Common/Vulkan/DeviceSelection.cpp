@@ -20,35 +20,43 @@ void addMissing(std::string& list, const std::string& what) {
     list += (list.empty() ? "" : ", ") + what;
 }
 
-// Names of the required extensions that the device lacks.
-std::string missingExtensions(VkPhysicalDevice device) {
+std::vector<VkExtensionProperties> extensionsOf(VkPhysicalDevice device) {
     std::uint32_t count = 0;
     check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "Listing a device's extensions");
     std::vector<VkExtensionProperties> extensions(count);
     check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data()),
           "Listing a device's extensions");
-    std::string missing;
-    for (const char* required : requiredExtensions()) {
-        const bool found =
-            std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
-                return std::strcmp(extension.extensionName, required) == 0;
-            });
-        if (!found) addMissing(missing, required);
-    }
-    return missing;
+    return extensions;
 }
 
-std::string missingFeatures(VkPhysicalDevice device) {
+bool contains(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, name) == 0;
+    });
+}
+
+std::string missingForPipeline(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions) {
+    std::string missing;
+    for (const char* name : pipelineExtensions()) {
+        if (!contains(extensions, name)) addMissing(missing, name);
+    }
+    if (!missing.empty()) return missing; // and may not be asked for features
     VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
-    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &structure};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &structure};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    if (pipeline.rayTracingPipeline == VK_FALSE) addMissing(missing, "feature rayTracingPipeline");
+    if (structure.accelerationStructure == VK_FALSE) addMissing(missing, "feature accelerationStructure");
+    return missing;
+}
+
+std::string missingFeatures(VkPhysicalDevice device) {
+    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core};
     vkGetPhysicalDeviceFeatures2(device, &features);
     std::string missing;
-    if (pipeline.rayTracingPipeline == VK_FALSE) addMissing(missing, "feature rayTracingPipeline");
-    if (structure.accelerationStructure == VK_FALSE) addMissing(missing, "feature accelerationStructure");
     if (core.bufferDeviceAddress == VK_FALSE) addMissing(missing, "feature bufferDeviceAddress");
     if (core.scalarBlockLayout == VK_FALSE) addMissing(missing, "feature scalarBlockLayout");
     return missing;
@@ -83,8 +91,10 @@ DeviceInfo describe(VkPhysicalDevice device) {
         info.missing = "Vulkan " + versionText(kApiVersion);
         return info;
     }
-    info.missing = missingExtensions(device);
-    if (info.missing.empty()) info.missing = missingFeatures(device);
+    const std::vector<VkExtensionProperties> extensions = extensionsOf(device);
+    info.missing = missingFeatures(device);
+    info.missingForPipeline = missingForPipeline(device, extensions);
+    info.rayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
     const std::optional<std::uint32_t> family = findQueueFamily(device);
     if (!family) addMissing(info.missing, "a compute queue");
     info.queueFamily = family.value_or(0);
@@ -126,7 +136,15 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const std::string& request) {
+std::string lacks(const DeviceInfo& device) {
+    return device.missing.empty() ? device.missingForPipeline : device.missing;
+}
+
+bool serves(const DeviceInfo& device, bool rayTracing) {
+    return rayTracing ? device.tracesRays() : device.suitable();
+}
+
+const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(request.data(), request.data() + request.size(), index);
     if (error == std::errc() && end == request.data() + request.size()) {
@@ -135,14 +153,14 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
     const DeviceInfo* found = nullptr;
     for (const DeviceInfo& device : devices) {
         if (lowerCase(device.name).find(lowerCase(request)) == std::string::npos) continue;
-        if (found == nullptr || (device.suitable() && !found->suitable())) found = &device;
+        if (found == nullptr || (serves(device, rayTracing) && !serves(*found, rayTracing))) found = &device;
     }
     return found;
 }
 
 } // namespace
 
-const std::vector<const char*>& requiredExtensions() {
+const std::vector<const char*>& pipelineExtensions() {
     static const std::vector<const char*> extensions{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
                                                      VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                                      VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
@@ -166,29 +184,37 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices) {
         const DeviceInfo& device = devices[i];
         text += std::to_string(i) + ": " + device.name + " (" + kindName(device.type) + ", " + device.driver +
                 ", Vulkan " + device.version + "): ";
-        text += device.suitable() ? "suitable\n" : "unsuitable, lacks " + device.missing + "\n";
+        if (device.tracesRays()) {
+            text += "suitable for pipeline and compute\n";
+        } else if (device.suitable()) {
+            text += "suitable for compute; for pipeline it lacks " + device.missingForPipeline + "\n";
+        } else {
+            text += "unsuitable, lacks " + device.missing + "\n";
+        }
     }
     return text;
 }
 
-DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request) {
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing) {
+    const std::string purpose = rayTracing ? " has no ray tracing pipeline" : " cannot render";
     const DeviceInfo* chosen = nullptr;
     if (!request.empty()) {
-        chosen = findRequested(devices, request);
+        chosen = findRequested(devices, request, rayTracing);
         if (chosen == nullptr) {
             throw NoDeviceError("no Vulkan device matches '" + request + "'; --list-devices shows what there is");
         }
-        if (!chosen->suitable()) throw NoDeviceError(chosen->name + " cannot trace rays: it lacks " + chosen->missing);
+        if (!serves(*chosen, rayTracing)) throw NoDeviceError(chosen->name + purpose + ": it lacks " + lacks(*chosen));
         return *chosen;
     }
     for (const DeviceInfo& device : devices) {
-        if (device.suitable() && (chosen == nullptr || rank(device.type) > rank(chosen->type))) chosen = &device;
+        if (!serves(device, rayTracing)) continue;
+        if (chosen == nullptr || rank(device.type) > rank(chosen->type)) chosen = &device;
     }
     if (chosen == nullptr) {
         std::string found = devices.empty() ? "there is no Vulkan device" : "";
-        for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + device.missing);
-        throw NoDeviceError("no Vulkan device can trace rays: " + found +
-                            "; a newer driver may help (Mesa's software driver: 25.0 or newer)");
+        for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + lacks(device));
+        throw NoDeviceError("no Vulkan device " + std::string(rayTracing ? "has a ray tracing pipeline: " : "can render: ") +
+                            found + (rayTracing ? "; --engine compute does without" : "; a newer driver may help"));
     }
     return *chosen;
 }

@@ -1,4 +1,4 @@
-// Which Vulkan devices there are, whether each can trace rays for us, and which one to take.
+// Which Vulkan devices there are, what each can do for us, and which one to take.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -17,21 +17,25 @@ struct DeviceInfo {
     std::string version; // of Vulkan
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::uint32_t queueFamily = 0;
-    std::string missing; // what it lacks, in words; empty: suitable
+    std::string missing;            // what it lacks to render at all, in words
+    std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
+    bool rayQueries = false;        // any shader can ask for the hits of rays
     bool suitable() const { return missing.empty(); }
+    bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
 };
 
-// Extensions that a suitable device has and that we enable.
-const std::vector<const char*>& requiredExtensions();
+// Extensions of ray tracing pipelines, which we enable where a device has all of them.
+const std::vector<const char*>& pipelineExtensions();
 
 // In the driver's order: the index is what --device takes.
 std::vector<DeviceInfo> findDevices(const Instance& instance);
 
-// One line a device, with the reason where one is unsuitable; a line that says so where there is none.
+// One line a device, with its engines and the reasons where one is missing; a line that says so where there is no device.
 std::string describeDevices(const std::vector<DeviceInfo>& devices);
 
 // The device with this index or with this text in its name, whatever the case; with an empty request the best: discrete
-// before integrated before software. Throws NoDeviceError naming what there is.
-DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request);
+// before integrated before software. With `rayTracing` only those with ray tracing pipelines. Throws NoDeviceError naming what
+// there is.
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing);
 
 }  // namespace rt::vulkan

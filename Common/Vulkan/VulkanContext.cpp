@@ -22,12 +22,12 @@ void load(VkDevice device, const char* name, Function& function) {
 } // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
-    : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device)) {
+    : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device, options.rayTracing)) {
     vkGetPhysicalDeviceMemoryProperties(info_.device, &memory_);
     queryLimits();
     createDevice();
     try {
-        loadFunctions();
+        if (info_.tracesRays()) loadFunctions();
         VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
         pool.queueFamilyIndex = info_.queueFamily;
@@ -75,7 +75,9 @@ void VulkanContext::createDevice() {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
     structure.accelerationStructure = VK_TRUE;
-    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &structure};
+    const bool rays = info_.tracesRays();
+    VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    if (rays) core.pNext = &structure;
     core.bufferDeviceAddress = VK_TRUE;
     core.scalarBlockLayout = VK_TRUE;
     const VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
@@ -88,8 +90,10 @@ void VulkanContext::createDevice() {
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = static_cast<std::uint32_t>(requiredExtensions().size());
-    info.ppEnabledExtensionNames = requiredExtensions().data();
+    if (rays) {
+        info.enabledExtensionCount = static_cast<std::uint32_t>(pipelineExtensions().size());
+        info.ppEnabledExtensionNames = pipelineExtensions().data();
+    }
     check(vkCreateDevice(info_.device, &info, nullptr, &device_), "Opening " + info_.name);
     vkGetDeviceQueue(device_, info_.queueFamily, 0, &queue_);
 }
@@ -113,8 +117,8 @@ void VulkanContext::queryLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
-    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
-                                                  &pipeline};
+    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
+    if (info_.tracesRays()) memory.pNext = &pipeline;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &memory};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;

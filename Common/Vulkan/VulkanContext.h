@@ -16,9 +16,10 @@ namespace rt::vulkan {
 struct ContextOptions {
     std::string device; // index or part of a name; empty: the best
     bool validation = false;
+    bool rayTracing = false; // ray tracing pipelines are needed; otherwise they are there if the device has them
 };
 
-// Entry points of the extensions, which the loader does not export.
+// Entry points of the extensions, which the loader does not export; null where the device does not trace rays.
 struct RayTracingFunctions {
     PFN_vkCreateAccelerationStructureKHR createAccelerationStructure = nullptr;
     PFN_vkDestroyAccelerationStructureKHR destroyAccelerationStructure = nullptr;
@@ -32,7 +33,7 @@ struct RayTracingFunctions {
     PFN_vkCmdTraceRaysKHR cmdTraceRays = nullptr;
 };
 
-// What a device allows and prescribes; nothing is assumed.
+// What a device allows and prescribes; nothing is assumed. Zero for what it cannot do at all.
 struct DeviceLimits {
     std::uint32_t groupHandleSize = 0; // bytes, of a shader binding table's entries
     std::uint32_t groupHandleAlignment = 0;

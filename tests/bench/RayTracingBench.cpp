@@ -3,6 +3,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/App/Interrupt.h"
@@ -66,14 +67,24 @@ class EngineList {
             context_.emplace(vulkan::ContextOptions{options.device, false});
         } catch (const Error& error) {
             if (!options.device.empty()) throw;
-            kinds_.push_back({"pipeline", {}, error.what()});
+            for (const auto& [name, kind] : kGpuKinds) kinds_.push_back({name, {}, error.what()});
             return;
         }
         facts_.push_back({"GPU", context_->info().name});
         facts_.push_back({"GPU driver", context_->info().driver});
-        kinds_.push_back({"pipeline", [this](std::uint32_t) { return gpu::makeGpuEngine(*context_); }, ""});
+        for (const auto& [name, kind] : kGpuKinds) {
+            bench::EngineKind added{name, {}, ""};
+            if (kind == app::GpuEngineKind::Pipeline && !context_->info().tracesRays()) {
+                added.missing = context_->info().name + " lacks " + context_->info().missingForPipeline;
+            } else {
+                added.make = [this, engine = kind](std::uint32_t) { return gpu::makeGpuEngine(*context_, {.engine = engine}); };
+            }
+            kinds_.push_back(std::move(added));
+        }
     }
 
+    static constexpr std::pair<const char*, app::GpuEngineKind> kGpuKinds[] = {
+        {"pipeline", app::GpuEngineKind::Pipeline}, {"compute", app::GpuEngineKind::Compute}};
     std::optional<vulkan::VulkanContext> context_;
 #endif
     std::vector<bench::EngineKind> kinds_;

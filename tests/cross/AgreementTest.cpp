@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -53,8 +54,10 @@ struct Pair {
 
 class EnginePair {
   public:
-    explicit EnginePair(std::shared_ptr<const scene::CompiledScene> scene)
-        : scene_(std::move(scene)), cpu_(cpu::makeCpuEngine({})), gpu_(gpu::makeGpuEngine(device(), {false})) {
+    EnginePair(std::shared_ptr<const scene::CompiledScene> scene, app::GpuEngineKind engine)
+        : scene_(std::move(scene)),
+          cpu_(cpu::makeCpuEngine({})),
+          gpu_(gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = engine})) {
         cpu_->setScene(scene_, nullptr);
         gpu_->setScene(scene_, nullptr);
     }
@@ -118,25 +121,30 @@ double leastAgreement(const scene::CompiledScene& scene) {
     return ::testing::AssertionSuccess();
 }
 
-class AgreementTest : public ::testing::TestWithParam<std::size_t> {};
+// A scene by its index, and an engine.
+using SceneAndEngine = std::tuple<std::size_t, app::GpuEngineKind>;
+class AgreementTest : public ::testing::TestWithParam<SceneAndEngine> {};
 
 TEST_P(AgreementTest, SampleForSample) {
-    const auto scene = smallScene(scene::builtinScenes()[GetParam()]);
-    EnginePair engines(scene);
+    const auto [index, engine] = GetParam();
+    const auto scene = smallScene(scene::builtinScenes()[index]);
+    EnginePair engines(scene, engine);
     EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
-std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
-    std::string name(scene::builtinScenes()[info.param].id);
+std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
+    const auto [index, engine] = info.param;
+    std::string name = std::string(scene::builtinScenes()[index].id) + "_" + app::nameOf(app::kGpuEngines, engine);
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest,
+                         ::testing::Combine(::testing::Range(std::size_t{0}, scene::builtinScenes().size()), kBothEngines),
                          sceneName);
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
@@ -159,9 +167,12 @@ TEST(SupersetTest, SampleForSample) {
 }
 
 // Every way of sampling lights and pixels, on the default scene.
-TEST(EstimatorAgreementTest, SampleForSample) {
+class EstimatorAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, EstimatorAgreementTest, kBothEngines, engineName);
+
+TEST_P(EstimatorAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
-    EnginePair engines(scene);
+    EnginePair engines(scene, GetParam());
     for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
         EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
     }

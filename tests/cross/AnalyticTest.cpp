@@ -17,6 +17,9 @@ namespace {
 using namespace rt::scene;
 using glm::dvec3;
 
+class AnalyticTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, AnalyticTest, kBothEngines, engineName);
+
 // Renders one scene with many settings.
 class GpuRenders {
   public:
@@ -25,10 +28,11 @@ class GpuRenders {
 
   private:
     std::shared_ptr<const CompiledScene> scene_;
-    std::unique_ptr<app::Engine> engine_ = gpu::makeGpuEngine(device(), {false});
+    std::unique_ptr<app::Engine> engine_ = gpu::makeGpuEngine(
+        device(), {.pipelineCache = false, .engine = AnalyticTest::GetParam()});
 };
 
-TEST(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
+TEST_P(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
     for (const bool box : {false, true}) {
         GpuRenders renders(shell(box, 0.6, 0.5));
         app::RenderSettings settings = smallSettings(4, 1024);
@@ -44,7 +48,7 @@ TEST(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
     }
 }
 
-TEST(AnalyticTest, RouletteChangesNothingButVariance) {
+TEST_P(AnalyticTest, RouletteChangesNothingButVariance) {
     GpuRenders renders(shell(false, 0.5, 1));
     app::RenderSettings settings = smallSettings(8, 4096);
     settings.maxDepth = 64;
@@ -55,7 +59,7 @@ TEST(AnalyticTest, RouletteChangesNothingButVariance) {
     }
 }
 
-TEST(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
+TEST_P(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
     MaterialDesc glass;
     glass.kind = MaterialKind::Dielectric;
     MaterialDesc mirror;
@@ -89,7 +93,7 @@ void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what
     }
 }
 
-TEST(AnalyticTest, IrradianceUnderASphere) {
+TEST_P(AnalyticTest, IrradianceUnderASphere) {
     const dvec3 center(1.5, 1.2, -0.5);
     SceneDesc desc = floorScene();
     desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
@@ -97,7 +101,7 @@ TEST(AnalyticTest, IrradianceUnderASphere) {
     expectIrradiance(desc, std::numbers::pi * (0.64 / (d * d)) * center.y / d, "sphere");
 }
 
-TEST(AnalyticTest, IrradianceUnderAQuad) {
+TEST_P(AnalyticTest, IrradianceUnderAQuad) {
     const dvec3 corner(0.4, 0.1, -1);
     const dvec3 u(0.3, 1, 0.2);
     const dvec3 v(0, 0.5, 2);
@@ -106,7 +110,7 @@ TEST(AnalyticTest, IrradianceUnderAQuad) {
     expectIrradiance(desc, polygonIrradiance(std::array{corner, corner + u, corner + u + v, corner + v}), "quad");
 }
 
-TEST(AnalyticTest, IrradianceUnderATriangle) {
+TEST_P(AnalyticTest, IrradianceUnderATriangle) {
     const std::array<dvec3, 3> triangle{dvec3(-1, 0.8, 0.3), dvec3(1.2, 1.1, 0.1), dvec3(0.2, 0.9, -1.4)};
     SceneDesc desc = floorScene();
     MeshData mesh;
@@ -117,7 +121,7 @@ TEST(AnalyticTest, IrradianceUnderATriangle) {
 }
 
 // Nothing but a medium: the acceleration structure is empty.
-TEST(AnalyticTest, TransmittanceOfAnAbsorbingSlab) {
+TEST_P(AnalyticTest, TransmittanceOfAnAbsorbingSlab) {
     for (const double depth : {1e-4, 1.0, 5.0}) {
         SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 1e-3);
         desc.background = ConstantBackground{dvec3(1)};
@@ -126,7 +130,7 @@ TEST(AnalyticTest, TransmittanceOfAnAbsorbingSlab) {
     }
 }
 
-TEST(AnalyticTest, WhiteMediaAreInvisibleInAWhiteSky) {
+TEST_P(AnalyticTest, WhiteMediaAreInvisibleInAWhiteSky) {
     app::RenderSettings settings = smallSettings(8, 1024);
     settings.maxDepth = 4096;
     SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 40);
@@ -137,7 +141,7 @@ TEST(AnalyticTest, WhiteMediaAreInvisibleInAWhiteSky) {
 }
 
 // Every shadow ray ends at a wall that it may graze.
-TEST(AnalyticTest, EmittersDoNotShadowThemselves) {
+TEST_P(AnalyticTest, EmittersDoNotShadowThemselves) {
     app::RenderSettings settings = smallSettings(16, 4096);
     for (const char* id : {"furnace", "furnace-mixed"}) {
         const SceneDesc desc = findBuiltinScene(id);

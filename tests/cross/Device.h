@@ -1,10 +1,22 @@
 // The Vulkan device that the tests run on: $RT_DEVICE or the best. Tests fail where there is none.
 #pragma once
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::test {
 
 // With validation, synchronization included; lives as long as the program.
 vulkan::VulkanContext& device();
+
+// Both ways to trace rays on it, as parameters of tests.
+inline const auto kBothEngines = ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Compute);
+
+inline std::string engineName(const ::testing::TestParamInfo<app::GpuEngineKind>& info) {
+    return app::nameOf(app::kGpuEngines, info.param);
+}
 
 }  // namespace rt::test

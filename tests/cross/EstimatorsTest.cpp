@@ -51,7 +51,8 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     scene::CompileOptions options;
     options.generatedAssets = true;
     const auto compiled = scene::compileScene(scene::findBuiltinScene(id), options);
-    const auto gpu = gpu::makeGpuEngine(device(), {.pipelineCache = false});
+    const auto gpu = gpu::makeGpuEngine(
+        device(), {.pipelineCache = false, .engine = app::GpuEngineKind::Pipeline});
     const auto cpu = cpu::makeCpuEngine({});
     gpu->setScene(compiled, nullptr);
     cpu->setScene(compiled, nullptr);

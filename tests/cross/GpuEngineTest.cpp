@@ -36,12 +36,19 @@ app::RenderSettings settingsFor(std::uint32_t spp) {
     return settings;
 }
 
+class GpuEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, GpuEngineTest, kBothEngines, engineName);
+
+gpu::GpuEngineOptions testedEngine(std::uint32_t regionSlots = gpu::GpuEngineOptions().regionSlots) {
+    return {.pipelineCache = false, .regionSlots = regionSlots, .engine = GpuEngineTest::GetParam()};
+}
+
 struct Render {
     std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
     std::unique_ptr<app::Engine> engine;
 
     explicit Render(const app::RenderSettings& settings,
-                    const gpu::GpuEngineOptions& options = {.pipelineCache = false},
+                    const gpu::GpuEngineOptions& options = testedEngine(),
                     vulkan::VulkanContext& context = device())
         : engine(gpu::makeGpuEngine(context, options)) {
         engine->setScene(scene, nullptr);
@@ -54,7 +61,7 @@ struct Render {
     }
 };
 
-TEST(GpuEngineTest, SameSeedSameBits) {
+TEST_P(GpuEngineTest, SameSeedSameBits) {
     app::RenderSettings settings = settingsFor(40);
     settings.replicates = 3;
     const std::vector<float> first = Render(settings).finish().resolve().data;
@@ -64,7 +71,7 @@ TEST(GpuEngineTest, SameSeedSameBits) {
     EXPECT_NE(first, Render(settings).finish().resolve().data);
 }
 
-TEST(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
+TEST_P(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
     app::RenderSettings settings = settingsFor(75);
     settings.secondMoments = true;
     settings.sampler = app::SamplerKind::Independent; // the strata of others depend on the number of samples
@@ -82,18 +89,20 @@ TEST(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
     EXPECT_EQ(actual.totalSamples(), std::uint64_t{kSide} * kSide * settings.spp);
 }
 
-TEST(GpuEngineTest, CountsWhatItDid) {
+TEST_P(GpuEngineTest, CountsWhatItDid) {
     Render render(settingsFor(5));
     render.finish();
     const app::EngineReport report = render.engine->report();
     EXPECT_EQ(report.rays.camera, std::uint64_t{kSide} * kSide * 5);
     EXPECT_GT(report.rays.scattered, report.rays.camera / 2);
     EXPECT_GT(report.rays.shadow, 0u);
-    EXPECT_EQ(report.kernel, "paths+quads+spheres");
+    const bool compute = GetParam() == app::GpuEngineKind::Compute;
+    EXPECT_EQ(report.engine, compute ? "compute" : "pipeline");
+    EXPECT_EQ(report.kernel, compute ? "flat+quads+spheres" : "paths+quads+spheres");
     EXPECT_GT(report.deviceBytes, 0u);
 }
 
-TEST(GpuEngineTest, CancelledWorkCanGoOn) {
+TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
     Render render(settingsFor(40));
     const std::atomic<bool> cancel{true};
     EXPECT_FALSE(render.engine->renderSome({std::chrono::seconds(1), &cancel}).finished);
@@ -102,7 +111,7 @@ TEST(GpuEngineTest, CancelledWorkCanGoOn) {
 }
 
 // A film that is rendered part by part, in launches of single tiles: the same bits.
-TEST(GpuEngineTest, NeitherPartsNorBudgetsShow) {
+TEST_P(GpuEngineTest, NeitherPartsNorBudgetsShow) {
     app::RenderSettings settings = settingsFor(150);
     settings.replicates = 2;
     settings.secondMoments = true;
@@ -110,7 +119,7 @@ TEST(GpuEngineTest, NeitherPartsNorBudgetsShow) {
     const Film& expected = whole.finish();
     for (const std::uint32_t slots : {1u, 6u}) {
         for (const double seconds : {1e-9, 0.2}) {
-            Render parts(settings, {.pipelineCache = false, .regionSlots = slots});
+            Render parts(settings, testedEngine(slots));
             const Film& actual = parts.finish({std::chrono::duration<double>(seconds), nullptr});
             EXPECT_EQ(actual.resolve().data, expected.resolve().data) << slots << ", " << seconds;
             EXPECT_EQ(actual.varianceOfMean().data, expected.varianceOfMean().data) << slots << ", " << seconds;
@@ -119,12 +128,12 @@ TEST(GpuEngineTest, NeitherPartsNorBudgetsShow) {
     }
 }
 
-TEST(GpuEngineTest, PartsGoOnFromAFilm) {
+TEST_P(GpuEngineTest, PartsGoOnFromAFilm) {
     app::RenderSettings settings = settingsFor(150);
     const std::vector<float> expected = Render(settings).finish().resolve().data;
     app::RenderSettings part = settings;
     part.spp = 37;
-    const gpu::GpuEngineOptions options{.pipelineCache = false, .regionSlots = 4};
+    const gpu::GpuEngineOptions options = testedEngine(4);
     Film film = Render(part, options).finish();
     Render resumed(settings, options);
     resumed.engine->restore(std::move(film));
@@ -145,9 +154,9 @@ class FailingContext : public vulkan::VulkanContext {
     }
 };
 
-TEST(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
+TEST_P(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
     FailingContext context;
-    Render render(settingsFor(1u << 20), {.pipelineCache = false}, context);
+    Render render(settingsFor(1u << 20), testedEngine(), context);
     render.engine->renderSome({});
     const Film copy = render.engine->film();
     EXPECT_GT(copy.totalSamples(), 0u);
@@ -159,16 +168,16 @@ TEST(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
     EXPECT_GT(render.engine->report().rays.camera, copy.totalSamples());
 }
 
-TEST(GpuEngineTest, AFilmThatCannotBeReadIsAnErrorOnce) {
+TEST_P(GpuEngineTest, AFilmThatCannotBeReadIsAnErrorOnce) {
     FailingContext context;
-    Render render(settingsFor(1u << 20), {.pipelineCache = false}, context);
+    Render render(settingsFor(1u << 20), testedEngine(), context);
     render.engine->renderSome({});
     context.lost = true;
     EXPECT_THROW(render.engine->film(), RenderError);
     EXPECT_EQ(render.engine->film().totalSamples(), 0u);
 }
 
-TEST(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
+TEST_P(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
     const VkDeviceSize bytes = device().limits().maxAllocation + 1;
     try {
         const vulkan::Buffer buffer(device(), bytes, 0, vulkan::Memory::Device, "the film");
@@ -180,22 +189,25 @@ TEST(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
 
 // ---- what a scene does not need --------------------------------------------------------------------------------------
 
-TEST(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
+TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
     const auto kernel = [](const char* id, const app::RenderSettings& settings) {
         const auto scene = app::compile(app::loadScene(id), true);
-        const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false});
+        const auto engine = gpu::makeGpuEngine(device(), testedEngine());
         engine->setScene(scene, nullptr);
         engine->reset(scene->camera, settings);
         return engine->report().kernel;
     };
     app::RenderSettings settings = settingsFor(1);
-    EXPECT_EQ(kernel("one-weekend-final", settings), "paths+spheres");
-    EXPECT_EQ(kernel("next-week-quads", settings), "paths+quads");
+    const bool compute = GetParam() == app::GpuEngineKind::Compute;
+    const std::string tree = compute ? "tree" : "paths";
+    const std::string flat = compute ? "flat" : "paths";
+    EXPECT_EQ(kernel("one-weekend-final", settings), tree + "+spheres");
+    EXPECT_EQ(kernel("next-week-quads", settings), flat + "+quads");
     settings.features = shared::kFeatureAll;
-    EXPECT_EQ(kernel("next-week-quads", settings), "paths+triangles+quads+spheres");
+    EXPECT_EQ(kernel("next-week-quads", settings), flat + "+triangles+quads+spheres");
 }
 
-TEST(GpuEngineTest, FirstHitFeatures) {
+TEST_P(GpuEngineTest, FirstHitFeatures) {
     Render render(settingsFor(1));
     const app::AovImages images = render.engine->renderAovs({true, true, true}, 4);
     ASSERT_EQ(images.albedo.data.size(), std::size_t{kSide} * kSide * 3);

@@ -31,7 +31,7 @@ TEST_F(Gpu, ListsDevices) {
     const Outcome outcome = run("ray-tracing-gpu", {"--list-devices"});
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.out.rfind("0: ", 0), 0u) << outcome.out;
-    EXPECT_NE(outcome.out.find(": suitable\n"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("suitable for pipeline and compute\n"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Gpu, WithoutADriverSaysSo) {
@@ -54,7 +54,7 @@ TEST_F(Gpu, FlagsOfTheOtherEngine) {
 }
 
 TEST_F(Gpu, StatisticsNameWhatWasSkipped) {
-    EXPECT_EQ(gpu({"-o", "a.pfm", "--stats", "s.json", "--replicates", "2"}).exitCode, 0);
+    EXPECT_EQ(gpu({"-o", "a.pfm", "--stats", "s.json", "--replicates", "2", "--engine", "pipeline"}).exitCode, 0);
     const auto stats = jsonOf("s.json");
     EXPECT_EQ(stats["app"], "ray-tracing-gpu");
     EXPECT_EQ(stats["engine"], "pipeline");
@@ -72,9 +72,19 @@ TEST_F(Gpu, StatisticsNameWhatWasSkipped) {
 }
 
 TEST_F(Gpu, TheImageDependsOnNothingButSettings) {
-    const std::string expected = picture({});
-    EXPECT_TRUE(picture({"--engine", "pipeline", "--device", "0", "-v"}) == expected);
-    EXPECT_FALSE(picture({"--seed", "1"}) == expected);
+    for (const char* engine : {"pipeline", "compute"}) {
+        const std::string expected = picture({"--engine", engine});
+        EXPECT_TRUE(picture({"--engine", engine, "--device", "0", "-v"}) == expected) << engine;
+        EXPECT_FALSE(picture({"--engine", engine, "--seed", "1"}) == expected) << engine;
+    }
+}
+
+TEST_F(Gpu, TheStatisticsNameTheEngine) {
+    EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "compute"}).exitCode, 0);
+    EXPECT_EQ(jsonOf("s.json")["engine"], "compute");
+    EXPECT_EQ(jsonOf("s.json")["kernel"], "flat+quads+spheres");
+    EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "auto"}).exitCode, 0);
+    EXPECT_TRUE(jsonOf("s.json")["engine"] == "compute" || jsonOf("s.json")["engine"] == "pipeline");
 }
 
 // Whatever lies where the compiled pipelines are kept.

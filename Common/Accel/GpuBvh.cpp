@@ -1,0 +1,224 @@
+#include "Common/Accel/GpuBvh.h"
+
+#include <algorithm>
+#include <bit>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "Common/Accel/SceneTrees.h"
+#include "Common/Core/Error.h"
+#include "Common/Shared/Shapes.h"
+
+namespace rt::accel {
+namespace {
+
+using shared::vec3;
+using shared::vec4;
+
+static_assert(sizeof(shared::TreeNode) == 64 && sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 48);
+
+// ---- primitives ------------------------------------------------------------------------------------------------------
+
+vec4 sphereVector(const AccelInput& input, std::uint32_t index) {
+    return vec4(input.spheres[index].center, input.spheres[index].radius);
+}
+
+vec4 motionVector(const AccelInput& input, std::uint32_t index) {
+    return vec4(input.motions.empty() ? vec3(0.0f) : input.motions[index], 0.0f);
+}
+
+shared::TreeQuad quadRecord(const AccelInput& input, std::uint32_t index) {
+    const shared::Quad& quad = input.quads[index];
+    const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
+    return {vec4(quad.corner, frame.margin), vec4(frame.normal, std::bit_cast<float>(index)), vec4(frame.dualU, 0.0f),
+            vec4(frame.dualV, 0.0f)};
+}
+
+shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index) {
+    const shared::uvec3 v = input.triangles[index];
+    return {vec4(input.positions[v.x], std::bit_cast<float>(index)), vec4(input.positions[v.y], 0.0f),
+            vec4(input.positions[v.z], 0.0f)};
+}
+
+// ---- lists -----------------------------------------------------------------------------------------------------------
+
+FlatLists makeLists(const AccelInput& input, const shared::Geometry& world) {
+    FlatLists lists;
+    lists.spheres = world.sphereCount;
+    lists.quads = world.quadCount;
+    lists.triangles = world.triangleCount;
+    const auto add = [&](std::initializer_list<vec4> vectors) {
+        lists.vectors.insert(lists.vectors.end(), vectors.begin(), vectors.end());
+    };
+    for (std::uint32_t i = 0; i < world.sphereCount; ++i) {
+        const std::uint32_t index = world.firstSphere + i;
+        add({sphereVector(input, index), vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index))});
+    }
+    for (std::uint32_t i = 0; i < world.quadCount; ++i) {
+        const shared::TreeQuad quad = quadRecord(input, world.firstQuad + i);
+        add({quad.corner, quad.normal, quad.dualU, quad.dualV});
+    }
+    for (std::uint32_t i = 0; i < world.triangleCount; ++i) {
+        const shared::TreeTriangle triangle = triangleRecord(input, world.firstTriangle + i);
+        add({triangle.vertex0, triangle.vertex1, triangle.vertex2});
+    }
+    return lists;
+}
+
+// ---- trees -----------------------------------------------------------------------------------------------------------
+
+class Flattener {
+  public:
+    explicit Flattener(const AccelInput& input)
+        : input_(input), roots_(input.geometries.size(), 0), depths_(input.geometries.size(), 0) {}
+
+    void add(const SceneTree& tree);
+    GpuTrees finish();
+
+  private:
+    std::uint32_t addLeaf(const SceneTree& tree, const BvhNode& leaf);
+    std::uint32_t addNodes(const SceneTree& tree);
+    std::uint32_t depthOf(const SceneTree& tree) const;
+
+    const AccelInput& input_;
+    GpuTrees trees_;
+    std::vector<std::uint32_t> roots_;  // of each geometry
+    std::vector<std::uint32_t> depths_; // of each geometry: references that a traversal of it has to remember
+};
+
+void checkRoom(std::size_t items) {
+    if (items > shared::kTreeItems) {
+        throw RenderError("the scene has more primitives of a kind than the compute engine's tree can hold (" +
+                          std::to_string(shared::kTreeItems) + ")");
+    }
+}
+
+// A leaf's primitives become neighbours in the array of their kind.
+std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
+    const std::span<const std::uint32_t> items = std::span(tree.bvh.items).subspan(leaf.first, leaf.count);
+    const auto append = [&](std::uint32_t kind, auto& array, const auto& make) {
+        const std::size_t first = array.size();
+        for (const std::uint32_t item : items) array.push_back(make(input_, tree.items.index(item)));
+        checkRoom(array.size());
+        return shared::treeLeaf(kind, static_cast<std::uint32_t>(first), leaf.count);
+    };
+    switch (tree.items.kind(items[0])) {
+        case LeafKind::Quad:
+            return append(shared::kQuad, trees_.quads, quadRecord);
+        case LeafKind::Triangle:
+            return append(shared::kTriangle, trees_.triangles, triangleRecord);
+        case LeafKind::Instance:
+            return shared::treeLeaf(shared::kInstanceLeaf, tree.items.index(items[0]), 1);
+        case LeafKind::MovingSphere:
+            append(shared::kSphere, trees_.sphereMotions, motionVector);
+            break;
+        case LeafKind::Sphere:
+            break;
+    }
+    append(shared::kSphere, trees_.sphereIndices, [](const AccelInput&, std::uint32_t index) { return index; });
+    return append(shared::kSphere, trees_.spheres, sphereVector);
+}
+
+void setSlabs(shared::TreeNode& node, int child, const Box& box) {
+    vec4* const axes[3] = {&node.x, &node.y, &node.z};
+    for (int a = 0; a < 3; ++a) {
+        (*axes[a])[2 * child] = box.lower[a];
+        (*axes[a])[2 * child + 1] = box.upper[a];
+    }
+}
+
+// Depth first, so that what is visited together lies together. Returns the root's reference.
+std::uint32_t Flattener::addNodes(const SceneTree& tree) {
+    const std::vector<BvhNode>& nodes = tree.bvh.nodes;
+    if (nodes[0].isLeaf()) return addLeaf(tree, nodes[0]);
+    const auto root = static_cast<std::uint32_t>(trees_.nodes.size());
+    struct Open {
+        std::uint32_t binary, parent;
+        int child;
+    };
+    std::vector<Open> open{{0, 0, 0}};
+    while (!open.empty()) {
+        const Open next = open.back();
+        open.pop_back();
+        const BvhNode& node = nodes[next.binary];
+        const auto index = static_cast<std::uint32_t>(trees_.nodes.size());
+        const std::uint32_t reference = node.isLeaf() ? addLeaf(tree, node) : index;
+        if (next.binary != 0) trees_.nodes[next.parent].children[next.child] = reference;
+        if (node.isLeaf()) continue;
+        shared::TreeNode flat{};
+        setSlabs(flat, 0, nodes[node.first].box);
+        setSlabs(flat, 1, nodes[node.first + 1].box);
+        trees_.nodes.push_back(flat);
+        open.push_back({node.first + 1, index, 1});
+        open.push_back({node.first, index, 0});
+    }
+    return root;
+}
+
+// A traversal remembers one child of every node on its way down, and where it came from when it enters an instance.
+std::uint32_t Flattener::depthOf(const SceneTree& tree) const {
+    const std::vector<BvhNode>& nodes = tree.bvh.nodes;
+    std::vector<std::uint32_t> above(nodes.size(), 0); // inner nodes above each; a child's index is greater than its parent's
+    std::uint32_t deepest = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!nodes[i].isLeaf()) {
+            above[nodes[i].first] = above[nodes[i].first + 1] = above[i] + 1;
+            continue;
+        }
+        std::uint32_t depth = above[i];
+        const std::uint32_t item = tree.bvh.items[nodes[i].first];
+        if (tree.items.kind(item) == LeafKind::Instance) {
+            depth += 1 + depths_[input_.instances[tree.items.index(item)].geometry];
+        }
+        deepest = std::max(deepest, depth);
+    }
+    return deepest;
+}
+
+void Flattener::add(const SceneTree& tree) {
+    roots_[tree.geometry] = addNodes(tree);
+    depths_[tree.geometry] = depthOf(tree);
+}
+
+GpuTrees Flattener::finish() {
+    checkRoom(input_.instances.size());
+    for (const shared::Instance& instance : input_.instances) trees_.instanceRoots.push_back(roots_[instance.geometry]);
+    trees_.root = roots_[0];
+    trees_.depth = depths_[0];
+    return std::move(trees_);
+}
+
+}  // namespace
+
+GpuBvhSettings::GpuBvhSettings() : flatPrimitives(48) {
+    tree.blockSize = 1;
+    tree.maxLeafSize = 4;
+    tree.nodeCost = 1.0f;
+}
+
+std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings, const std::atomic<bool>* cancel) {
+    GpuBvh bvh;
+    const shared::Geometry& world = input.geometries[0];
+    const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
+    const std::uint32_t most = std::min(settings.flatPrimitives, shared::kFlatPrimitives);
+    bvh.isFlat = input.instances.empty() && primitives <= most;
+    if (bvh.isFlat) {
+        bvh.flat = makeLists(input, world);
+        return bvh;
+    }
+    BvhSettings tree = settings.tree;
+    tree.maxLeafSize = std::min(tree.maxLeafSize, shared::kTreeLeafSize);
+    Flattener flattener(input);
+    bool hasWorld = false;
+    const auto add = [&](const SceneTree& built) {
+        flattener.add(built);
+        hasWorld = hasWorld || built.geometry == 0;
+    };
+    if (!buildSceneTrees(input, tree, cancel, nullptr, add)) return std::nullopt;
+    bvh.trees = flattener.finish();
+    bvh.isFlat = !hasWorld; // instances may all be of empty geometries
+    return bvh;
+}
+
+}  // namespace rt::accel

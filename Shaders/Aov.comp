@@ -1,0 +1,11 @@
+// First-hit features through our own tree.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "Traverse.glsl"
+#include "FirstHit.glsl"
+
+layout(local_size_x_id = 8) in;
+
+void main() {
+    writeFeatures(gl_GlobalInvocationID.x);
+}

@@ -1,0 +1,11 @@
+// What pixels cost, through our own tree.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "Traverse.glsl"
+#include "Cost.glsl"
+
+layout(local_size_x_id = 8) in;
+
+void main() {
+    writeCost(gl_GlobalInvocationID.x);
+}

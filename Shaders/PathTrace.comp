@@ -1,0 +1,11 @@
+// Paths through our own tree, for devices whose ray tracing pipeline is missing or slower.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "Traverse.glsl"
+#include "PathLoop.glsl"
+
+layout(local_size_x_id = 8) in;
+
+void main() {
+    tracePaths(gl_GlobalInvocationID.x);
+}

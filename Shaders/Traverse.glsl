@@ -1,0 +1,265 @@
+// Traverses what Common/Accel/GpuBvh builds. One routine answers both questions, what a ray hits first and whether it hits
+// anything, because lanes of a group ask both at a time.
+#include "Bindings.glsl"
+#include "Common/Shared/Media.h"
+#include "Common/Shared/Shapes.h"
+
+layout(constant_id = 9) const uint kTreeDepth = 0u; // references that a traversal has to remember
+layout(constant_id = 10) const uint kIsFlat = 1u;   // there are the lists instead of a tree
+layout(constant_id = 11) const uint kFlatSpheres = 0u;
+layout(constant_id = 12) const uint kFlatQuads = 0u;
+layout(constant_id = 13) const uint kFlatTriangles = 0u;
+
+layout(set = 0, binding = 2, scalar) uniform FlatLists { vec4 flatVectors[kFlatVectors]; };
+
+// ---- shapes ----------------------------------------------------------------------------------------------------------
+
+// A ray with what the tests of shapes derive from it.
+struct TracedRay {
+    Ray ray;
+    float inverseSquaredLength; // of its direction
+    float rayLength;
+    TriangleRay triangleRay;
+};
+
+TracedRay makeTracedRay(Ray ray, bool isUnit) {
+    TracedRay r;
+    r.ray = ray;
+    float squared = isUnit ? 1.0f : dot(ray.direction, ray.direction);
+    r.inverseSquaredLength = 1.0f / squared;
+    r.rayLength = sqrt(squared);
+    if (has(kFeatures, kFeatureTriangles)) r.triangleRay = makeTriangleRay(ray.direction);
+    return r;
+}
+
+float testSphere(TracedRay r, vec4 sphere, vec3 motion, float tMax) {
+    vec3 center = sphere.xyz;
+    if (has(kFeatures, kFeatureMovingSpheres)) center = sphereCenter(center, motion, r.ray.time);
+    return intersectSphere(r.ray, r.inverseSquaredLength, center, sphere.w, tMax);
+}
+
+ShapeHit testQuad(TracedRay r, vec4 corner, vec4 normal, vec4 dualU, vec4 dualV, float tMax) {
+    QuadFrame frame;
+    frame.normal = normal.xyz;
+    frame.dualU = dualU.xyz;
+    frame.dualV = dualV.xyz;
+    frame.margin = corner.w;
+    return intersectQuad(r.ray, r.rayLength, corner.xyz, frame, tMax);
+}
+
+ShapeHit testTriangle(TracedRay r, vec4 vertex0, vec4 vertex1, vec4 vertex2, float tMax) {
+    return intersectTriangle(r.ray.origin, r.triangleRay, vertex0.xyz, vertex1.xyz, vertex2.xyz, tMax);
+}
+
+// The nearest hit so far.
+struct Nearest {
+    float t;
+    uint kind;
+    uint place; // in the array of its kind, or the primitive itself; kNone: nothing was hit
+    float u;
+    float v;
+};
+
+void accept(inout Nearest nearest, ShapeHit hit, uint kind, uint place) {
+    if (!(hit.t > 0.0f)) return;
+    nearest.t = hit.t;
+    nearest.kind = kind;
+    nearest.place = place;
+    nearest.u = hit.u;
+    nearest.v = hit.v;
+}
+
+void acceptSphere(inout Nearest nearest, float t, uint place) {
+    if (!(t > 0.0f)) return;
+    nearest.t = t;
+    nearest.kind = kSphere;
+    nearest.place = place;
+}
+
+Nearest nothingWithin(float tMax) {
+    Nearest nearest;
+    nearest.t = tMax;
+    nearest.kind = kSphere;
+    nearest.place = kNone;
+    nearest.u = 0.0f;
+    nearest.v = 0.0f;
+    return nearest;
+}
+
+// ---- lists -----------------------------------------------------------------------------------------------------------
+
+// Every primitive is tested, by all lanes together and without a branch that depends on one.
+Hit traceFlat(Ray ray, float tMax) {
+    TracedRay r = makeTracedRay(ray, true);
+    Nearest nearest = nothingWithin(tMax);
+    if (has(kFeatures, kFeatureSpheres)) {
+        for (uint i = 0u; i < kFlatSpheres; i++) {
+            vec4 motion = flatVectors[2u * i + 1u];
+            float t = testSphere(r, flatVectors[2u * i], motion.xyz, nearest.t);
+            acceptSphere(nearest, t, floatBitsToUint(motion.w));
+        }
+    }
+    if (has(kFeatures, kFeatureQuads)) {
+        for (uint i = 0u; i < kFlatQuads; i++) {
+            uint at = 2u * kFlatSpheres + 4u * i;
+            vec4 normal = flatVectors[at + 1u];
+            ShapeHit hit = testQuad(r, flatVectors[at], normal, flatVectors[at + 2u], flatVectors[at + 3u], nearest.t);
+            accept(nearest, hit, kQuad, floatBitsToUint(normal.w));
+        }
+    }
+    if (has(kFeatures, kFeatureTriangles)) {
+        for (uint i = 0u; i < kFlatTriangles; i++) {
+            uint at = 2u * kFlatSpheres + 4u * kFlatQuads + 3u * i;
+            vec4 vertex = flatVectors[at];
+            ShapeHit hit = testTriangle(r, vertex, flatVectors[at + 1u], flatVectors[at + 2u], nearest.t);
+            accept(nearest, hit, kTriangle, floatBitsToUint(vertex.w));
+        }
+    }
+    Hit hit;
+    hit.t = nearest.place == kNone ? -1.0f : nearest.t;
+    hit.kind = nearest.kind;
+    hit.primitive = nearest.place;
+    hit.instance = kNone;
+    hit.u = nearest.u;
+    hit.v = nearest.v;
+    return hit;
+}
+
+// ---- nodes -----------------------------------------------------------------------------------------------------------
+
+// Below this a direction counts as parallel to a slab: its reciprocal stays finite, and no product with it is not a number.
+const float kParallel = 1.0e-20f;
+
+// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in: Ize,
+// "Robust BVH Ray Traversal", JCGT 2(2), 2013.
+const float kSlabMargin = 1.0f + 16.0f * kEpsilon;
+
+float slabInverse(float d) {
+    return 1.0f / (abs(d) < kParallel ? (d < 0.0f ? -kParallel : kParallel) : d);
+}
+
+vec3 slabInverse(vec3 d) {
+    return vec3(slabInverse(d.x), slabInverse(d.y), slabInverse(d.z));
+}
+
+// Where the ray is between lower and upper bound, of both children.
+void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout vec2 leave) {
+    vec4 t = (slab - origin) * inverse;
+    entry = max(entry, min(t.xz, t.yw));
+    leave = min(leave, max(t.xz, t.yw));
+}
+
+// ---- trees -----------------------------------------------------------------------------------------------------------
+
+void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
+    uint first = treeLeafFirst(leaf);
+    uint end = first + treeLeafCount(leaf);
+    uint kind = treeLeafKind(leaf);
+    if (has(kFeatures, kFeatureTriangles) && kind == kTriangle) {
+        for (uint i = first; i < end; i++) {
+            TreeTriangle triangle = constants.tree.triangles.at[i];
+            ShapeHit hit = testTriangle(r, triangle.vertex0, triangle.vertex1, triangle.vertex2, nearest.t);
+            accept(nearest, hit, kTriangle, i);
+        }
+    } else if (has(kFeatures, kFeatureQuads) && kind == kQuad) {
+        for (uint i = first; i < end; i++) {
+            TreeQuad quad = constants.tree.quads.at[i];
+            accept(nearest, testQuad(r, quad.corner, quad.normal, quad.dualU, quad.dualV, nearest.t), kQuad, i);
+        }
+    } else if (has(kFeatures, kFeatureSpheres) && kind == kSphere) {
+        for (uint i = first; i < end; i++) {
+            vec3 motion = vec3(0.0f);
+            if (has(kFeatures, kFeatureMovingSpheres)) motion = constants.tree.sphereMotions.at[i].xyz;
+            acceptSphere(nearest, testSphere(r, constants.tree.spheres.at[i], motion, nearest.t), i);
+        }
+    }
+}
+
+uint primitiveAt(uint kind, uint place) {
+    if (has(kFeatures, kFeatureTriangles) && kind == kTriangle) {
+        return floatBitsToUint(constants.tree.triangles.at[place].vertex0.w);
+    }
+    if (has(kFeatures, kFeatureQuads) && kind == kQuad) return floatBitsToUint(constants.tree.quads.at[place].normal.w);
+    return constants.tree.sphereIndices.at[place];
+}
+
+Ray toObject(uint index, Ray ray) {
+    vec4 row0 = constants.arrays.instances.at[index].toObject[0];
+    vec4 row1 = constants.arrays.instances.at[index].toObject[1];
+    vec4 row2 = constants.arrays.instances.at[index].toObject[2];
+    Ray local = ray;
+    local.origin = transformPoint(row0, row1, row2, ray.origin);
+    local.direction = transformVector(row0, row1, row2, ray.direction);
+    return local;
+}
+
+// The nearer child first; the other waits on the stack. Instances are followed one level down: what lies on the stack above
+// kTreeReturn is in their space.
+Hit traceTree(Ray ray, bool anyHit, float tMax) {
+    uint stack[kTreeDepth + 1u];
+    uint size = 0u;
+    uint current = constants.tree.root;
+    uint instance = kNone;
+    uint hitInstance = kNone;
+    TracedRay r = makeTracedRay(ray, true);
+    vec3 inverse = slabInverse(ray.direction);
+    Nearest nearest = nothingWithin(tMax);
+    for (;;) {
+        if ((current & kTreeLeaf) == 0u) {
+            TreeNode node = constants.tree.nodes.at[current];
+            vec2 entry = vec2(0.0f);
+            vec2 leave = vec2(nearest.t);
+            clipSlab(node.x, r.ray.origin.x, inverse.x, entry, leave);
+            clipSlab(node.y, r.ray.origin.y, inverse.y, entry, leave);
+            clipSlab(node.z, r.ray.origin.z, inverse.z, entry, leave);
+            leave *= kSlabMargin;
+            bool enters0 = entry.x <= leave.x;
+            bool enters1 = entry.y <= leave.y;
+            if (enters0 || enters1) {
+                bool second = !enters0 || (enters1 && entry.y < entry.x);
+                current = second ? node.children.y : node.children.x;
+                if (enters0 && enters1) stack[size++] = second ? node.children.x : node.children.y;
+                continue;
+            }
+        } else if (has(kFeatures, kFeatureInstances) && treeLeafKind(current) == kInstanceLeaf) {
+            instance = treeLeafFirst(current);
+            stack[size++] = kTreeReturn;
+            r = makeTracedRay(toObject(instance, ray), false);
+            inverse = slabInverse(r.ray.direction);
+            current = constants.tree.instanceRoots.at[instance];
+            continue;
+        } else {
+            float before = nearest.t;
+            testLeaf(r, current, nearest);
+            if (has(kFeatures, kFeatureInstances) && nearest.t < before) hitInstance = instance;
+            if (anyHit && nearest.place != kNone) break;
+        }
+        if (size == 0u) break;
+        current = stack[--size];
+        if (has(kFeatures, kFeatureInstances) && current == kTreeReturn) {
+            instance = kNone;
+            r = makeTracedRay(ray, true);
+            inverse = slabInverse(ray.direction);
+            if (size == 0u) break;
+            current = stack[--size];
+        }
+    }
+    Hit hit;
+    hit.t = -1.0f;
+    hit.kind = nearest.kind;
+    hit.primitive = kNone;
+    hit.instance = hitInstance;
+    hit.u = nearest.u;
+    hit.v = nearest.v;
+    if (nearest.place == kNone) return hit;
+    hit.t = nearest.t;
+    if (!anyHit) hit.primitive = primitiveAt(nearest.kind, nearest.place);
+    return hit;
+}
+
+// What the ray, of unit direction, meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then only the
+// sign of t tells anything. A negative t if there is nothing.
+Hit traceRay(Ray ray, bool anyHit, float tMax) {
+    if (kIsFlat != 0u) return traceFlat(ray, tMax);
+    return traceTree(ray, anyHit, tMax);
+}
