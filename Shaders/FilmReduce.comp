@@ -10,29 +10,19 @@ layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
 // s + x. Knuth's exact sum, renormalised; then the low word is rounded to 53 bits below the leading bit of the high one, so
 // that a double holds both.
-void add(inout float high, inout float low, float x) {
-    precise float sum = high + x;
-    precise float virtual_ = sum - high;
-    precise float error = (high - (sum - virtual_)) + (x - virtual_);
-    precise float rest = low + error;
-    precise float newHigh = sum + rest;
-    precise float newLow = rest - (newHigh - sum);
-    float scale = uintBitsToFloat(floatBitsToUint(newHigh) & 0x7f800000u); // power of two below |high|
-    precise float grid = scale * 2.7939677e-9f;                            // 1.5 * 2^-29
-    precise float shifted = newLow + grid;
-    precise float rounded = shifted - grid;
-    high = newHigh;
-    low = rounded;
-}
-
 void add(inout FilmSum s, vec3 x) {
-    for (int c = 0; c < 3; c++) {
-        float high = s.high[c];
-        float low = s.low[c];
-        add(high, low, x[c]);
-        s.high[c] = high;
-        s.low[c] = low;
-    }
+    precise vec3 sum = s.high + x;
+    precise vec3 virtual_ = sum - s.high;
+    precise vec3 error = (s.high - (sum - virtual_)) + (x - virtual_);
+    precise vec3 rest = s.low + error;
+    precise vec3 newHigh = sum + rest;
+    precise vec3 newLow = rest - (newHigh - sum);
+    vec3 scale = uintBitsToFloat(floatBitsToUint(newHigh) & 0x7f800000u); // power of two below |high|
+    precise vec3 grid = scale * 2.7939677e-9f;                            // 1.5 * 2^-29
+    precise vec3 shifted = newLow + grid;
+    precise vec3 rounded = shifted - grid;
+    s.high = newHigh;
+    s.low = rounded;
 }
 
 void main() {

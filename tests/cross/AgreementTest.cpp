@@ -148,10 +148,13 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest,
                          sceneName);
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
-TEST(SupersetTest, SampleForSample) {
+class SupersetTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, SupersetTest, kBothEngines, engineName);
+
+TEST_P(SupersetTest, SampleForSample) {
     for (const char* id : {"cornell-box-lights", "one-weekend-final", "furnace-mixed"}) {
         const auto scene = app::compile(app::loadScene(id), true);
-        const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false});
+        const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});
         engine->setScene(scene, nullptr);
         Pair images[2]; // at 1 and at 16 samples
         for (const bool all : {false, true}) {

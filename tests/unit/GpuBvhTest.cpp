@@ -1,0 +1,229 @@
+// The tree of the compute engine: complete, its boxes hold what is below them, and its depth is what a traversal needs.
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/Accel/GpuBvh.h"
+#include "Common/Accel/PrimitiveBoxes.h"
+#include "tests/unit/AccelScene.h"
+
+namespace rt::accel {
+namespace {
+
+using testing::Geometry;
+using testing::Random;
+
+GpuBvhSettings alwaysTrees() {
+    GpuBvhSettings settings;
+    settings.flatPrimitives = 0;
+    return settings;
+}
+
+// Walks all that can be reached from a reference, counting visits and checking boxes.
+class Walk {
+  public:
+    Walk(const AccelInput& input, const GpuTrees& trees) : input_(input), trees_(trees) {
+        spheres.resize(input.spheres.size());
+        quads.resize(input.quads.size());
+        triangles.resize(input.triangles.size());
+        instances.resize(input.instances.size());
+        Box everything;
+        everything.lower = shared::vec3(-shared::kInfinity);
+        everything.upper = shared::vec3(shared::kInfinity);
+        visit(trees.root, everything, 0, true);
+    }
+
+    std::vector<int> spheres, quads, triangles, instances; // how often each was met
+    std::uint32_t depth = 0;
+
+  private:
+    static bool contains(const Box& outer, const Box& inner) {
+        for (int a = 0; a < 3; ++a) {
+            if (!(outer.lower[a] <= inner.lower[a] && inner.upper[a] <= outer.upper[a])) return false;
+        }
+        return true;
+    }
+    static Box childBox(const shared::TreeNode& node, int child) {
+        Box box;
+        box.lower = {node.x[2 * child], node.y[2 * child], node.z[2 * child]};
+        box.upper = {node.x[2 * child + 1], node.y[2 * child + 1], node.z[2 * child + 1]};
+        return box;
+    }
+
+    // What is found in instances counts, but its boxes are of another space than the world's.
+    void visit(std::uint32_t reference, const Box& box, std::uint32_t above, bool world) {
+        depth = std::max(depth, above);
+        if ((reference & shared::kTreeLeaf) == 0) {
+            ASSERT_LT(reference, trees_.nodes.size());
+            const shared::TreeNode& node = trees_.nodes[reference];
+            for (int child = 0; child < 2; ++child) {
+                const Box inner = childBox(node, child);
+                EXPECT_TRUE(contains(box, inner));
+                visit(node.children[child], inner, above + 1, world);
+            }
+            return;
+        }
+        const std::uint32_t first = shared::treeLeafFirst(reference);
+        for (std::uint32_t i = first; i < first + shared::treeLeafCount(reference); ++i) {
+            visitItem(shared::treeLeafKind(reference), i, box, above, world);
+        }
+    }
+
+    void visitItem(std::uint32_t kind, std::uint32_t i, const Box& box, std::uint32_t above, bool world) {
+        if (kind == shared::kSphere) {
+            const std::uint32_t index = trees_.sphereIndices.at(i);
+            const shared::vec3 motion = trees_.sphereMotions.empty() ? shared::vec3(0.0f) : shared::vec3(trees_.sphereMotions[i]);
+            const shared::vec4 sphere = trees_.spheres.at(i);
+            EXPECT_EQ(shared::vec3(sphere), input_.spheres[index].center);
+            EXPECT_EQ(sphere.w, input_.spheres[index].radius);
+            if (!input_.motions.empty()) {
+                EXPECT_EQ(motion, input_.motions[index]);
+            }
+            EXPECT_TRUE(contains(box, boxOf(input_.spheres[index], motion)));
+            ++spheres[index];
+        } else if (kind == shared::kQuad) {
+            const std::uint32_t index = std::bit_cast<std::uint32_t>(trees_.quads.at(i).normal.w);
+            EXPECT_EQ(shared::vec3(trees_.quads[i].corner), input_.quads[index].corner);
+            EXPECT_TRUE(contains(box, boxOf(input_.quads[index])));
+            ++quads[index];
+        } else if (kind == shared::kTriangle) {
+            const shared::TreeTriangle& t = trees_.triangles.at(i);
+            const std::uint32_t index = std::bit_cast<std::uint32_t>(t.vertex0.w);
+            EXPECT_EQ(shared::vec3(t.vertex2), input_.positions[input_.triangles[index].z]);
+            EXPECT_TRUE(contains(box, boxOf(shared::vec3(t.vertex0), shared::vec3(t.vertex1), shared::vec3(t.vertex2))));
+            ++triangles[index];
+        } else {
+            ASSERT_TRUE(world) << "instances are one level deep";
+            ++instances.at(i);
+            Box everything;
+            everything.lower = shared::vec3(-shared::kInfinity);
+            everything.upper = shared::vec3(shared::kInfinity);
+            visit(trees_.instanceRoots.at(i), everything, above + 1, false);
+        }
+    }
+
+    const AccelInput& input_;
+    const GpuTrees& trees_;
+};
+
+// `count` primitives, all kinds in turn.
+Geometry mixture(std::size_t count, std::uint32_t seed) {
+    Geometry geometry;
+    Random random(seed);
+    for (std::size_t i = 0; i < count; ++i) {
+        const shared::vec3 at = random.inCube(10.0f);
+        if (i % 3 == 0) geometry.addSphere(at, random.uniform(0.01f, 0.3f));
+        if (i % 3 == 1) geometry.addQuad(at, random.inCube(0.4f), random.inCube(0.4f));
+        if (i % 3 == 2) geometry.addTriangle(at, at + random.inCube(0.4f), at + random.inCube(0.4f));
+    }
+    return geometry;
+}
+
+bool allMet(const std::vector<int>& visits, int times) {
+    return std::all_of(visits.begin(), visits.end(), [times](int n) { return n == times; });
+}
+
+void expectComplete(const AccelInput& input, const GpuBvh& bvh) {
+    ASSERT_FALSE(bvh.isFlat);
+    const Walk walk(input, bvh.trees);
+    EXPECT_TRUE(allMet(walk.spheres, 1));
+    EXPECT_TRUE(allMet(walk.quads, 1));
+    EXPECT_TRUE(allMet(walk.triangles, 1));
+    EXPECT_EQ(walk.depth, bvh.trees.depth);
+}
+
+TEST(GpuBvh, HoldsEveryPrimitiveOnce) {
+    for (const std::size_t count : {1u, 2u, 3u, 5u, 64u, 1000u, 100000u}) {
+        Geometry geometry = mixture(count, 7);
+        const AccelInput input = geometry.input();
+        expectComplete(input, *buildGpuBvh(input, alwaysTrees()));
+    }
+}
+
+TEST(GpuBvh, HoldsSpheresOverTheirWholeMotion) {
+    Geometry geometry = mixture(300, 3);
+    Random random(5);
+    for (std::size_t i = 0; i < geometry.spheres.size(); ++i) geometry.motions.push_back(random.inCube(2.0f));
+    const AccelInput input = geometry.input();
+    const GpuBvh bvh = *buildGpuBvh(input, alwaysTrees());
+    EXPECT_EQ(bvh.trees.sphereMotions.size(), bvh.trees.spheres.size());
+    expectComplete(input, bvh);
+}
+
+TEST(GpuBvh, OfPrimitivesInOnePlace) {
+    Geometry geometry;
+    for (int i = 0; i < 1000; ++i) geometry.addSphere(shared::vec3(1.0f, 2.0f, 3.0f), 1.0f);
+    const AccelInput input = geometry.input();
+    expectComplete(input, *buildGpuBvh(input, alwaysTrees()));
+}
+
+TEST(GpuBvh, SmallScenesAreLists) {
+    Geometry geometry = mixture(20, 11);
+    const GpuBvh bvh = *buildGpuBvh(geometry.input());
+    ASSERT_TRUE(bvh.isFlat);
+    EXPECT_EQ(bvh.flat.spheres, geometry.spheres.size());
+    EXPECT_EQ(bvh.flat.quads, geometry.quads.size());
+    EXPECT_EQ(bvh.flat.triangles, geometry.triangles.size());
+    ASSERT_EQ(bvh.flat.vectors.size(), 2 * geometry.spheres.size() + 4 * geometry.quads.size() + 3 * geometry.triangles.size());
+    const std::size_t quad = 2 * geometry.spheres.size() + 4; // the second one
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.flat.vectors[quad + 1].w), 1u);
+    EXPECT_EQ(shared::vec3(bvh.flat.vectors[quad]), geometry.quads[1].corner);
+    EXPECT_FALSE(buildGpuBvh(mixture(shared::kFlatPrimitives + 1, 11).input())->isFlat);
+}
+
+TEST(GpuBvh, OfNothingIsAnEmptyList) {
+    Geometry geometry;
+    const GpuBvh bvh = *buildGpuBvh(geometry.input(), alwaysTrees());
+    EXPECT_TRUE(bvh.isFlat);
+    EXPECT_TRUE(bvh.flat.vectors.empty());
+}
+
+shared::Instance placedAt(std::uint32_t geometry, shared::vec3 at) {
+    shared::Instance instance{};
+    for (int row = 0; row < 3; ++row) {
+        instance.toWorld[row] = instance.toObject[row] = shared::vec4(0.0f);
+        instance.toWorld[row][row] = instance.toObject[row][row] = 1.0f;
+        instance.toWorld[row].w = at[row];
+        instance.toObject[row].w = -at[row];
+    }
+    instance.geometry = geometry;
+    instance.material = shared::kNone;
+    return instance;
+}
+
+TEST(GpuBvh, FollowsInstances) {
+    Geometry geometry = mixture(90, 13);
+    // The world has the first of each kind; an object the others; one object is empty.
+    geometry.geometries = {{0, 1, 0, 1, 0, 1}, {1, 29, 1, 29, 1, 29}, {0, 0, 0, 0, 0, 0}};
+    for (int i = 0; i < 7; ++i) geometry.instances.push_back(placedAt(i == 3 ? 2 : 1, shared::vec3(30.0f * static_cast<float>(i))));
+    const AccelInput input = geometry.input();
+    const GpuBvh bvh = *buildGpuBvh(input);
+    ASSERT_FALSE(bvh.isFlat); // however few primitives there are
+    const Walk walk(input, bvh.trees);
+    EXPECT_EQ(walk.depth, bvh.trees.depth);
+    for (std::size_t i = 0; i < walk.instances.size(); ++i) EXPECT_EQ(walk.instances[i], i == 3 ? 0 : 1);
+    EXPECT_EQ(walk.spheres[0], 1);
+    EXPECT_TRUE(allMet({walk.spheres.begin() + 1, walk.spheres.end()}, 6));
+    EXPECT_TRUE(allMet({walk.quads.begin() + 1, walk.quads.end()}, 6));
+    EXPECT_TRUE(allMet({walk.triangles.begin() + 1, walk.triangles.end()}, 6));
+}
+
+TEST(GpuBvh, OfInstancesOfNothingIsAnEmptyList) {
+    Geometry geometry;
+    geometry.geometries = {{}, {}};
+    geometry.instances = {placedAt(1, shared::vec3(0.0f))};
+    const GpuBvh bvh = *buildGpuBvh(geometry.input());
+    EXPECT_TRUE(bvh.isFlat);
+    EXPECT_EQ(bvh.flat.spheres + bvh.flat.quads + bvh.flat.triangles, 0u);
+}
+
+TEST(GpuBvh, CanBeCancelled) {
+    Geometry geometry = mixture(5000, 17);
+    const std::atomic<bool> cancel{true};
+    EXPECT_FALSE(buildGpuBvh(geometry.input(), {}, &cancel).has_value());
+}
+
+} // namespace
+} // namespace rt::accel
