@@ -226,6 +226,10 @@ void App::takeState() {
         pictureSerial_ = state.picture.serial;
         presenter_.setPicture(state.picture.image);
     }
+    if (!options_.reference.empty() && state.picture.spp > 0) { // there is something to compare with
+        session_.loadReference(options_.reference);
+        options_.reference.clear();
+    }
     if (state.errorSerial != errorSerial_) {
         errorSerial_ = state.errorSerial;
         gui_.say(state.error, true);

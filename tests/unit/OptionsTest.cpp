@@ -226,6 +226,7 @@ TEST_F(OptionsTest, AWindowIsTheDefaultUnlessAFileOrALimitIsAskedFor) {
     EXPECT_TRUE(window({"-o", "a.png", "--window"}));
     EXPECT_TRUE(window({"--time-limit", "1", "--window"}));
     EXPECT_THROW(window({"--resume", "a.rtc"}), UsageError);
+    EXPECT_THROW(window({"--stats", "-", "--window"}), UsageError);
     EXPECT_THROW(window({"--target-error", "1", "--window"}), UsageError);
 }
 
