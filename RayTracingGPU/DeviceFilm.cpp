@@ -172,13 +172,15 @@ std::uint64_t DeviceFilm::leastSamples() const {
     return least;
 }
 
-std::uint64_t DeviceFilm::advance(const shared::FilmLaunch& launch) {
-    std::uint64_t added = 0;
+DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
+    Work added;
     for (std::uint32_t slot = launch.firstSlot; slot < launch.firstSlot + launch.slotCount; ++slot) {
         const std::uint32_t end = shared::replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
         const std::uint32_t reached = shared::blockRange(samples_[slot], launch.blocks - 1, end).y;
         if (reached <= samples_[slot]) continue;
-        added += std::uint64_t{reached - samples_[slot]} * pixelsInside(slot);
+        const std::uint32_t pixels = pixelsInside(slot);
+        added.samples += std::uint64_t{reached - samples_[slot]} * pixels;
+        added.items += std::uint64_t{(reached - 1) / shared::kBlock - samples_[slot] / shared::kBlock + 1} * pixels;
         samples_[slot] = reached;
     }
     return added;

@@ -32,8 +32,12 @@ class DeviceFilm {
     std::uint64_t leastSamples() const; // of any pixel, all replicates
     // Fills in what a launch needs to know of the film.
     void describe(shared::FilmLaunch& launch) const;
-    // To be called after a launch: what it added, in samples of pixels inside of the image.
-    std::uint64_t advance(const shared::FilmLaunch& launch);
+    // To be called after a launch: what it added, of pixels inside of the image.
+    struct Work {
+        std::uint64_t samples = 0;
+        std::uint64_t items = 0; // a pixel and a block each
+    };
+    Work advance(const shared::FilmLaunch& launch);
 
   private:
     void clear();

@@ -112,7 +112,7 @@ class GpuEngine final : public app::Engine {
     Film film_;                          // the whole film, on the host
     std::unique_ptr<DeviceFilm> region_; // the part that is being rendered: all of it unless it is large
     bool dirty_ = false;                 // region_ is ahead of film_
-    bool failed_ = false;                // the device did: nothing can be read from it any more
+    bool failed_ = false;                // the device did: nothing may be read from it any more
     Clock::time_point refreshed_;
     std::uint64_t samplesDone_ = 0;
     bool inPass_ = false;
@@ -277,17 +277,25 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
         vulkan::barrier(commands);
     });
     dirty_ = true;
-    const std::uint64_t samples = region_->advance(launch);
-    samplesDone_ += samples;
-    launchSize_->measured(samples, seconds);
+    const DeviceFilm::Work added = region_->advance(launch);
+    samplesDone_ += added.samples;
+    launchSize_->measured(added.samples, seconds);
 
     report_.renderDeviceSeconds += seconds;
-    report_.rays.camera += samples;
+    report_.rays.camera += added.samples;
+    std::uint64_t finished = 0;
     const std::span<const std::uint32_t> counters = countersOnHost_.mapped<const std::uint32_t>();
     for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
         report_.rays.scattered += counters[line + shared::kCounterScattered];
         report_.rays.shadow += counters[line + shared::kCounterShadow];
         report_.nonfiniteSamples += counters[line + shared::kCounterNonfinite];
+        finished += counters[line + shared::kCounterItems];
+    }
+    // Drivers have been seen that end long loops early.
+    if (finished != added.items) {
+        failed_ = true; // what is on the device is not a film
+        throw RenderError(context_.info().name + " ended a shader before its work was done (" + std::to_string(finished) +
+                          " of " + std::to_string(added.items) + " items); a newer driver may help");
     }
 }
 

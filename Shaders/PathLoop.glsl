@@ -57,6 +57,7 @@ void tracePaths(uint invocation) {
     SceneRef scene;
     scene.unused = 0u;
     RenderParams params = renderParams();
+    uint line = invocation % kCounterLines * kCounters;
     uint scattered = 0u;
     uint shadow = 0u;
     uint nonfinite = 0u;
@@ -87,11 +88,11 @@ void tracePaths(uint invocation) {
         }
         if (++work.smp.index == work.end) {
             launch.blockSums.at[work.item] = work.sum;
+            atomicAdd(launch.counters.at[line + kCounterItems], 1u);
             working = takeWork(work);
         }
         path = beginPath(params, work);
     }
-    uint line = invocation % kCounterLines * kCounters;
     atomicAdd(launch.counters.at[line + kCounterScattered], scattered);
     atomicAdd(launch.counters.at[line + kCounterShadow], shadow);
     if (nonfinite != 0u) atomicAdd(launch.counters.at[line + kCounterNonfinite], nonfinite);

@@ -144,6 +144,7 @@ const uint kCounterWork = 0u;      // of line 0: items handed out
 const uint kCounterScattered = 1u; // rays
 const uint kCounterShadow = 2u;
 const uint kCounterNonfinite = 3u; // samples that were dropped
+const uint kCounterItems = 4u;     // that were finished
 const uint kCounters = 8u;
 const uint kCounterLines = 64u;
 

@@ -95,6 +95,11 @@ DeviceInfo describe(VkPhysicalDevice device) {
     info.missing = missingFeatures(device);
     info.missingForPipeline = missingForPipeline(device, extensions);
     info.rayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
+    if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
+        // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not with
+        // 25.0.7. Its version number does not tell them apart.
+        addMissing(info.missing, "loops of any length (Mesa 25.0 has them)");
+    }
     const std::optional<std::uint32_t> family = findQueueFamily(device);
     if (!family) addMissing(info.missing, "a compute queue");
     info.queueFamily = family.value_or(0);
@@ -185,9 +190,9 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices) {
         text += std::to_string(i) + ": " + device.name + " (" + kindName(device.type) + ", " + device.driver +
                 ", Vulkan " + device.version + "): ";
         if (device.tracesRays()) {
-            text += "suitable for pipeline and compute\n";
+            text += "pipeline, compute: suitable\n";
         } else if (device.suitable()) {
-            text += "suitable for compute; for pipeline it lacks " + device.missingForPipeline + "\n";
+            text += "compute only; pipeline lacks " + device.missingForPipeline + "\n";
         } else {
             text += "unsuitable, lacks " + device.missing + "\n";
         }
