@@ -9,9 +9,11 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
+#include <PathTrace.Projected.comp.h>
 #include <PathTrace.comp.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
+#include <RayTracing.Projected.rgen.h>
 #include <RayTracing.Quad.rchit.h>
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>
@@ -24,9 +26,11 @@ namespace rt::gpu {
 std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
         case Shader::PathCompute: return PathTrace_comp;
+        case Shader::ProjectedPathCompute: return PathTrace_Projected_comp;
         case Shader::AovCompute: return Aov_comp;
         case Shader::CostCompute: return Cost_comp;
         case Shader::RayGeneration: return RayTracing_rgen;
+        case Shader::ProjectedRayGeneration: return RayTracing_Projected_rgen;
         case Shader::AovGeneration: return Aov_rgen;
         case Shader::CostGeneration: return Cost_rgen;
         case Shader::Miss: return RayTracing_rmiss;

@@ -7,9 +7,11 @@ namespace rt::gpu {
 
 enum class Shader {
     PathCompute,
+    ProjectedPathCompute,
     AovCompute,
     CostCompute,
     RayGeneration,
+    ProjectedRayGeneration,
     AovGeneration,
     CostGeneration,
     Miss,

@@ -5,9 +5,10 @@
 
 namespace rt::gpu {
 
-// Whether compute shaders outrun the device's ray tracing pipelines. Hardware that traces rays also answers ray queries from
-// any shader; a device with pipelines alone (data-centre GPUs), and one that is the processor itself, run their driver's
-// traversal as a program like ours, with the cost of shader calls on top. Measured on an H200: 2.5 to 7 times.
+// Whether compute shaders serve better than the device's ray tracing pipelines: on a device that is the processor itself, where
+// both are programs, but one of them pays for shader calls. On a GPU without hardware for rays (an NVIDIA H200) they were
+// measured to be 2 to 3 times as fast too, but its driver takes from ten seconds to minutes to compile them, so that there
+// they are only for those who ask for them.
 bool computeIsFaster(const vulkan::DeviceInfo& device);
 
 // `wish`, or for Auto what is there and faster. Throws NoDeviceError when the device has no pipeline and one is wished for.

@@ -143,7 +143,9 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (!kernel_ || kernelKey_ != key) {
         const Clock::time_point start = Clock::now();
         kernel_ = nullptr;
-        kernel_ = makeKernel(key, Shader::PathCompute, Shader::RayGeneration);
+        const bool projected = shared::has(features_, shared::kFeatureProjected);
+        kernel_ = projected ? makeKernel(key, Shader::ProjectedPathCompute, Shader::ProjectedRayGeneration)
+                            : makeKernel(key, Shader::PathCompute, Shader::RayGeneration);
         kernelKey_ = key;
         cache_.save();
         report_.pipelineSeconds = secondsSince(start);

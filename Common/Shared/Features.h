@@ -37,6 +37,14 @@ const uint kFeatureProjected = 1u << 26u;  // a setting: lights by projected sol
 const uint kFeatureBits = 27u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 
+// Whether the samplers by projected solid angle are compiled at all. They are as long as all other light sampling, and drivers
+// take seconds over code that a specialization constant leaves unused, so a shader that can need them says so: RT_PROJECTED.
+#ifdef RT_PROJECTED
+const bool kProjectedCompiled = true;
+#else
+const bool kProjectedCompiled = false;
+#endif
+
 RT_FN bool has(uint features, uint bits) {
     return (features & bits) != 0u;
 }

@@ -54,7 +54,7 @@ const float kTinyExtent = 1.0e-3f;
 // ---- regimes --------------------------------------------------------------------------------------------------------
 
 RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
-    return has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
+    return kProjectedCompiled && has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
 }
 
 RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter,
@@ -136,6 +136,7 @@ RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
 
 RT_CALL LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
                                           vec2 u) {
+#ifdef RT_PROJECTED
     LightSample s = noLightSample();
     ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
     if (cap.kind == kCapHidden) return s;
@@ -146,11 +147,18 @@ RT_CALL LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 
     s.point = cap.cone.distance < 2.0f * light.radius ? position + s.wi * s.distance : center + s.normal * light.radius;
     s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
     return s;
+#else
+    return noLightSample();
+#endif
 }
 
 RT_CALL float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+#ifdef RT_PROJECTED
     ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
     return projectedCapDensity(cap, wi) * max(dot(normal, wi), 0.0f);
+#else
+    return 0.0f;
+#endif
 }
 
 RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
@@ -285,6 +293,7 @@ RT_FN ProjectedFan projectedFan(RT_IN(Light) light, vec3 corner, vec3 normal) {
 }
 
 RT_CALL LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
+#ifdef RT_PROJECTED
     LightSample s = noLightSample();
     FanSample drawn = sampleProjectedFan(projectedFan(light, corner, normal), u);
     if (!(drawn.density > 0.0f)) return s;
@@ -292,10 +301,17 @@ RT_CALL LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 po
     placeOnLight(s, light, position);
     s.pdf = drawn.density * max(dot(normal, s.wi), 0.0f);
     return s;
+#else
+    return noLightSample();
+#endif
 }
 
 RT_CALL float flatProjectedPdf(RT_IN(Light) light, vec3 corner, vec3 normal, vec3 wi) {
+#ifdef RT_PROJECTED
     return projectedFanDensity(projectedFan(light, corner, normal), wi, normal) * max(dot(normal, wi), 0.0f);
+#else
+    return 0.0f;
+#endif
 }
 
 RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,

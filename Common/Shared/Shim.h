@@ -37,6 +37,7 @@
 #define RT_INOUT(T) T&
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
+#define RT_PROJECTED // see Features.h; C++ compilers drop what a kernel does not use
 
 RT_SHARED_BEGIN
 

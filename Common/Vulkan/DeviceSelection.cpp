@@ -94,7 +94,6 @@ DeviceInfo describe(VkPhysicalDevice device) {
     const std::vector<VkExtensionProperties> extensions = extensionsOf(device);
     info.missing = missingFeatures(device);
     info.missingForPipeline = missingForPipeline(device, extensions);
-    info.rayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
         // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not with
         // 25.0.7. Its version number does not tell them apart.

@@ -19,7 +19,6 @@ struct DeviceInfo {
     std::uint32_t queueFamily = 0;
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
-    bool rayQueries = false;        // any shader can ask for the hits of rays
     bool suitable() const { return missing.empty(); }
     bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
 };
