@@ -183,8 +183,8 @@ struct VertexNumbers {
     vec2 select; // Sobol's only
 };
 
-// randomPair() of kPairLight, kPairBsdf and kPairChoice, and of kPairSelect where it costs nothing. Sobol's take one call: C++ compilers work on the pairs side by
-// side.
+// randomPair() of kPairLight, kPairBsdf and kPairChoice, and of kPairSelect where it costs nothing. Sobol's take one call:
+// C++ compilers work on the pairs side by side.
 RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
     VertexNumbers numbers;
     if (s.kind != kSamplerSobol) {

@@ -12,33 +12,13 @@
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
+#include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
 
-constexpr std::uint32_t kBlocks = 32;
 constexpr std::uint32_t kSide = 16;
 constexpr std::uint32_t kSpp = 16;
-
-// Images of independent seeds.
-std::vector<image::Image> blocks(app::Engine& engine, const scene::CompiledScene& scene, app::LightSampling sampling,
-                                 std::uint32_t firstSeed) {
-    std::vector<image::Image> images;
-    for (std::uint32_t i = 0; i < kBlocks; ++i) {
-        app::RenderSettings settings;
-        settings.width = settings.height = kSide;
-        settings.spp = kSpp;
-        settings.sampler = app::SamplerKind::Independent;
-        settings.lightSampling = sampling;
-        settings.seed = firstSeed + i;
-        engine.reset(scene.camera, settings);
-        while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-        }
-        images.push_back(engine.film().resolve());
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
-    return images;
-}
 
 class EstimatorsTest : public ::testing::TestWithParam<std::size_t> {};
 
@@ -58,7 +38,8 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     cpu->setScene(compiled, nullptr);
     for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
         const auto result =
-            image::testImages(blocks(*gpu, *compiled, sampling, 5000), blocks(*cpu, *compiled, sampling, 6000));
+            image::testImages(independentImages(*gpu, *compiled, sampling, kSide, kSpp, 5000),
+                              independentImages(*cpu, *compiled, sampling, kSide, kSpp, 6000));
         SCOPED_TRACE(static_cast<int>(sampling));
         EXPECT_GT(result.globalP, 1e-4) << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << result.summary();

@@ -9,29 +9,8 @@
 namespace rt::test {
 namespace {
 
-constexpr std::uint32_t kBlocks = 32;
 constexpr std::uint32_t kSide = 24;
 constexpr std::uint32_t kSpp = 16;
-
-// Images of independent seeds.
-std::vector<image::Image> blocks(app::Engine& engine, const scene::CompiledScene& scene, app::LightSampling sampling,
-                                 std::uint32_t firstSeed) {
-    std::vector<image::Image> images;
-    for (std::uint32_t i = 0; i < kBlocks; ++i) {
-        app::RenderSettings settings;
-        settings.width = settings.height = kSide;
-        settings.spp = kSpp;
-        settings.sampler = app::SamplerKind::Independent;
-        settings.lightSampling = sampling;
-        settings.seed = firstSeed + i;
-        engine.reset(scene.camera, settings);
-        while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-        }
-        images.push_back(engine.film().resolve());
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
-    return images;
-}
 
 class Agreement : public ::testing::TestWithParam<std::string> {};
 
@@ -44,10 +23,10 @@ TEST_P(Agreement, OfAllWaysToSampleLights) {
     const auto scene = scene::compileScene(scene::findBuiltinScene(GetParam()), options);
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
-    const auto reference = blocks(*engine, *scene, app::LightSampling::Mis, 1000);
+    const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 1000);
     std::uint32_t seed = 2000;
     for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
-        const auto result = image::testImages(blocks(*engine, *scene, sampling, seed), reference);
+        const auto result = image::testImages(independentImages(*engine, *scene, sampling, kSide, kSpp, seed), reference);
         const std::string what = sampling == app::LightSampling::Bsdf ? "bsdf, " : "mixture, ";
         EXPECT_GT(result.globalP, 1e-4) << what << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << what << result.summary();

@@ -86,4 +86,25 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) 
     return all;
 }
 
+std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
+                                            app::LightSampling sampling, std::uint32_t side, std::uint32_t spp,
+                                            std::uint32_t firstSeed) {
+    constexpr std::uint32_t kImages = 32;
+    std::vector<image::Image> images;
+    for (std::uint32_t i = 0; i < kImages; ++i) {
+        app::RenderSettings settings;
+        settings.width = settings.height = side;
+        settings.spp = spp;
+        settings.sampler = app::SamplerKind::Independent;
+        settings.lightSampling = sampling;
+        settings.seed = firstSeed + i;
+        engine.reset(scene.camera, settings);
+        while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
+        }
+        images.push_back(engine.film().resolve());
+    }
+    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
+    return images;
+}
+
 }  // namespace rt::test
