@@ -47,18 +47,9 @@ void drawCameraPanel(Gui& gui) {
 
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
-    if (button("Copy pose", "To the clipboard, as JSON", true, width)) {
-        gui.window.setClipboard(app::CameraController::toText(camera));
-        gui.say("Pose copied", false);
-    }
+    if (button("Copy pose", "To the clipboard, as JSON (Ctrl+Shift+C)", true, width)) gui.copyPose();
     ImGui::SameLine(0, space);
-    if (button("Paste pose", "From the clipboard", true, width)) {
-        if (const auto pose = app::CameraController::fromText(gui.window.clipboard(), camera)) {
-            gui.camera.set(*pose);
-        } else {
-            gui.say("The clipboard holds no camera pose", true);
-        }
-    }
+    if (button("Paste pose", "From the clipboard (Ctrl+Shift+V)", true, width)) gui.pastePose();
     ImGui::SameLine(0, space);
     if (button("Reset", "Back to the scene's camera (R)", true, width)) gui.camera.reset();
     note("W A S D Q E fly, Shift fast, Ctrl slow; right drag looks, Alt + left drag orbits, middle drag pans.");

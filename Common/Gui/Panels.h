@@ -1,63 +1,9 @@
 // The panels of the window: each shows a part of the state and changes a part of the settings; App sends what has changed.
 #pragma once
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "Common/App/CameraController.h"
-#include "Common/App/GuiSettings.h"
-#include "Common/App/InteractiveSession.h"
+#include "Common/Gui/Gui.h"
 #include "Common/Gui/ImGuiLayer.h"
-#include "Common/Gui/Window.h"
 
 namespace rt::gui {
-
-// How the picture lies in its part of the window.
-struct PictureView {
-    float zoom = 0;           // pixels of the window for one of the image; 0: as large as fits
-    float panX = 0, panY = 0; // of the image's middle from that of its part, in pixels of the window
-};
-
-struct UiFigures {
-    double framesPerSecond = 0;
-    double longestStall = 0; // seconds that one turn of the window's thread took, of the last ten seconds
-};
-
-// What panels see. Members that are not const are for them to change.
-struct Gui {
-    app::InteractiveSession& session;
-    app::GuiSettings& settings;
-    app::CameraController& camera;
-    app::RunHistory& history;
-    Window& window;
-    const bool isGpu;
-    const std::vector<std::string> devices; // of ray-tracing-gpu, those that are suitable
-
-    app::SessionState state; // of this frame
-    PictureView view;
-    app::ViewRequest viewRequest;
-    std::shared_ptr<const image::Image> held; // for comparison with the picture
-    bool heldIsDisplay = false;
-    float split = 0.5f;     // share of the picture's part that shows the held image
-    bool pickFocus = false; // the next click in the picture tells what is to be sharp
-    std::string inspected;  // what the pixel under the pointer holds
-    std::uint32_t referenceSpp = 1024;
-    std::string referencePath;
-    bool onlyThisScene = true;
-    UiFigures figures;
-    bool showHelp = false;
-    bool focusOpen = false; // the keyboard is to go to the field of the path
-    std::string path;       // in that field
-    bool saveRequested = false;
-    std::string toast; // shown for a while
-    double toastTime = -1e9;
-    bool toastIsError = false;
-
-    void openScene(const std::string& source);
-    void hold(); // the picture, for comparison; or lets it go
-    void say(const std::string& text, bool isError);
-};
 
 void drawRenderControl(Gui& gui); // above all panels
 void drawScenePanel(Gui& gui);
@@ -68,5 +14,7 @@ void drawStatisticsPanel(Gui& gui);
 void drawComparisonPanel(Gui& gui);
 void drawHelp(Gui& gui);
 void drawStatusLine(Gui& gui);
+// What keeps the user waiting, what has just happened and what the pointer is at, over the picture's part of the window.
+void drawOverlay(const Gui& gui, const Rect& area, float scale);
 
 } // namespace rt::gui

@@ -1,0 +1,62 @@
+// What the parts of the window's interface share: the session, the settings, and what is shown of both.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Common/App/CameraController.h"
+#include "Common/App/GuiSettings.h"
+#include "Common/App/InteractiveSession.h"
+#include "Common/Gui/TurnMeter.h"
+#include "Common/Gui/Window.h"
+
+namespace rt::gui {
+
+// How the picture lies in its part of the window.
+struct PictureView {
+    float zoom = 0;           // pixels of the window for one of the image; 0: as large as fits
+    float panX = 0, panY = 0; // of the image's middle from that of its part, in pixels of the window
+};
+
+// Members that are not const are for the parts to change; App sends what has changed.
+struct Gui {
+    app::InteractiveSession& session;
+    app::GuiSettings& settings;
+    app::CameraController& camera;
+    app::RunHistory& history;
+    Window& window;
+    const bool isGpu;
+    const std::vector<std::string> devices; // of ray-tracing-gpu, those that are suitable
+
+    app::SessionState state; // of this frame
+    PictureView view;
+    app::ViewRequest viewRequest;
+    std::shared_ptr<const image::Image> held; // for comparison with the picture
+    bool heldIsDisplay = false;
+    float split = 0.5f;     // share of the picture's part that shows the held image
+    bool pickFocus = false; // the next click in the picture tells what is to be sharp
+    std::string inspected;  // what the pixel under the pointer holds
+    std::uint32_t referenceSpp = 1024;
+    std::string referencePath;
+    bool onlyThisScene = true;
+    UiFigures figures;
+    bool showHelp = false;
+    bool focusOpen = false; // the keyboard is to go to the field of the path
+    std::string path;       // in that field
+    bool saveRequested = false;
+    std::string toast; // shown for a while
+    double toastTime = -1e9;
+    bool toastIsError = false;
+
+    void openScene(const std::string& source);
+    void stepScene(int step); // through the built-in ones, round and round
+    void hold();              // the picture, for comparison; or lets it go
+    void copyPose();          // of the camera, to the clipboard
+    void pastePose();
+    void toggleHeatMap();
+    void scaleInterface(float change);
+    void say(const std::string& text, bool isError);
+};
+
+} // namespace rt::gui

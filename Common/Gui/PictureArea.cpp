@@ -1,0 +1,148 @@
+#include "Common/Gui/PictureArea.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <imgui.h>
+
+#include "Common/Gui/Theme.h"
+
+namespace rt::gui {
+namespace {
+
+constexpr double kRadiansPerPixel = 0.004;
+constexpr float kZoomStep = 1.2f, kLeastZoom = 0.02f, kMostZoom = 64;
+
+} // namespace
+
+// ---- where the picture lies ------------------------------------------------------------------------------------------
+
+float PictureArea::fitScale() const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr || image->width == 0 || image->height == 0) return 1;
+    return std::max(1e-3f, std::min(area_.width / static_cast<float>(image->width),
+                                    area_.height / static_cast<float>(image->height)));
+}
+
+PresentConstants PictureArea::constants() const {
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+    PresentConstants constants;
+    if (const image::Image* image = gui_.state.picture.image.get()) {
+        const float s = scale();
+        const float left = area_.x + 0.5f * (area_.width - s * static_cast<float>(image->width)) + gui_.view.panX;
+        const float top = area_.y + 0.5f * (area_.height - s * static_cast<float>(image->height)) + gui_.view.panY;
+        // Whole pixels of the window: an image at 1:1 stays sharp.
+        constants.originX = std::round(left * pixels.x);
+        constants.originY = std::round(top * pixels.y);
+        constants.scale = s * pixels.x;
+    }
+    constants.plain = (gui_.state.picture.isDisplay ? 1u : 0u) | (gui_.heldIsDisplay ? 2u : 0u);
+    if (gui_.held) constants.split = (area_.x + gui_.split * area_.width) * pixels.x;
+    constants.exposure = gui_.settings.exposure;
+    constants.curve = static_cast<std::uint32_t>(gui_.settings.tonemap);
+    const Rgb surround = surroundColor(gui_.settings.colorMode);
+    constants.surround[0] = surround.r;
+    constants.surround[1] = surround.g;
+    constants.surround[2] = surround.b;
+    return constants;
+}
+
+// ---- the mouse -------------------------------------------------------------------------------------------------------
+
+std::optional<PictureArea::Pixel> PictureArea::pixelUnderPointer() const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr) return std::nullopt;
+    const ImVec2 mouse = ImGui::GetIO().MousePos, pixels = ImGui::GetIO().DisplayFramebufferScale;
+    const PresentConstants place = constants();
+    const float x = std::floor((mouse.x * pixels.x - place.originX) / place.scale);
+    const float y = std::floor((mouse.y * pixels.y - place.originY) / place.scale);
+    if (!(x >= 0 && y >= 0 && x < static_cast<float>(image->width) && y < static_cast<float>(image->height))) {
+        return std::nullopt;
+    }
+    return {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}};
+}
+
+// The inspector's text for a pixel.
+void PictureArea::inspect(const std::optional<Pixel>& pixel) {
+    gui_.inspected.clear();
+    const app::Picture& picture = gui_.state.picture;
+    if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
+    const auto [x, y] = *pixel;
+    const auto has = [&](const std::shared_ptr<const image::Image>& image) {
+        return image && x < image->width && y < image->height;
+    };
+    if (!has(picture.radiance)) return;
+    const float* rgb = picture.radiance->pixel(x, y);
+    char text[160];
+    std::snprintf(text, sizeof text, "Pixel (%u, %u)\nradiance %.4g  %.4g  %.4g", x, y, rgb[0], rgb[1], rgb[2]);
+    gui_.inspected = text;
+    if (has(picture.variance)) {
+        const float* variance = picture.variance->pixel(x, y);
+        std::snprintf(text, sizeof text, "\nvariance %.3g  %.3g  %.3g", variance[0], variance[1], variance[2]);
+        gui_.inspected += text;
+    }
+    if (has(picture.samples)) {
+        std::snprintf(text, sizeof text, "\nsamples %.0f", *picture.samples->pixel(x, y));
+        gui_.inspected += text;
+    }
+}
+
+void PictureArea::handlePointer() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool inside = area_.contains(io.MousePos.x, io.MousePos.y) && !io.WantCaptureMouse;
+    if (inside && (io.MouseClicked[0] || io.MouseClicked[1] || io.MouseClicked[2])) {
+        dragging_ = true;
+        ImGui::SetWindowFocus(nullptr);
+    }
+    if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) dragging_ = false;
+    const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
+    inspect(pixel);
+    if (inside && io.MouseClicked[0] && gui_.pickFocus) {
+        gui_.pickFocus = false;
+        if (pixel) gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
+    } else if (dragging_ && io.MouseDown[0] && gui_.held && !io.KeyAlt) {
+        gui_.split = std::clamp((io.MousePos.x - area_.x) / std::max(1.0f, area_.width), 0.0f, 1.0f);
+    }
+    if (dragging_ && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) drag();
+    if (inside && io.MouseWheel != 0) turnWheel();
+}
+
+void PictureArea::drag() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
+    const float height = static_cast<float>(gui_.state.settings.height) * scale();
+    if (io.MouseDown[1] && io.KeyCtrl) {
+        gui_.view.panX += io.MouseDelta.x;
+        gui_.view.panY += io.MouseDelta.y;
+        gui_.view.zoom = scale();
+    } else if (io.MouseDown[1]) {
+        gui_.camera.look(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
+    } else if (io.MouseDown[0] && io.KeyAlt) {
+        gui_.camera.orbit(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
+    } else if (io.MouseDown[2] && height > 0) {
+        gui_.camera.pan(-dx / height, dy / height);
+    }
+}
+
+void PictureArea::turnWheel() {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl) { // about the pointer
+        const float before = scale();
+        const float after = std::clamp(before * std::pow(kZoomStep, io.MouseWheel), kLeastZoom, kMostZoom);
+        const float x = io.MousePos.x - area_.x - 0.5f * area_.width;
+        const float y = io.MousePos.y - area_.y - 0.5f * area_.height;
+        gui_.view.panX = x - (x - gui_.view.panX) * after / before;
+        gui_.view.panY = y - (y - gui_.view.panY) * after / before;
+        gui_.view.zoom = after;
+    } else if (io.KeyShift) {
+        gui_.camera.dolly(io.MouseWheel);
+    } else {
+        gui_.camera.changeSpeed(io.MouseWheel);
+        char text[64];
+        std::snprintf(text, sizeof text, "Flying speed %.3g", gui_.camera.speed());
+        gui_.say(text, false);
+    }
+}
+
+} // namespace rt::gui

@@ -1,0 +1,119 @@
+#include "Common/Gui/Shortcuts.h"
+
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include "Common/Scene/BuiltinScenes.h"
+
+namespace rt::gui {
+namespace {
+
+constexpr double kFast = 5, kSlow = 0.2;
+constexpr float kScaleStep = 0.25f;
+
+enum class When {
+    Always,    // also while text is typed
+    Control,   // with Ctrl, also while text is typed
+    CtrlShift, // likewise
+    Plain,     // without Ctrl, and not while text is typed
+};
+
+struct Shortcut {
+    int key;
+    When when;
+    void (*act)(Gui&);
+};
+
+void pauseOrGoOn(Gui& gui) {
+    if (ImGui::GetIO().NavVisible) return; // it presses the control that the keyboard is at
+    gui.state.activity == app::Activity::Rendering ? gui.session.pause() : gui.session.render();
+}
+
+void holdPicture(Gui& gui) {
+    if (gui.held || gui.state.picture.image) gui.hold();
+}
+
+void openFile(Gui& gui) {
+    gui.settings.showPanels = true;
+    gui.focusOpen = true;
+    gui.path.clear();
+}
+
+void toggle(bool& value) {
+    value = !value;
+}
+
+constexpr Shortcut kShortcuts[] = {
+    {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
+    {GLFW_KEY_F2, When::Always, [](Gui& gui) { toggle(gui.settings.showStatistics); }},
+    {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
+    {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
+    {GLFW_KEY_F11, When::Always, [](Gui& gui) { gui.window.toggleFullScreen(); }},
+    {GLFW_KEY_F12, When::Always, [](Gui& gui) { gui.saveRequested = true; }},
+    {GLFW_KEY_S, When::Control, [](Gui& gui) { gui.saveRequested = true; }},
+    {GLFW_KEY_Q, When::Control, [](Gui& gui) { gui.window.close(); }},
+    {GLFW_KEY_O, When::Control, openFile},
+    {GLFW_KEY_R, When::Control, [](Gui& gui) { gui.session.reset(); }},
+    {GLFW_KEY_EQUAL, When::Control, [](Gui& gui) { gui.scaleInterface(kScaleStep); }},
+    {GLFW_KEY_KP_ADD, When::Control, [](Gui& gui) { gui.scaleInterface(kScaleStep); }},
+    {GLFW_KEY_MINUS, When::Control, [](Gui& gui) { gui.scaleInterface(-kScaleStep); }},
+    {GLFW_KEY_KP_SUBTRACT, When::Control, [](Gui& gui) { gui.scaleInterface(-kScaleStep); }},
+    {GLFW_KEY_C, When::CtrlShift, [](Gui& gui) { gui.copyPose(); }},
+    {GLFW_KEY_V, When::CtrlShift, [](Gui& gui) { gui.pastePose(); }},
+    {GLFW_KEY_SPACE, When::Plain, pauseOrGoOn},
+    {GLFW_KEY_R, When::Plain, [](Gui& gui) { gui.camera.reset(); }},
+    {GLFW_KEY_F, When::Plain, [](Gui& gui) { gui.view = {}; }},
+    {GLFW_KEY_B, When::Plain, holdPicture},
+    {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
+    {GLFW_KEY_PAGE_UP, When::Plain, [](Gui& gui) { gui.stepScene(-1); }},
+    {GLFW_KEY_PAGE_DOWN, When::Plain, [](Gui& gui) { gui.stepScene(1); }},
+};
+
+bool applies(const Shortcut& shortcut, const Window::KeyPress& press) {
+    const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
+    switch (shortcut.when) {
+        case When::Always:
+            return true;
+        case When::Control:
+            return control;
+        case When::CtrlShift:
+            return control && (press.modifiers & GLFW_MOD_SHIFT) != 0;
+        case When::Plain:
+            break;
+    }
+    return !control && !ImGui::GetIO().WantTextInput;
+}
+
+} // namespace
+
+void obeyKey(Gui& gui, const Window::KeyPress& press) {
+    for (const Shortcut& shortcut : kShortcuts) {
+        if (shortcut.key != press.key || !applies(shortcut, press)) continue;
+        shortcut.act(gui);
+        return;
+    }
+    const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
+    if (control || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9) return;
+    const auto index = static_cast<std::size_t>(press.key - GLFW_KEY_1);
+    if (index < scene::builtinScenes().size()) gui.openScene(std::string(scene::builtinScenes()[index].id));
+}
+
+bool fly(Gui& gui, double seconds) {
+    if (ImGui::GetIO().WantTextInput || !gui.state.scene) return false;
+    const Window& window = gui.window;
+    const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
+    const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);
+    const auto axis = [&window](int positive, int negative) {
+        return (window.isDown(positive) ? 1.0 : 0.0) - (window.isDown(negative) ? 1.0 : 0.0);
+    };
+    const double right = axis(GLFW_KEY_D, GLFW_KEY_A);
+    const double up = axis(GLFW_KEY_E, GLFW_KEY_Q);
+    const double forward = axis(GLFW_KEY_W, GLFW_KEY_S);
+    if (control && (window.isDown(GLFW_KEY_S) || window.isDown(GLFW_KEY_Q))) return false; // save, quit
+    if (right == 0 && up == 0 && forward == 0) return false;
+    const double pace = shift ? kFast : control ? kSlow : 1;
+    gui.camera.fly(pace * right, pace * up, pace * forward, seconds);
+    return true;
+}
+
+} // namespace rt::gui

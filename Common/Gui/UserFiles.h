@@ -1,0 +1,34 @@
+// The settings and the layout of a window between two runs of its program, in the user's place for such files.
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "Common/App/GuiSettings.h"
+#include "Common/App/Options.h"
+#include "Common/App/Stopwatch.h"
+#include "Common/Gui/Window.h"
+
+namespace rt::gui {
+
+// Empty where there is no such place.
+std::filesystem::path layoutFile(const std::string& program);
+
+WindowPlace placeOf(const app::GuiSettings& settings);
+
+// What the user chose the last time, under what the options ask for; written when it has changed for a while.
+class KeptSettings {
+  public:
+    explicit KeptSettings(const app::Options& options);
+
+    app::GuiSettings settings;
+
+    void keep(const Window& window);        // now
+    void keepChanges(const Window& window); // seldom, where there are any
+
+  private:
+    std::filesystem::path file_; // empty: nowhere
+    app::GuiSettings stored_;    // as in the file
+    app::Stopwatch sinceStored_;
+};
+
+} // namespace rt::gui
