@@ -22,15 +22,16 @@ namespace {
 
 using rt::app::kGpuProgram;
 
-bool needsRayTracing(const rt::app::Options& options) {
-    return options.gpuEngine == rt::app::GpuEngineKind::Pipeline;
+bool needsRayTracing(rt::app::GpuEngineKind engine) {
+    return engine == rt::app::GpuEngineKind::Pipeline;
 }
 
 // The device is opened only when something is to be rendered.
 rt::ExitCode render(const rt::app::Options& options) {
     std::optional<rt::vulkan::VulkanContext> context;
     const rt::ExitCode code = rt::app::runSession(options, [&] {
-        context.emplace(rt::vulkan::ContextOptions{options.device, options.validation, needsRayTracing(options)});
+        context.emplace(
+            rt::vulkan::ContextOptions{options.device, options.validation, needsRayTracing(options.gpuEngine)});
         return rt::gpu::makeGpuEngine(*context, {.engine = options.gpuEngine});
     });
     if (context && context->validationMessages() > 0) {
@@ -66,6 +67,10 @@ class OwningEngine final : public rt::app::Engine {
     bool knowsCost() const override { return engine_->knowsCost(); }
     rt::image::Image renderCost(std::uint32_t samples) override { return engine_->renderCost(samples); }
     rt::app::EngineReport report() const override { return engine_->report(); }
+    ~OwningEngine() override {
+        engine_.reset();
+        reportValidation();
+    }
 
     static std::uint64_t validationMessages() { return allMessages_; }
 
@@ -81,19 +86,26 @@ class OwningEngine final : public rt::app::Engine {
     std::unique_ptr<rt::app::Engine> engine_;
 };
 
+std::vector<rt::app::EngineDevice> suitableDevices() {
+    const rt::vulkan::Instance instance(false);
+    const std::vector<rt::vulkan::DeviceInfo> all = rt::vulkan::findDevices(instance);
+    std::vector<rt::app::EngineDevice> suitable;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!all[i].suitable()) continue;
+        const auto isNamesake = [&](const auto& device) { return device.name.find(all[i].name) != std::string::npos; };
+        const bool isUnique = std::count_if(all.begin(), all.end(), isNamesake) == 1;
+        suitable.push_back({all[i].name, isUnique ? all[i].name : std::to_string(i), all[i].tracesRays()});
+    }
+    return suitable;
+}
+
 rt::ExitCode showWindow(const rt::app::Options& options) {
     rt::gui::WindowProgram program;
     program.makeEngine = [&options](const rt::app::EngineChoice& choice) {
-        const rt::vulkan::ContextOptions context{choice.device, options.validation, needsRayTracing(options)};
-        return std::make_unique<OwningEngine>(context, options.gpuEngine);
+        const rt::vulkan::ContextOptions context{choice.device, options.validation, needsRayTracing(choice.kind)};
+        return std::make_unique<OwningEngine>(context, choice.kind);
     };
-    {
-        const rt::vulkan::Instance instance(false);
-        for (const rt::vulkan::DeviceInfo& device : rt::vulkan::findDevices(instance)) {
-            const bool serves = needsRayTracing(options) ? device.tracesRays() : device.suitable();
-            if (serves) program.devices.push_back(device.name);
-        }
-    }
+    program.devices = suitableDevices();
     const rt::ExitCode code = rt::gui::runWindow(options, program);
     if (const std::uint64_t messages = OwningEngine::validationMessages(); messages > 0) {
         throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");

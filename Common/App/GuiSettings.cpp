@@ -136,6 +136,8 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
     if (const auto* render = reader.find("render"); render != nullptr) readRequest(Reader(*render), settings.request);
     if (const auto* engine = reader.find("engine"); engine != nullptr) {
         const Reader e(*engine);
+        e.read("kind", kGpuEngines, settings.engine.kind);
+        e.read("device", settings.engine.device);
         e.read("policy", kPolicies, settings.engine.policy);
         e.read("threads", settings.engine.threads, 0, 4096);
     }
@@ -162,7 +164,11 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                     {"scene", s.scene},
                     {"recent", s.recent},
                     {"render", toJson(s.request)},
-                    {"engine", {{"policy", nameOf(kPolicies, s.engine.policy)}, {"threads", s.engine.threads}}}};
+                    {"engine",
+                     {{"kind", nameOf(kGpuEngines, s.engine.kind)},
+                      {"device", s.engine.device},
+                      {"policy", nameOf(kPolicies, s.engine.policy)},
+                      {"threads", s.engine.threads}}}};
     std::error_code ignored; // opening the file tells
     std::filesystem::create_directories(file.parent_path(), ignored);
     AtomicFile target(file);
@@ -195,7 +201,8 @@ void override(GuiSettings& settings, const Options& options) {
     if (given("--width") || given("--height") || given("--aspect")) settings.request.size = options.size;
     s.features = o.features;
     settings.request.timeLimit = options.timeLimit;
-    settings.engine.device = options.device;
+    if (!options.device.empty()) settings.engine.device = options.device;
+    take("--engine", settings.engine.kind, options.gpuEngine);
     if (given("--threads")) settings.engine.threads = options.threads;
     if (given("--policy") || given("--engine")) settings.engine.policy = options.policy;
 }

@@ -157,9 +157,9 @@ InteractiveSession::Requests InteractiveSession::take() {
 }
 
 void InteractiveSession::apply(Requests requests) {
-    if (requests.engine) choice_ = *requests.engine;
     // A device that was lost does not come back to the engine that used it.
-    if (requests.engine || (activity_ == Activity::Failed && requests.any())) makeEngine();
+    const bool isBroken = !engine_ || (activity_ == Activity::Failed && requests.any());
+    if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
     if (requests.request && *requests.request != request_) {
         request_ = *requests.request;
         filmIsStale_ = true;
@@ -194,17 +194,24 @@ void InteractiveSession::apply(Requests requests) {
     }
 }
 
-void InteractiveSession::makeEngine() {
+// An engine that cannot be had leaves the one before at work.
+void InteractiveSession::makeEngine(const EngineChoice& choice) {
     setStage("Starting the engine");
     try {
-        std::unique_ptr<Engine> engine = setup_.makeEngine(choice_);
+        std::unique_ptr<Engine> engine = setup_.makeEngine(choice);
         if (scene_ && !engine->setScene(scene_, &cancelBuild_)) return;
+        if (scene_ && !filmIsNew_) engine->reset(camera_, settings_); // compiles what a film like the present one needs
         engine_ = std::move(engine);
+        choice_ = choice;
         const bool canShowCost = engine_->knowsCost();
-        update([&](SessionState& state) { state.canShowCost = canShowCost; });
+        update([&](SessionState& state) {
+            state.engine = choice;
+            state.canShowCost = canShowCost;
+        });
         filmIsStale_ = filmIsNew_ = true;
     } catch (...) {
         fail(std::current_exception(), !engine_);
+        update([](SessionState& state) { ++state.engineFailures; });
     }
     setStage("");
 }

@@ -28,11 +28,17 @@ namespace rt::app {
 
 // Which engine on what; a change makes another one.
 struct EngineChoice {
-    std::string kind;   // of ray-tracing-gpu: "auto", "pipeline", "compute"
-    std::string device; // of ray-tracing-gpu, as --device takes it
+    GpuEngineKind kind = GpuEngineKind::Auto; // of ray-tracing-gpu
+    std::string device;                       // of ray-tracing-gpu, as --device takes it
     Policy policy = Policy::Par;
     std::uint32_t threads = 0;
     bool operator==(const EngineChoice&) const = default;
+};
+// A device that serves ray-tracing-gpu.
+struct EngineDevice {
+    std::string name;
+    std::string request; // as --device takes it: the name, or the index where names are alike
+    bool hasPipeline = false;
 };
 using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
 
@@ -90,7 +96,9 @@ struct SessionState {
     std::string source;            // of the scene, as it was asked for
     std::shared_ptr<const scene::CompiledScene> scene;
 
-    RenderSettings settings; // of the film
+    EngineChoice engine;              // in force
+    std::uint64_t engineFailures = 0; // grows with each choice that could not be had: the engine before goes on
+    RenderSettings settings;          // of the film
     Picture picture;
     RenderStatus status;
     double renderSeconds = 0;
@@ -182,7 +190,7 @@ class InteractiveSession {
     void work();
     Requests take();
     void apply(Requests requests);
-    void makeEngine();
+    void makeEngine(const EngineChoice& choice);
     void adopt(LoadedScene loaded);
     void obey(Command command);
     void fail(const std::exception_ptr& failure, bool fatal);

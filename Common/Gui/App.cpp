@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "Common/App/Stopwatch.h"
+#include "Common/Gui/EnginePanel.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/PictureArea.h"
@@ -45,7 +46,7 @@ class App {
           imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options.program)),
           history_(app::RunHistory::userFile()),
           sentRequest_(settings_.request),
-          sentEngine_(settings_.engine),
+          sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
           session_(sessionSetup(options, program, settings_, history_)),
           gui_{session_, settings_, camera_, history_, window_, options.program == app::kGpuProgram, program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
@@ -90,6 +91,7 @@ class App {
     PictureArea picture_{gui_};
 
     std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
+    std::uint64_t engineFailures_ = 0;
     std::vector<std::string> dropped_;
     app::Stopwatch sinceInput_, sinceFrame_;
     TurnMeter meter_;
@@ -130,6 +132,10 @@ void App::takeState() {
     gui_.state = session_.state();
     const app::SessionState& state = gui_.state;
     if (state.fatal) std::rethrow_exception(state.fatal);
+    if (state.engineFailures != engineFailures_) {
+        engineFailures_ = state.engineFailures;
+        settings_.engine = state.engine;
+    }
     if (state.sceneSerial != sceneSerial_) {
         sceneSerial_ = state.sceneSerial;
         camera_.setHome(state.scene->camera);

@@ -10,8 +10,8 @@
 namespace rt::gui {
 
 struct WindowProgram {
-    app::EngineMaker makeEngine;      // called on the session's thread
-    std::vector<std::string> devices; // of ray-tracing-gpu, those that are suitable
+    app::EngineMaker makeEngine;            // called on the session's thread
+    std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
 };
 
 // Returns when the user closes the window. Throws what the options ask in vain: no display, no device, no such scene.

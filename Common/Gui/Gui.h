@@ -27,7 +27,7 @@ struct Gui {
     app::RunHistory& history;
     Window& window;
     const bool isGpu;
-    const std::vector<std::string> devices; // of ray-tracing-gpu, those that are suitable
+    const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
 
     app::SessionState state; // of this frame
     PictureView view;

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <thread>
 
+#include "Common/Gui/EnginePanel.h"
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Image/Film.h"
@@ -33,9 +34,6 @@ constexpr Named<ShapeSampling> kFlatNames[] = {{"Automatic", ShapeSampling::Auto
 constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
                                                 {"Stratified", SamplerKind::Stratified},
                                                 {"Normal (independent)", SamplerKind::Independent}};
-constexpr Named<app::Policy> kPolicyNames[] = {{"Multi core: par", app::Policy::Par},
-                                               {"Multi core: par_unseq", app::Policy::ParUnseq},
-                                               {"Single core: seq", app::Policy::Seq}};
 
 void drawSize(Gui& gui) {
     app::SizeRequest& size = gui.settings.request.size;
@@ -106,26 +104,6 @@ void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
              request.oneSidedLights);
 }
 
-void drawEngine(Gui& gui) {
-    app::EngineChoice& engine = gui.settings.engine;
-    if (!gui.isGpu) {
-        combo("Engine", "std::execution policy that the workers run under", kPolicyNames, engine.policy);
-        if (engine.policy != app::Policy::Seq) {
-            inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
-        }
-        return;
-    }
-    row("Device", "Vulkan devices that can trace rays");
-    const std::string shown = engine.device.empty() ? "Best suitable" : engine.device;
-    if (ImGui::BeginCombo("##device", shown.c_str())) {
-        if (ImGui::Selectable("Best suitable", engine.device.empty())) engine.device.clear();
-        for (const std::string& device : gui.devices) {
-            if (ImGui::Selectable(device.c_str(), engine.device == device)) engine.device = device;
-        }
-        ImGui::EndCombo();
-    }
-}
-
 } // namespace
 
 void drawRenderPanel(Gui& gui) {
@@ -151,7 +129,7 @@ void drawRenderPanel(Gui& gui) {
     inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
     inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
                settings.replicates, 1, 1024, 1);
-    drawEngine(gui);
+    drawEnginePanel(gui);
 }
 
 } // namespace rt::gui

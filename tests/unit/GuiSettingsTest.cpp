@@ -37,6 +37,8 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.request.accumulate = false;
     s.engine.policy = Policy::Seq;
     s.engine.threads = 3;
+    s.engine.kind = GpuEngineKind::Compute;
+    s.engine.device = "some GPU";
     saveGuiSettings(file_, s);
     EXPECT_EQ(loadGuiSettings(file_), s);
 }

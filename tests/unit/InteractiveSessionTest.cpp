@@ -186,6 +186,43 @@ TEST_F(InteractiveSessionTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
     EXPECT_EQ(made, 2);
 }
 
+TEST_F(InteractiveSessionTest, AnEngineThatCannotBeHadLeavesTheOneBeforeAtWork) {
+    // Has no pipeline for the film: that comes to light before the engine is exchanged.
+    class NoPipelineEngine : public FakeEngine {
+        void reset(const scene::CameraDesc&, const RenderSettings&) override { throw RenderError("no pipeline"); }
+    };
+    InteractiveSession::Setup s = setup(1'000'000);
+    int made = 0;
+    s.makeEngine = [&made](const EngineChoice& choice) -> std::unique_ptr<Engine> {
+        ++made;
+        if (choice.device == "missing") throw RenderError("no such device");
+        if (choice.kind == GpuEngineKind::Pipeline) return std::make_unique<NoPipelineEngine>();
+        return std::make_unique<SlowEngine>();
+    };
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.status.samplesDone > 0; }));
+    const std::uint64_t before = session.state().status.samplesDone;
+    EngineChoice choice;
+    choice.device = "missing";
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.engineFailures == 1; }));
+    choice = {};
+    choice.kind = GpuEngineKind::Pipeline;
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.engineFailures == 2; }));
+    EXPECT_EQ(session.state().error, "no pipeline");
+    EXPECT_EQ(session.state().engine, EngineChoice());
+    EXPECT_GE(session.state().status.samplesDone, before); // the film went on
+    EXPECT_TRUE(reaches(session, [&](const SessionState& state) {
+        return state.activity == Activity::Rendering && state.status.samplesDone > before;
+    }));
+    session.choose({}); // is at work already
+    choice.kind = GpuEngineKind::Compute;
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [&](const SessionState& state) { return state.engine == choice; }));
+    EXPECT_EQ(made, 4);
+}
+
 TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     InteractiveSession session(setup(4));
     ASSERT_TRUE(reaches(session, isFinished));
