@@ -1,4 +1,4 @@
-// The worker's side of InteractiveSession: films, what is shown of them, and what they are compared with.
+// The worker's side of InteractiveSession: films, and what is shown of them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -6,11 +6,6 @@
 #include "Common/App/Draft.h"
 #include "Common/App/FilmEstimate.h"
 #include "Common/App/InteractiveSession.h"
-#include "Common/App/Reference.h"
-#include "Common/Core/Error.h"
-#include "Common/Image/Display.h"
-#include "Common/Image/ImageIo.h"
-#include "Common/Image/Metrics.h"
 
 namespace rt::app {
 namespace {
@@ -52,12 +47,15 @@ void InteractiveSession::startFilm() {
     settings.secondMoments = settings.replicates < 2;
     if (!request_.accumulate) {
         settings.spp = request_.samplesPerFrame;
-        settings.secondMoments = false;
+        settings.secondMoments = settings.secondMoments && setup_.options.wants(Aov::Variance);
     }
     if (referenceSpp_) settings = referenceSettings(settings, *referenceSpp_);
     settings.replicates = std::min(settings.replicates, settings.spp);
 
-    if (filmIsNew_) setStage("Preparing " + scene_->title); // kernels may have to be compiled
+    if (filmIsNew_) {
+        setStage("Preparing " + scene_->title); // kernels may have to be compiled
+        unshown_.reset();
+    }
     filmIsNew_ = false;
     featureView_ = nullptr;
     featureIsFull_ = false;
@@ -124,6 +122,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
         picture.serial = state.picture.serial + 1;
         state.picture = std::move(picture);
     });
+    noteAnswer();
 }
 
 void InteractiveSession::renderSlice() {
@@ -167,6 +166,7 @@ void InteractiveSession::finish(StopReason reason) {
         state.lastRun = run;
         if (recorded) ++state.historySerial;
     });
+    writeEnd(reason);
     if (reason != StopReason::Interrupted && (request_.loop || !request_.accumulate)) {
         ++round_;
         filmIsStale_ = true;
@@ -179,7 +179,7 @@ RunRecord InteractiveSession::makeRecord() const {
     const EngineReport report = engine_->report();
     RunRecord record;
     record.time = utcNow();
-    record.app = setup_.program;
+    record.app = setup_.options.program;
     record.engine = report.engine;
     record.device = report.device;
     record.scene = scene_->id;
@@ -239,8 +239,17 @@ void InteractiveSession::publish() {
         state.relmse = relmse;
         state.curve = curve_;
     });
+    noteAnswer();
     publishSeconds_ = watch.seconds();
     sincePublished_ = {};
+}
+
+// What took long because something was built has been told as it was.
+void InteractiveSession::noteAnswer() {
+    if (!unshown_) return;
+    const double seconds = unshown_->seconds();
+    unshown_.reset();
+    update([seconds](SessionState& state) { state.slowestAnswer = std::max(state.slowestAnswer, seconds); });
 }
 
 // The radiance itself where there is nothing else to be shown.
@@ -294,69 +303,6 @@ void InteractiveSession::findFocus(std::uint32_t x, std::uint32_t y) {
         state.focusDistance = distance * cosine;
         ++state.focusSerial;
     });
-}
-
-void InteractiveSession::write(const SaveRequest& request) {
-    if (!engine_ || !scene_ || filmIsStale_) {
-        const RenderError early("nothing to save yet: the picture is being prepared");
-        return fail(std::make_exception_ptr(early), false);
-    }
-    const image::Image radiance = engine_->film().resolve();
-    for (const std::string& file : request.files) {
-        try {
-            const bool display = image::isDisplayReferred(file);
-            const auto curve = static_cast<std::uint32_t>(request.tonemap);
-            image::writeImage(file, display ? image::toDisplay(radiance, request.exposure, curve) : radiance);
-            update([&](SessionState& state) {
-                state.message = "Saved " + file;
-                ++state.messageSerial;
-            });
-        } catch (...) {
-            fail(std::current_exception(), false);
-        }
-    }
-}
-
-// ---- the reference ---------------------------------------------------------------------------------------------------
-
-InteractiveSession::FilmKey InteractiveSession::filmKey() const {
-    return {scene_->hash, camera_, settings_.width, settings_.height, settings_.maxDepth};
-}
-
-bool InteractiveSession::referenceFits() const {
-    return reference_ && !referenceSpp_ && referenceKey_ == filmKey();
-}
-
-void InteractiveSession::adoptReference(image::Image image, const std::string& name) {
-    reference_ = std::make_shared<image::Image>(std::move(image));
-    referenceKey_ = filmKey();
-    referenceName_ = name;
-    curve_.clear();
-    update([&](SessionState& state) {
-        state.reference = name;
-        state.referenceFits = referenceFits();
-    });
-}
-
-void InteractiveSession::readReferenceFile(const std::string& file) {
-    try {
-        if (!scene_ || filmIsStale_) throw InputError(file + ": nothing to compare with yet");
-        adoptReference(readReference(file, settings_.width, settings_.height), file);
-        publish();
-    } catch (...) {
-        fail(std::current_exception(), false);
-    }
-}
-
-// The error so far, at times that grow by a tenth.
-void InteractiveSession::followError(const image::Image& picture, bool last) {
-    const std::uint64_t spp = engine_->film().minSamples();
-    if (spp == 0 || !referenceFits()) return;
-    if (!curve_.empty() && !last && renderSeconds_ < 1.1 * curve_.back().seconds) return;
-    if (!curve_.empty() && renderSeconds_ <= curve_.back().seconds) return;
-    const double pixels = static_cast<double>(settings_.width) * settings_.height;
-    const double samples = static_cast<double>(status_.samplesDone) / pixels;
-    curve_.push_back({renderSeconds_, samples, image::compare(picture, *reference_).relmse});
 }
 
 } // namespace rt::app

@@ -23,6 +23,7 @@ InteractiveSession::InteractiveSession(Setup setup)
     : setup_(std::move(setup)),
       wantedScene_(setup_.scene),
       oneSidedLights_(setup_.request.oneSidedLights),
+      atEnd_(setup_.atEnd),
       request_(setup_.request),
       loader_([this](LoadedScene loaded) {
           post(false, [&loaded](Requests& requests) { requests.scene = std::move(loaded); });
@@ -34,9 +35,16 @@ InteractiveSession::InteractiveSession(Setup setup)
 }
 
 InteractiveSession::~InteractiveSession() {
-    cancelBuild_ = true;
-    post(true, [](Requests& requests) { requests.quit = true; });
-    worker_.join();
+    close();
+}
+
+std::vector<std::string> InteractiveSession::close() {
+    if (worker_.joinable()) {
+        cancelBuild_ = true;
+        post(true, [](Requests& requests) { requests.quit = true; });
+        worker_.join();
+    }
+    return endFailures_;
 }
 
 // ---- requests --------------------------------------------------------------------------------------------------------
@@ -71,6 +79,7 @@ void InteractiveSession::open(const std::string& source) {
 void InteractiveSession::change(const RenderRequest& request) {
     post(true, [&](Requests& requests) {
         requests.request = request;
+        if (!unanswered_) unanswered_.emplace();
         if (wantedScene_.oneSidedLights == request.oneSidedLights) return;
         wantedScene_.oneSidedLights = request.oneSidedLights;
         loader_.request(wantedScene_); // which lights there are is decided by the compiler
@@ -82,7 +91,10 @@ void InteractiveSession::choose(const EngineChoice& engine) {
 }
 
 void InteractiveSession::moveCamera(const scene::CameraDesc& camera, std::uint64_t sceneSerial) {
-    post(true, [&](Requests& requests) { requests.camera.emplace(sceneSerial, camera); });
+    post(true, [&](Requests& requests) {
+        requests.camera.emplace(sceneSerial, camera);
+        if (!unanswered_) unanswered_.emplace();
+    });
 }
 
 void InteractiveSession::render() {
@@ -129,13 +141,26 @@ void InteractiveSession::setStage(const std::string& stage) {
     });
 }
 
+void InteractiveSession::writeAtEnd(const SaveRequest& request) {
+    const std::scoped_lock lock(mutex_);
+    atEnd_ = request;
+}
+
+void InteractiveSession::tell(const WindowFigures& figures) {
+    const std::scoped_lock lock(mutex_);
+    window_ = figures;
+}
+
 // ---- the worker ------------------------------------------------------------------------------------------------------
 
 void InteractiveSession::work() {
     lowerThreadPriority();
     while (true) {
         Requests requests = take();
-        if (requests.quit) break;
+        if (requests.quit) {
+            writeEnd(StopReason::Interrupted);
+            break;
+        }
         try {
             apply(std::move(requests));
             if (isActive() && engine_ && scene_) renderSlice();
@@ -153,6 +178,8 @@ InteractiveSession::Requests InteractiveSession::take() {
     std::unique_lock lock(mutex_);
     wake_.wait(lock, [this] { return requests_.any() || (isActive() && engine_ && scene_); });
     cancelRender_ = requests_.quit;
+    if (unanswered_ && !unshown_) unshown_ = unanswered_;
+    unanswered_.reset();
     return std::exchange(requests_, {});
 }
 
@@ -188,6 +215,7 @@ void InteractiveSession::apply(Requests requests) {
         if (engine_ && scene_ && !filmIsStale_) publish();
     }
     if (requests.command) obey(*requests.command);
+    if (!filmIsStale_ || activity_ == Activity::Stopped) unshown_.reset(); // there will be nothing new to see
     // What was changed is looked at, unless the user has stopped rendering.
     if (filmIsStale_ && activity_ != Activity::Stopped && activity_ != Activity::Rendering) {
         setActivity(Activity::Rendering);
@@ -197,6 +225,7 @@ void InteractiveSession::apply(Requests requests) {
 // An engine that cannot be had leaves the one before at work.
 void InteractiveSession::makeEngine(const EngineChoice& choice) {
     setStage("Starting the engine");
+    unshown_.reset();
     try {
         std::unique_ptr<Engine> engine = setup_.makeEngine(choice);
         if (scene_ && !engine->setScene(scene_, &cancelBuild_)) return;
@@ -224,6 +253,7 @@ void InteractiveSession::adopt(LoadedScene loaded) {
     }
     if (!engine_) return;
     setStage("Building " + loaded.scene->title);
+    unshown_.reset();
     try {
         if (!engine_->setScene(loaded.scene, &cancelBuild_)) return;
     } catch (...) {

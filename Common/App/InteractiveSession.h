@@ -17,6 +17,7 @@
 #include "Common/App/Engine.h"
 #include "Common/App/Names.h"
 #include "Common/App/Options.h"
+#include "Common/App/RenderLoop.h"
 #include "Common/App/RunHistory.h"
 #include "Common/App/SceneLoader.h"
 #include "Common/App/Settings.h"
@@ -115,28 +116,33 @@ struct SessionState {
     double focusDistance = 0;        // that makes sharp what was picked last
     std::uint64_t focusSerial = 0;   // grows with each pick that met something
     std::uint64_t historySerial = 0; // grows when a run is added to the history
+    double slowestAnswer = 0;        // seconds from a change of camera or settings to the first picture of it
 };
 
 struct SaveRequest {
-    std::vector<std::string> files; // the extension decides the format
+    std::vector<std::string> files{}; // the extension decides the format
+    std::vector<Aov> aovs{};          // beside each of them
+    std::string stats{};              // the statistics; "-": standard output, empty: none
     float exposure = 0;
     Tonemap tonemap = Tonemap::None;
+    bool operator==(const SaveRequest&) const = default;
 };
 
 class InteractiveSession {
   public:
     struct Setup {
-        std::string program;
+        Options options; // what the window does not change
         EngineMaker makeEngine;
         EngineChoice engine;
         RenderRequest request;
         SceneRequest scene;
+        std::optional<SaveRequest> atEnd; // as writeAtEnd()
         double sliceSeconds = 0.03;     // of one call of the engine
         RunHistory* history = nullptr;  // gets the runs that end; may be none
         std::function<void()> onChange; // called on other threads when there is something new to show
     };
     explicit InteractiveSession(Setup setup);
-    ~InteractiveSession(); // stops within 100 ms, or when a scene that is being loaded is ready
+    ~InteractiveSession(); // as close()
     InteractiveSession(const InteractiveSession&) = delete;
     InteractiveSession& operator=(const InteractiveSession&) = delete;
 
@@ -158,6 +164,15 @@ class InteractiveSession {
     void loadReference(const std::string& file);
     // Finds the focus distance for what is seen in a pixel: the state tells.
     void pickFocus(std::uint32_t x, std::uint32_t y);
+
+    // What is to be written once, when the first render ends by itself or by stop(), or in close() before that.
+    void writeAtEnd(const SaveRequest& request);
+    // How the window has answered so far, for the statistics.
+    void tell(const WindowFigures& figures);
+
+    // Ends the render and the worker, within 100 ms but for what the engine is building. Returns what of writeAtEnd() could
+    // not be written, one line each. Nothing but state() may be called any more.
+    std::vector<std::string> close();
 
     SessionState state() const;
 
@@ -201,7 +216,12 @@ class InteractiveSession {
     void renderSlice();
     void finish(StopReason reason);
     void publish();
+    Options optionsOf(const SaveRequest& request) const;
     void write(const SaveRequest& request);
+    std::vector<std::string> writeFiles(const SaveRequest& request, StopReason reason);
+    void writeEnd(StopReason reason);
+    WindowFigures windowFigures() const;
+    void noteAnswer();
     // What a reference must agree in with a film that is compared with it.
     struct FilmKey {
         std::uint64_t sceneHash = 0;
@@ -227,10 +247,16 @@ class InteractiveSession {
     bool oneSidedLights_ = true;
     SessionState state_;
     Stopwatch stageWatch_;
+    std::optional<SaveRequest> atEnd_;
+    bool endIsWritten_ = false;
+    WindowFigures window_;
+    std::optional<Stopwatch> unanswered_; // since a change that the worker has not seen
     std::atomic<bool> cancelRender_{false};
     std::atomic<bool> cancelBuild_{false};
 
     // Of the worker alone.
+    std::vector<std::string> endFailures_;
+    std::optional<Stopwatch> unshown_; // since a change of which there is no picture yet
     EngineChoice choice_;
     std::unique_ptr<Engine> engine_;
     std::shared_ptr<const scene::CompiledScene> scene_;

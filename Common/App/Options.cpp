@@ -161,7 +161,8 @@ void addProgram(FlagSet& flags, Parsed& parsed) {
     flags.group("Program");
     flags.addSwitch("--headless", parsed.headless, "no window; implied by --output, --stats and --time-limit");
     flags.addSwitch("--window", parsed.window,
-                    "a window, which is the default, even with --output, where F12 then saves, or --time-limit");
+                    "a window, which is the default, even with --output, --stats, --time-limit: files are written when the "
+                    "first render ends or the window closes, images again by F12");
     flags.addSwitch("--quiet,-q", parsed.options.quiet, "no progress");
     flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
     flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
@@ -181,7 +182,7 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
     const bool implied = !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit");
     options.window = parsed.window || (!parsed.headless && !implied);
     if (!options.window) return;
-    for (const char* flag : {"--stats", "--checkpoint", "--resume", "--save-every", "--target-error", "--aov"})
+    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error"})
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iostream>
 #include <map>
 
 #include "Common/Core/AtomicFile.h"
@@ -106,6 +107,16 @@ OutputResult writeOutputs(const Options& options, const image::Film& film, Engin
     for (const std::filesystem::path output : options.outputs)
         for (const Aov aov : options.aovs) write(aovPath(output, aov), fitted(aovs.at(aov), aov, output));
     return result;
+}
+
+void writeText(const std::string& file, const std::string& text) {
+    if (file == "-") {
+        std::cout << text << std::flush; // whether that worked is asked at the end of main
+        return;
+    }
+    AtomicFile target(file);
+    target.stream() << text;
+    target.commit();
 }
 
 } // namespace rt::app

@@ -28,4 +28,7 @@ struct OutputResult {
 // normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum.
 OutputResult writeOutputs(const Options& options, const image::Film& film, Engine& engine);
 
+// "-": to standard output. Throws RenderError.
+void writeText(const std::string& file, const std::string& text);
+
 } // namespace rt::app

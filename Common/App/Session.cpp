@@ -14,22 +14,11 @@
 #include "Common/App/SceneSource.h"
 #include "Common/App/Statistics.h"
 #include "Common/App/Stopwatch.h"
-#include "Common/Core/AtomicFile.h"
 #include "Common/Core/Log.h"
 #include "Common/Scene/SceneJson.h"
 
 namespace rt::app {
 namespace {
-
-void writeText(const std::string& file, const std::string& text) {
-    if (file == "-") {
-        std::cout << text; // whether that worked is asked at the end of main
-        return;
-    }
-    AtomicFile target(file);
-    target.stream() << text;
-    target.commit();
-}
 
 void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
     const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;

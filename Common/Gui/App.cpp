@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <exception>
 
+#include "Common/App/Interrupt.h"
+#include "Common/App/Outputs.h"
 #include "Common/App/Stopwatch.h"
 #include "Common/Gui/EnginePanel.h"
 #include "Common/Gui/ImGuiLayer.h"
@@ -21,14 +23,25 @@ constexpr double kIdleSeconds = 0.25; // between two looks when nothing happens
 constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
 constexpr double kLongestStep = 0.1;  // seconds of flight in one frame
 
+// Those that the program was asked for when it was started.
+app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings) {
+    return {options.outputs, options.aovs, options.stats, settings.exposure, settings.tonemap};
+}
+
+std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings) {
+    if (options.outputs.empty() && options.stats.empty()) return std::nullopt;
+    return filesOf(options, settings);
+}
+
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
                                             const app::GuiSettings& settings, app::RunHistory& history) {
     app::InteractiveSession::Setup setup;
-    setup.program = options.program;
+    setup.options = options;
     setup.makeEngine = program.makeEngine;
     setup.engine = settings.engine;
     setup.request = settings.request;
     setup.scene = {settings.scene, settings.request.oneSidedLights};
+    setup.atEnd = endFiles(options, settings);
     setup.sliceSeconds = options.program == app::kGpuProgram ? 0.008 : 0.03;
     setup.history = &history;
     setup.onChange = [] { Window::wake(); };
@@ -47,20 +60,13 @@ class App {
           history_(app::RunHistory::userFile()),
           sentRequest_(settings_.request),
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
+          sentEnd_(endFiles(options, settings_)),
           session_(sessionSetup(options, program, settings_, history_)),
           gui_{session_, settings_, camera_, history_, window_, options.program == app::kGpuProgram, program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
-    ExitCode run() {
-        while (!window_.shouldClose()) {
-            window_.waitEvents(isAwake() ? 0 : kIdleSeconds);
-            turn();
-        }
-        window_.hide(); // a scene that is being loaded may take a while to give up
-        kept_.keep(window_);
-        return ExitCode::Done;
-    }
+    ExitCode run();
     std::uint64_t validationMessages() const { return device_.validationMessages(); }
 
   private:
@@ -86,6 +92,7 @@ class App {
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
     const image::Image* shownHeld_ = nullptr;
+    std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
     app::InteractiveSession session_;
     Gui gui_;
     PictureArea picture_{gui_};
@@ -97,6 +104,20 @@ class App {
     TurnMeter meter_;
     bool flying_ = false;
 };
+
+ExitCode App::run() {
+    app::Interrupt interrupt;
+    interrupt.defer(); // there may be something to write
+    while (!window_.shouldClose() && !interrupt.requested()) {
+        window_.waitEvents(isAwake() ? 0 : kIdleSeconds);
+        turn();
+    }
+    window_.hide(); // what follows may take a while
+    kept_.keep(window_);
+    if (const std::vector<std::string> failures = session_.close(); !failures.empty())
+        throw RenderError(failures.front());
+    return interrupt.requested() ? ExitCode::Interrupted : ExitCode::Done;
+}
 
 // Whether the next frame is to come at once.
 bool App::isAwake() {
@@ -125,6 +146,7 @@ void App::turn() {
     presenter_.present(picture_.constants(), [this](VkCommandBuffer commands) { imgui_.draw(commands); });
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
+    session_.tell(gui_.figures.window);
     kept_.keepChanges(window_);
 }
 
@@ -181,6 +203,10 @@ void App::sendChanges() {
         sentView_ = gui_.viewRequest;
         session_.view(sentView_);
     }
+    if (const app::SaveRequest end = filesOf(options_, settings_); sentEnd_ && end != *sentEnd_) {
+        sentEnd_ = end;
+        session_.writeAtEnd(end);
+    }
     if (gui_.held.get() != shownHeld_) {
         shownHeld_ = gui_.held.get();
         if (gui_.held) presenter_.setHeld(gui_.held);
@@ -194,11 +220,9 @@ void App::sendChanges() {
 void App::save() {
     gui_.saveRequested = false;
     if (!gui_.state.scene) return;
-    app::SaveRequest request;
-    request.files = options_.outputs;
+    app::SaveRequest request = filesOf(options_, settings_);
+    request.stats.clear();
     if (request.files.empty()) request.files = savePaths(settings_.saveFolder, gui_.state);
-    request.exposure = settings_.exposure;
-    request.tonemap = settings_.tonemap;
     session_.save(std::move(request));
 }
 
@@ -241,6 +265,7 @@ void App::drawInterface() {
 } // namespace
 
 ExitCode runWindow(const app::Options& options, const WindowProgram& program) {
+    app::checkOutputs(options); // before hours are spent
     App app(options, program);
     const ExitCode code = app.run();
     if (app.validationMessages() > 0) {

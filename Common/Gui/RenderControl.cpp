@@ -106,7 +106,7 @@ void drawStatusLine(Gui& gui) {
     }
     ImGui::TextUnformatted(text.c_str());
     char fps[48];
-    std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.framesPerSecond);
+    std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.window.framesPerSecond);
     const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(fps).x;
     if (right > ImGui::GetItemRectSize().x + 20) {
         ImGui::SameLine(right);

@@ -26,11 +26,16 @@ std::string joined(const std::vector<std::string>& names) {
 void drawStatisticsPanel(Gui& gui) {
     const app::SessionState& state = gui.state;
     const app::EngineReport& report = state.report;
-    char text[64];
-    std::snprintf(text, sizeof text, "%.1f fps, longest turn %.0f ms", gui.figures.framesPerSecond,
-                  1000 * gui.figures.longestStall);
-    figure("Window", "Frames of the last second; the longest time that the window's thread was busy, of the last 10 s",
-           text);
+    char text[96];
+    const app::WindowFigures& window = gui.figures.window;
+    std::snprintf(text, sizeof text, "%.0f fps, a frame takes %.1f ms", window.framesPerSecond,
+                  1000 * window.medianTurn);
+    figure("Window", "Frames of the last second: only what is new is drawn; and the median time of a frame", text);
+    std::snprintf(text, sizeof text, "%.0f ms, of the last 10 s %.0f ms", 1000 * window.longestTurn,
+                  1000 * gui.figures.longestOfLate);
+    figure("Longest stall", "The longest time that the window did not look for input", text);
+    figure("Slowest answer", "From a change of camera or settings to the first picture of it",
+           state.slowestAnswer > 0 ? shortDuration(state.slowestAnswer) : "-");
     const double seconds = state.renderSeconds;
     const auto perSecond = [seconds](double count) { return seconds > 0 ? withPrefix(count / seconds) + "/s" : "-"; };
     const app::RayCounts& rays = report.rays;

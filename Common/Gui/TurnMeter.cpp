@@ -1,23 +1,32 @@
 #include "Common/Gui/TurnMeter.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace rt::gui {
 namespace {
 
-constexpr double kStallSeconds = 10; // that the longest turn is looked for in
+constexpr double kLateSeconds = 10;
 
 } // namespace
 
 void TurnMeter::add(double seconds) {
     const double now = clock_.seconds();
     turns_.push_back({now, seconds});
-    while (!turns_.empty() && turns_.front().end < now - kStallSeconds) turns_.pop_front();
-    figures_ = {};
+    while (turns_.front().end < now - kLateSeconds) turns_.pop_front();
+    std::vector<double> lengths;
+    int lastSecond = 0;
     for (const Turn& turn : turns_) {
-        figures_.longestStall = std::max(figures_.longestStall, turn.seconds);
-        figures_.framesPerSecond += turn.end > now - 1 ? 1 : 0;
+        lengths.push_back(turn.seconds);
+        lastSecond += turn.end > now - 1;
     }
+    figures_.window.framesPerSecond = lastSecond;
+    figures_.longestOfLate = *std::max_element(lengths.begin(), lengths.end());
+    const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::nth_element(lengths.begin(), middle, lengths.end());
+    figures_.window.medianTurn = *middle;
+    if (started_) figures_.window.longestTurn = std::max(figures_.window.longestTurn, seconds);
+    started_ = true;
 }
 
 } // namespace rt::gui

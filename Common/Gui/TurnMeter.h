@@ -2,13 +2,14 @@
 #pragma once
 #include <deque>
 
+#include "Common/App/Statistics.h"
 #include "Common/App/Stopwatch.h"
 
 namespace rt::gui {
 
 struct UiFigures {
-    double framesPerSecond = 0; // of the last second
-    double longestStall = 0;    // seconds that one turn of the window's thread took, of the last ten seconds
+    app::WindowFigures window;
+    double longestOfLate = 0; // as window.longestTurn, of the last ten seconds
 };
 
 class TurnMeter {
@@ -22,6 +23,7 @@ class TurnMeter {
     };
     std::deque<Turn> turns_;
     app::Stopwatch clock_;
+    bool started_ = false;
     UiFigures figures_;
 };
 

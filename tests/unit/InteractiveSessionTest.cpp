@@ -64,7 +64,7 @@ class InteractiveSessionTest : public ::testing::Test {
 
     static InteractiveSession::Setup setup(std::uint32_t spp) {
         InteractiveSession::Setup setup;
-        setup.program = "ray-tracing-cpu";
+        setup.options.program = "ray-tracing-cpu";
         setup.makeEngine = [](const EngineChoice&) { return std::make_unique<SlowEngine>(); };
         setup.request.size.width = 24;
         setup.request.settings.spp = spp;
@@ -241,11 +241,11 @@ TEST_F(InteractiveSessionTest, SavesWhatItShows) {
     InteractiveSession session(setup(4));
     ASSERT_TRUE(reaches(session, isFinished));
     const std::string exr = (folder_ / "a.exr").string();
-    session.save({{(folder_ / "a.png").string(), exr}, 0, Tonemap::None});
+    session.save({.files = {(folder_ / "a.png").string(), exr}});
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 2; }));
     EXPECT_EQ(image::readImage(exr).data, session.state().picture.image->data);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
-    session.save({{(folder_ / "no/such/folder/a.png").string()}, 0, Tonemap::None});
+    session.save({.files = {(folder_ / "no/such/folder/a.png").string()}});
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
     EXPECT_EQ(session.state().activity, Activity::Finished);
 }
@@ -363,7 +363,7 @@ TEST_F(InteractiveSessionTest, FocusIsThePlaneThroughWhatIsSeen) {
     const double right = half * (1.0 / 24 - 1), up = half * (25.0 / 24 - 1);
     EXPECT_NEAR(session.state().focusDistance, 8 / std::sqrt(1 + right * right + up * up), 1e-6);
     session.pickFocus(1000, 1000); // outside: nothing
-    session.save({{(folder_ / "a.png").string()}, 0, Tonemap::None});
+    session.save({.files = {(folder_ / "a.png").string()}});
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 1; }));
     EXPECT_EQ(session.state().focusSerial, 1u);
 }

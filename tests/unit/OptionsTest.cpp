@@ -226,7 +226,9 @@ TEST_F(OptionsTest, AWindowIsTheDefaultUnlessAFileOrALimitIsAskedFor) {
     EXPECT_TRUE(window({"-o", "a.png", "--window"}));
     EXPECT_TRUE(window({"--time-limit", "1", "--window"}));
     EXPECT_THROW(window({"--resume", "a.rtc"}), UsageError);
-    EXPECT_THROW(window({"--stats", "-", "--window"}), UsageError);
+    EXPECT_TRUE(window({"--stats", "-", "--window"}));
+    EXPECT_TRUE(window({"-o", "a.png", "--aov", "depth", "--window"}));
+    EXPECT_THROW(window({"-o", "a.png", "--window", "--save-every", "1"}), UsageError);
     EXPECT_THROW(window({"--target-error", "1", "--window"}), UsageError);
 }
 

@@ -1,0 +1,113 @@
+// The files that a program with a window was asked for on its command line.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "Common/App/InteractiveSession.h"
+#include "Common/Image/ImageIo.h"
+#include "tests/unit/FakeEngine.h"
+
+namespace rt::app {
+namespace {
+
+using namespace std::chrono_literals;
+
+class WindowFilesTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = std::filesystem::path(::testing::TempDir()) /
+                  ("window-files-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+        std::filesystem::remove_all(folder_);
+        std::filesystem::create_directories(folder_);
+        request_.files = {path("a.exr")};
+        request_.aovs = {Aov::Samples};
+        request_.stats = path("a.json");
+    }
+    void TearDown() override { std::filesystem::remove_all(folder_); }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+    std::unique_ptr<InteractiveSession> start(std::uint32_t spp) const {
+        InteractiveSession::Setup setup;
+        setup.options.program = "ray-tracing-cpu";
+        setup.makeEngine = [](const EngineChoice&) { return std::make_unique<FakeEngine>(); };
+        setup.request.size.width = 8;
+        setup.request.settings.spp = spp;
+        setup.scene = {"cornell-box-lights", true};
+        setup.atEnd = request_;
+        return std::make_unique<InteractiveSession>(std::move(setup));
+    }
+    // The time only ends a test that fails.
+    template <class Condition>
+    static bool reaches(const InteractiveSession& session, Condition condition) {
+        for (int i = 0; i < 20'000; ++i) {
+            if (condition(session.state())) return true;
+            std::this_thread::sleep_for(1ms);
+        }
+        return false;
+    }
+    nlohmann::json statistics() const {
+        std::ifstream in(path("a.json"));
+        return nlohmann::json::parse(in, nullptr, false);
+    }
+
+    std::filesystem::path folder_;
+    SaveRequest request_;
+};
+
+TEST_F(WindowFilesTest, AreWrittenWhenTheFirstRenderEnds) {
+    const auto session = start(5);
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.activity == Activity::Finished; }));
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.messageSerial == 2; }));
+    EXPECT_EQ(image::readImage(path("a.exr")).width, 8u);
+    EXPECT_EQ(image::readImage(path("a.samples.exr")).data.front(), 5);
+    const nlohmann::json json = statistics();
+    EXPECT_EQ(json["stopped_by"], "spp");
+    EXPECT_EQ(json["spp_done"], 5);
+    EXPECT_EQ(json["width"], 8);
+    EXPECT_TRUE(json["window"].contains("longest_turn_seconds"));
+
+    // Once: what is rendered next does not replace them.
+    std::filesystem::remove(path("a.exr"));
+    session->reset();
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.picture.serial > 1; }));
+    EXPECT_TRUE(session->close().empty());
+    EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
+}
+
+TEST_F(WindowFilesTest, AreWrittenAtTheLatestWhenTheWindowCloses) {
+    const auto session = start(0x7fffffff);
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.status.samplesDone > 0; }));
+    EXPECT_TRUE(session->close().empty());
+    EXPECT_EQ(statistics()["stopped_by"], "interrupted");
+    EXPECT_GT(statistics()["spp_done"], 0);
+    EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
+}
+
+TEST_F(WindowFilesTest, ThatCannotBeWrittenAreTold) {
+    request_.files = {path("missing/a.exr")};
+    const auto session = start(5);
+    ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.errorSerial > 0; }));
+    EXPECT_NE(session->state().error.find("missing/a."), std::string::npos);
+    const auto failures = session->close();
+    ASSERT_EQ(failures.size(), 2u); // the image, and what lies beside it
+    EXPECT_NE(failures.front().find("missing/a.exr"), std::string::npos);
+    EXPECT_EQ(statistics()["outputs"].size(), 0u); // those that can be written are
+}
+
+TEST_F(WindowFilesTest, NothingRenderedIsAFailure) {
+    InteractiveSession::Setup setup;
+    setup.makeEngine = [](const EngineChoice&) { return std::make_unique<FakeEngine>(); };
+    setup.scene = {"no-such-scene", true};
+    InteractiveSession session(std::move(setup));
+    session.writeAtEnd(request_);
+    EXPECT_EQ(session.close().size(), 1u);
+}
+
+} // namespace
+} // namespace rt::app
