@@ -43,7 +43,7 @@ ShapeHit testQuad(TracedRay r, vec4 corner, vec4 normal, vec4 dualU, vec4 dualV,
     frame.normal = normal.xyz;
     frame.dualU = dualU.xyz;
     frame.dualV = dualV.xyz;
-    frame.margin = corner.w;
+    frame.margin = vec2(dualU.w, dualV.w);
     return intersectQuad(r.ray, r.rayLength, corner.xyz, frame, tMax);
 }
 

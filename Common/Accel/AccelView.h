@@ -56,7 +56,7 @@ struct alignas(32) QuadBlock {
     float normal[3][kWidth];
     float dualU[3][kWidth];
     float dualV[3][kWidth];
-    float margin[kWidth];
+    float margin[2][kWidth];
     std::uint32_t primitive[kWidth];
 };
 

@@ -46,7 +46,8 @@ void fillLane(QuadBlock& block, std::uint32_t lane, const AccelInput& input, std
     setLane(block.normal, lane, frame.normal);
     setLane(block.dualU, lane, frame.dualU);
     setLane(block.dualV, lane, frame.dualV);
-    block.margin[lane] = frame.margin;
+    block.margin[0][lane] = frame.margin.x;
+    block.margin[1][lane] = frame.margin.y;
     block.primitive[lane] = index;
 }
 

@@ -31,8 +31,8 @@ vec4 motionVector(const AccelInput& input, std::uint32_t index) {
 shared::TreeQuad quadRecord(const AccelInput& input, std::uint32_t index) {
     const shared::Quad& quad = input.quads[index];
     const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
-    return {vec4(quad.corner, frame.margin), vec4(frame.normal, std::bit_cast<float>(index)), vec4(frame.dualU, 0.0f),
-            vec4(frame.dualV, 0.0f)};
+    return {vec4(quad.corner, 0.0f), vec4(frame.normal, std::bit_cast<float>(index)), vec4(frame.dualU, frame.margin.x),
+            vec4(frame.dualV, frame.margin.y)};
 }
 
 shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index) {

@@ -111,10 +111,11 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const QuadBlock& block) {
     const Float8 t = dot(normal, f) / dot(normal, d);
     const Float8 u = multiplySubtract(t, dot(dualU, d), dot(dualU, f) + half); // from the middle of the quad
     const Float8 v = multiplySubtract(t, dot(dualV, d), dot(dualV, f) + half);
-    const Float8 margin = load(block.margin) * broadcast(ray.length);
-    const Float8 reach = multiplyAdd(t, margin, broadcast(0.5f + shared::kQuadError));
-    const Mask8 inside = maximum(absolute(u), absolute(v)) <= reach;
-    return {inside & (broadcast(0.0f) < t), t, u + half, v + half};
+    const Float8 distance = t * broadcast(ray.length);
+    const Float8 reach = broadcast(0.5f + shared::kQuadError);
+    const Mask8 insideU = absolute(u) <= multiplyAdd(distance, load(block.margin[0]), reach);
+    const Mask8 insideV = absolute(v) <= multiplyAdd(distance, load(block.margin[1]), reach);
+    return {insideU & insideV & (broadcast(0.0f) < t), t, u + half, v + half};
 }
 
 // x of p times y of q minus y of p times x of q, for the three edges of triangles in the plane across the ray. Signs

@@ -93,11 +93,13 @@ struct QuadFrame {
     vec3 normal; // along edgeU x edgeV, of any length
     vec3 dualU;  // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
     vec3 dualV;
-    float margin; // relative error of u and v for a unit of t |direction|
+    vec2 margin; // errors of u and v for a unit of t |direction|
 };
 
-// Bounds the rounding errors of u and v, relative to the terms they are sums of.
-const float kQuadError = 16.0f * kEpsilon;
+// Bounds the rounding errors of u and v, relative to the terms they are sums of: rays aimed at the edges of closed boxes get
+// out at half of it, at none from there on. Each direction has its own bound, since a margin that a strip needs along its short
+// side would lengthen it.
+const float kQuadError = 4.0f * kEpsilon;
 
 RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
     QuadFrame frame;
@@ -105,7 +107,7 @@ RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
     frame.normal = n / dot(n, n);
     frame.dualU = cross(edgeV, frame.normal);
     frame.dualV = cross(frame.normal, edgeU);
-    frame.margin = kQuadError * sqrt(max(dot(frame.dualU, frame.dualU), dot(frame.dualV, frame.dualV)));
+    frame.margin = kQuadError * vec2(length(frame.dualU), length(frame.dualV));
     return frame;
 }
 
@@ -118,8 +120,8 @@ RT_FN ShapeHit intersectQuad(Ray ray, float rayLength, vec3 corner, QuadFrame fr
     if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
     float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
     float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
-    float reach = 0.5f + kQuadError + t * frame.margin * rayLength;
-    if (!(max(abs(u - 0.5f), abs(v - 0.5f)) <= reach)) return hit;
+    vec2 reach = t * rayLength * frame.margin + (0.5f + kQuadError);
+    if (!(abs(u - 0.5f) <= reach.x && abs(v - 0.5f) <= reach.y)) return hit;
     hit.t = t;
     hit.u = clamp(u, 0.0f, 1.0f);
     hit.v = clamp(v, 0.0f, 1.0f);

@@ -45,10 +45,10 @@ struct TreeNode {
 
 // See QuadFrame.
 struct TreeQuad {
-    vec4 corner; // w: margin
+    vec4 corner;
     vec4 normal; // w: index of the primitive
-    vec4 dualU;
-    vec4 dualV;
+    vec4 dualU;  // w: margin of u
+    vec4 dualV;  // w: margin of v
 };
 
 struct TreeTriangle {

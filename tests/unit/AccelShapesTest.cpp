@@ -195,6 +195,37 @@ TEST(Shapes, BlocksAgreeWithTheSharedFormulas) {
     }
 }
 
+// A strip is as long and as wide as its edges say: what rounding asks for along the short ones must not lengthen the long ones.
+TEST(Shapes, StripsEndWhereTheirEdgesAre) {
+    Random random(25);
+    Geometry strip;
+    const vec3 corner(100.0f, 554.0f, 127.0f);
+    strip.addQuad(corner, vec3(355.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 10.0f));
+    const auto accel = buildAccel(strip, kAlwaysFlat);
+    const float offset =
+        16.0f * shared::kEpsilon * 1200.0f; // twice the errors of both rays and strip at the greatest distance
+    std::vector<Ray> outside, inside;
+    for (int i = 0; i < 20000; ++i) {
+        const vec3 origin(555.0f * random.uniform(), 400.0f * random.uniform(), 1000.0f * random.uniform() - 500.0f);
+        const float along = 2.0f * random.uniform() - 1.0f;
+        const shared::vec2 edge = i % 2 == 0 ? shared::vec2(177.5f * along, i % 4 == 0 ? 5.0f : -5.0f)
+                                             : shared::vec2(i % 4 == 1 ? 177.5f : -177.5f, 5.0f * along);
+        const shared::vec2 outward = i % 2 == 0 ? shared::vec2(0.0f, edge.y > 0.0f ? offset : -offset)
+                                                : shared::vec2(edge.x > 0.0f ? offset : -offset, 0.0f);
+        const auto rayTo = [&](shared::vec2 p) {
+            const vec3 target = corner + vec3(177.5f + p.x, 0.0f, 5.0f + p.y);
+            return Ray{origin, shared::normalize(target - origin), 0.0f};
+        };
+        outside.push_back(rayTo(edge + outward));
+        inside.push_back(rayTo(edge - outward));
+    }
+    for (const NamedQuery& q : runnableQueries()) {
+        SCOPED_TRACE(q.name);
+        for (const Hit& hit : closestHits(*q.query, accel->view(), outside)) ASSERT_LT(hit.t, 0.0f);
+        for (const Hit& hit : closestHits(*q.query, accel->view(), inside)) ASSERT_GT(hit.t, 0.0f);
+    }
+}
+
 TEST(Shapes, MovingSpheresAreWhereTheyAreAtTheTimeOfTheRay) {
     Geometry g;
     g.addSphere(vec3(0.0f), 1.0f);
