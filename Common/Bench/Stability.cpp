@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <iterator>
 #include <numbers>
 
@@ -162,6 +161,7 @@ class Suite {
 
     void add(const std::string& name, double value, const std::string& criterion, bool pass) {
         rows_.push_back({name, engine_.report().engine, value, criterion, pass});
+        if (options_.measured) options_.measured(rows_.back());
     }
 
     // Mean against the exact answer, with an allowance for what rounding or a limit of depth takes away.

@@ -1,6 +1,7 @@
 // Numerical stability of an engine: scenes whose answer is known, pushed to where single precision hurts. The same rows are
 // asserted by tests and printed by `ray-tracing-bench --stability`.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct StabilityRow {
 };
 
 struct StabilityOptions {
-    bool thorough = false; // 10^6 samples per pixel where sums are accumulated, else 10^5
+    bool thorough = false;                             // 10^6 samples per pixel where sums are accumulated, else 10^5
+    std::function<void(const StabilityRow&)> measured; // called with each row as it is known; may be empty
 };
 
 // Leaves the engine with another scene and film.

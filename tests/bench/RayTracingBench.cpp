@@ -1,5 +1,6 @@
 // ray-tracing-bench: flags to a suite, a suite to results, and the engines that it drives.
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "Common/App/Interrupt.h"
+#include "Common/App/Stopwatch.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Comparison.h"
 #include "Common/Bench/Machine.h"
@@ -77,7 +79,9 @@ class EngineList {
             if (kind == app::GpuEngineKind::Pipeline && !context_->info().tracesRays()) {
                 added.missing = context_->info().name + " lacks " + context_->info().missingForPipeline;
             } else {
-                added.make = [this, engine = kind](std::uint32_t) { return gpu::makeGpuEngine(*context_, {.engine = engine}); };
+                added.make = [this, engine = kind](std::uint32_t) {
+                    return gpu::makeGpuEngine(*context_, {.engine = engine});
+                };
             }
             kinds_.push_back(std::move(added));
         }
@@ -153,12 +157,18 @@ int listSuites() {
 int measureStability(const bench::BenchOptions& options) {
     const EngineList list(options);
     std::vector<bench::StabilityRow> rows;
+    const app::Stopwatch watch;
+    const auto report = [&](const bench::StabilityRow& row) {
+        if (options.quiet) return;
+        std::cerr << std::lround(watch.seconds()) << " s  " << row.engine << ": " << row.name
+                  << (row.pass ? " passes" : " FAILS") << std::endl;
+    };
     for (const bench::EngineKind& kind : list.kinds()) {
         const auto& asked = options.engines;
         const bool wanted = asked.empty() ? kind.name != "single" // its kernels are those of multi
                                           : std::find(asked.begin(), asked.end(), kind.name) != asked.end();
         if (!wanted || !kind.make) continue;
-        const auto found = bench::measureStability(*kind.make(0), {true});
+        const auto found = bench::measureStability(*kind.make(0), {true, report});
         rows.insert(rows.end(), found.begin(), found.end());
     }
     std::cout << toMarkdown(bench::describeStability(rows), noLinks);
