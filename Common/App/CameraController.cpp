@@ -143,6 +143,9 @@ std::optional<scene::CameraDesc> CameraController::fromText(const std::string& t
                                                             const scene::CameraDesc& defaults) try {
     const nlohmann::json json = nlohmann::json::parse(text);
     if (!json.is_object()) return std::nullopt;
+    const nlohmann::json known = nlohmann::json::parse(toText({}));
+    for (const auto& [key, value] : json.items())
+        if (!known.contains(key)) return std::nullopt;
     scene::CameraDesc camera = defaults;
     const auto vector = [&json](const char* key, glm::dvec3& v) {
         if (json.contains(key)) v = {json.at(key).at(0), json.at(key).at(1), json.at(key).at(2)};

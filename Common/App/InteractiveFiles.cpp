@@ -12,6 +12,7 @@ namespace rt::app {
 // What the film's statistics and files are told by: the program's options with what the window has changed since.
 Options InteractiveSession::optionsOf(const SaveRequest& request) const {
     Options options = setup_.options;
+    options.scene = source_;
     options.settings = settings_;
     options.oneSidedLights = request_.oneSidedLights;
     options.timeLimit = request_.timeLimit;
@@ -37,7 +38,7 @@ std::vector<std::string> InteractiveSession::writeFiles(const SaveRequest& reque
     OutputResult outputs;
     try {
         const image::Film& film = engine_->film();
-        outputs = writeOutputs(options, film, *engine_);
+        outputs = writeOutputs(options, camera_, film, *engine_);
         if (!options.stats.empty()) {
             Statistics statistics;
             statistics.stoppedBy = reason;

@@ -71,6 +71,7 @@ void InteractiveSession::open(const std::string& source) {
     {
         const std::scoped_lock lock(mutex_);
         wantedScene_.source = source;
+        wantedScene_.pose.clear();
         loader_.request(wantedScene_);
     }
     setStage("Loading " + source);
@@ -262,6 +263,7 @@ void InteractiveSession::adopt(LoadedScene loaded) {
     }
     const bool another = !scene_ || loaded.scene->id != scene_->id || loaded.scene->camera != scene_->camera;
     scene_ = loaded.scene;
+    source_ = loaded.request.source;
     loadSeconds_ = loaded.seconds;
     if (another) {
         camera_ = scene_->camera;

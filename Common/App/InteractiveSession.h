@@ -260,6 +260,7 @@ class InteractiveSession {
     EngineChoice choice_;
     std::unique_ptr<Engine> engine_;
     std::shared_ptr<const scene::CompiledScene> scene_;
+    std::string source_; // of the scene
     std::uint64_t sceneSerial_ = 0;
     scene::CameraDesc camera_;
     RenderRequest request_;

@@ -5,6 +5,7 @@
 
 #include "Common/App/FeatureNames.h"
 #include "Common/App/FlagSet.h"
+#include "Common/App/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
 
@@ -48,6 +49,11 @@ void addScene(FlagSet& flags, Parsed& parsed) {
                  options.scene = text;
              })
         ->default_str(options.scene);
+    flags.add("--camera", "POSE", "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...",
+              [&options](const std::string&, const std::string& text) {
+                  (void)poseOf(text, {}); // the scene may say the rest
+                  options.camera = text;
+              });
     flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
     flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
     flags.addFile("--export-scene", options.exportFile, "write the scene as a scene file and exit")

@@ -30,6 +30,7 @@ struct Options {
     std::string exportFile; // of Command::ExportScene
 
     std::string scene = "cornell-box-lights"; // id or file
+    std::string camera;                       // its pose as JSON; empty: the scene's
     bool oneSidedLights = true;
     SizeRequest size;
     RenderSettings settings; // complete but for width and height, which may depend on the scene

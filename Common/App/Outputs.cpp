@@ -5,6 +5,7 @@
 #include <iostream>
 #include <map>
 
+#include "Common/App/RenderNote.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Display.h"
@@ -82,17 +83,19 @@ void checkOutputs(const Options& options) {
     if (!options.stats.empty() && options.stats != "-") probe(options.stats);
 }
 
-OutputResult writeOutputs(const Options& options, const image::Film& film, Engine& engine) {
+OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camera, const image::Film& film,
+                          Engine& engine) {
     OutputResult result;
-    const auto write = [&result](const std::filesystem::path& path, const Image& image) {
+    if (options.outputs.empty()) return result;
+    const std::string note = renderNote(options, camera, engine.report(), film);
+    const auto write = [&result, &note](const std::filesystem::path& path, const Image& image) {
         try {
-            image::writeImage(path, image);
+            image::writeImage(path, image, note);
             result.written.push_back(path.string());
         } catch (const Error& error) {
             result.failures.emplace_back(error.what());
         }
     };
-    if (options.outputs.empty()) return result;
     const Image radiance = film.resolve();
     const auto curve = static_cast<std::uint32_t>(options.tonemap);
     for (const std::filesystem::path output : options.outputs)

@@ -25,8 +25,10 @@ struct OutputResult {
     std::vector<std::string> failures; // one line each
 };
 // Writes all that can be written. PNG gets exposure and tone curve; what lies beside a PNG is brought into its range:
-// normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum.
-OutputResult writeOutputs(const Options& options, const image::Film& film, Engine& engine);
+// normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum. PNG and EXR tell how they were
+// made (RenderNote.h).
+OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camera, const image::Film& film,
+                          Engine& engine);
 
 // "-": to standard output. Throws RenderError.
 void writeText(const std::string& file, const std::string& text);

@@ -3,18 +3,19 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/SceneSource.h"
 #include "Common/App/Stopwatch.h"
+#include "Common/Core/Interruption.h"
 
 namespace rt::app {
 namespace {
 
-LoadedScene load(const SceneRequest& request) {
+LoadedScene load(const SceneRequest& request, const std::atomic<bool>& callOff) {
+    const Interruptible interruptible(callOff);
     LoadedScene result;
     result.request = request;
     const Stopwatch watch;
     try {
-        result.scene = compile(loadScene(request.source), request.oneSidedLights);
+        result.scene = compile(request);
     } catch (...) {
         result.failure = std::current_exception();
     }
@@ -30,7 +31,7 @@ SceneLoader::SceneLoader(std::function<void(LoadedScene)> onLoaded)
 SceneLoader::~SceneLoader() {
     {
         const std::scoped_lock lock(mutex_);
-        quit_ = true;
+        quit_ = callOff_ = true;
     }
     wake_.notify_one();
     thread_.join();
@@ -40,6 +41,7 @@ void SceneLoader::request(SceneRequest request) {
     {
         const std::scoped_lock lock(mutex_);
         next_ = std::move(request);
+        callOff_ = true;
     }
     wake_.notify_one();
 }
@@ -59,8 +61,9 @@ void SceneLoader::work() {
         if (quit_) return;
         current_ = std::exchange(next_, std::nullopt);
         const SceneRequest request = *current_;
+        callOff_ = false;
         lock.unlock();
-        LoadedScene loaded = load(request);
+        LoadedScene loaded = load(request, callOff_);
         lock.lock();
         const bool wanted = !quit_ && !next_;
         if (wanted) {

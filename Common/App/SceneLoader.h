@@ -1,5 +1,6 @@
 // Loads and compiles scenes on a thread of its own, so that the scene before stays in use until the next one is ready.
 #pragma once
+#include <atomic>
 #include <condition_variable>
 #include <exception>
 #include <functional>
@@ -9,15 +10,9 @@
 #include <string>
 #include <thread>
 
-#include "Common/Scene/CompiledScene.h"
+#include "Common/App/SceneSource.h"
 
 namespace rt::app {
-
-struct SceneRequest {
-    std::string source; // id or file, as --scene takes it
-    bool oneSidedLights = true;
-    bool operator==(const SceneRequest&) const = default;
-};
 
 struct LoadedScene {
     std::shared_ptr<const scene::CompiledScene> scene; // empty: it failed
@@ -30,9 +25,9 @@ class SceneLoader {
   public:
     // `onLoaded` is called on the loader's thread.
     explicit SceneLoader(std::function<void(LoadedScene)> onLoaded);
-    ~SceneLoader(); // waits for a load in progress
+    ~SceneLoader(); // calls a load in progress off
 
-    // Replaces a request that has not begun; the result of one that has begun is dropped.
+    // Replaces a request that has not begun; one that has begun is called off.
     void request(SceneRequest request);
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
@@ -46,6 +41,7 @@ class SceneLoader {
     std::optional<SceneRequest> next_;
     std::optional<SceneRequest> current_;
     bool quit_ = false;
+    std::atomic<bool> callOff_{false}; // what is being loaded
     std::thread thread_;
 };
 

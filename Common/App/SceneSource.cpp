@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <optional>
 #include <span>
 
 #include <nlohmann/json.hpp>
 
+#include "Common/App/CameraController.h"
+#include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/ObjLoader.h"
@@ -37,6 +40,17 @@ scene::TexelData readTexels(const std::filesystem::path& path) {
     return data;
 }
 
+std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& desc, bool oneSidedLights,
+                                                        bool generatedAssets,
+                                                        const std::optional<scene::CameraDesc>& camera) {
+    scene::CompileOptions options;
+    options.oneSidedLights = oneSidedLights;
+    options.generatedAssets = generatedAssets;
+    options.camera = camera;
+    options.loadTexels = readTexels;
+    return scene::compileScene(desc, options);
+}
+
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source) {
@@ -51,11 +65,22 @@ scene::SceneDesc loadScene(const std::string& source) {
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
                                                     bool generatedAssets) {
-    scene::CompileOptions options;
-    options.oneSidedLights = oneSidedLights;
-    options.generatedAssets = generatedAssets;
-    options.loadTexels = readTexels;
-    return scene::compileScene(desc, options);
+    return compileWith(desc, oneSidedLights, generatedAssets, std::nullopt);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
+    const scene::SceneDesc desc = loadScene(request.source);
+    std::optional<scene::CameraDesc> camera;
+    if (!request.pose.empty()) camera = poseOf(request.pose, desc.camera);
+    return compileWith(desc, request.oneSidedLights, false, camera);
+}
+
+scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes) {
+    const auto camera = CameraController::fromText(pose, scenes);
+    if (camera) return *camera;
+    throw UsageError("--camera " + pose +
+                     ": allowed is a JSON object of look_from, look_at and up, each three numbers, vertical_fov, "
+                     "defocus_angle and focus_distance, as a window copies its pose");
 }
 
 std::string listScenes(bool json) {

@@ -15,6 +15,18 @@ scene::SceneDesc loadScene(const std::string& source);
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
                                                     bool generatedAssets = false);
 
+// What --scene and the flags beside it ask for.
+struct SceneRequest {
+    std::string source; // id or file, as --scene takes it
+    bool oneSidedLights = true;
+    std::string pose = {}; // of the camera, as --camera takes it; empty: the scene's own
+    bool operator==(const SceneRequest&) const = default;
+};
+std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);
+
+// The camera of a pose that may leave parts of it to the scene. Throws UsageError.
+scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes);
+
 // Ids and titles, one a line or as JSON: [{"id": …, "title": …, "description": …}].
 std::string listScenes(bool json);
 

@@ -82,7 +82,7 @@ class HeadlessRender {
 // Also settles what the options leave to the scene.
 void HeadlessRender::load() {
     const Stopwatch watch;
-    scene_ = compile(loadScene(options_.scene), options_.oneSidedLights);
+    scene_ = compile(SceneRequest{options_.scene, options_.oneSidedLights, options_.camera});
     for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
     settleImageSize(options_, scene_->defaults.aspect);
     checkFeatures(options_.settings, *scene_);
@@ -125,7 +125,7 @@ void HeadlessRender::write() {
     const Stopwatch watch;
     std::string lost;
     const image::Film& film = keptFilm(lost);
-    OutputResult outputs = writeOutputs(options_, film, *engine_);
+    OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
     const bool outputsFailed = !outputs.failures.empty();
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
     const auto attempt = [&outputs](const auto& action) {
@@ -179,6 +179,12 @@ std::string HeadlessRender::rescue() const {
     return {};
 }
 
+void exportScene(const Options& options) {
+    scene::SceneDesc scene = loadScene(options.scene);
+    if (!options.camera.empty()) scene.camera = poseOf(options.camera, scene.camera);
+    writeText(options.exportFile, scene::toJson(scene));
+}
+
 } // namespace
 
 ExitCode runSession(Options options, const EngineFactory& makeEngine) {
@@ -187,7 +193,7 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine) {
             std::cout << listScenes(options.json);
             return ExitCode::Done;
         case Command::ExportScene:
-            writeText(options.exportFile, scene::toJson(loadScene(options.scene)));
+            exportScene(options);
             return ExitCode::Done;
         case Command::ListDevices:
             throw std::logic_error("devices are listed by the program that knows them");

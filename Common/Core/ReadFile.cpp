@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 
 namespace rt {
 
@@ -25,6 +26,7 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
     std::size_t piece = std::size_t{1} << 16;
     try {
         while (in) {
+            interruptionPoint();
             const std::size_t have = content.size();
             content.resize(have + piece);
             errno = 0;

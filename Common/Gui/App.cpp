@@ -40,7 +40,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.makeEngine = program.makeEngine;
     setup.engine = settings.engine;
     setup.request = settings.request;
-    setup.scene = {settings.scene, settings.request.oneSidedLights};
+    setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera};
     setup.atEnd = endFiles(options, settings);
     setup.sliceSeconds = options.program == app::kGpuProgram ? 0.008 : 0.03;
     setup.history = &history;

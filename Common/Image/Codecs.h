@@ -3,12 +3,15 @@
 #pragma once
 #include <cstddef>
 #include <iosfwd>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "Common/Image/ImageIo.h"
 
 namespace rt::image {
+
+inline constexpr const char* kDescriptionKey = "ray-tracing"; // under which PNG and EXR keep a description
 
 // Throws unless both sides are in 1 to 65536 and `fileBytes` can hold `decodedBytes` in the densest compression there
 // is.
@@ -21,7 +24,8 @@ Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
 void encodePfm(const Image& image, std::ostream& out);
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
-void encodeExr(const Image& image, std::ostream& out);
+void encodeExr(const Image& image, std::ostream& out, const std::string& description = {});
+std::optional<std::string> findExrText(std::span<const std::byte> bytes, const std::string& name); // its description
 
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 void encodeHdr(const Image& image, std::ostream& out);

@@ -79,6 +79,7 @@ struct Header {
     std::vector<Channel> channels;
     std::optional<Box> window;
     std::optional<std::uint8_t> compression;
+    std::optional<std::string> description;
 
     std::size_t width() const { return static_cast<std::size_t>(std::int64_t{window->maxX} - window->minX + 1); }
     std::size_t height() const { return static_cast<std::size_t>(std::int64_t{window->maxY} - window->minY + 1); }
@@ -110,12 +111,16 @@ Header readHeader(Cursor& in) {
         in.fail("tiled, deep and multi-part EXR files are not supported");
     Header header;
     for (std::string name = in.string(); !name.empty(); name = in.string()) {
-        in.string(); // type
+        const std::string type = in.string();
         const auto size = in.number<std::uint32_t>();
         Cursor value(in.take(size), in.name());
         if (name == "channels") header.channels = readChannels(value);
         if (name == "compression") header.compression = value.number<std::uint8_t>();
         if (name == "dataWindow") header.window = value.number<Box>();
+        if (name == kDescriptionKey && type == "string") {
+            const auto text = value.take(size);
+            header.description.emplace(reinterpret_cast<const char*>(text.data()), text.size());
+        }
     }
     if (header.channels.empty() || !header.window || !header.compression)
         in.fail("EXR header lacks channels, compression or dataWindow");
@@ -238,6 +243,11 @@ Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
     return image;
 }
 
+std::optional<std::string> findExrText(std::span<const std::byte> bytes, const std::string& name) {
+    Cursor in(bytes, name);
+    return readHeader(in).description;
+}
+
 // ---- writing --------------------------------------------------------------------------------------------------------
 
 namespace {
@@ -261,7 +271,7 @@ std::string packed(const T&... values) {
     return text;
 }
 
-std::string makeHeader(const Image& image, const std::string& channels) {
+std::string makeHeader(const Image& image, const std::string& channels, const std::string& description) {
     std::string list;
     for (const char channel : channels)
         list += packed(channel, '\0', std::uint32_t{kFloat}, std::uint32_t{0}, std::int32_t{1}, std::int32_t{1});
@@ -278,15 +288,16 @@ std::string makeHeader(const Image& image, const std::string& channels) {
     appendAttribute(header, "pixelAspectRatio", "float", packed(1.0f));
     appendAttribute(header, "screenWindowCenter", "v2f", packed(0.0f, 0.0f));
     appendAttribute(header, "screenWindowWidth", "float", packed(1.0f));
+    if (!description.empty()) appendAttribute(header, kDescriptionKey, "string", description);
     header.push_back('\0');
     return header;
 }
 
 } // namespace
 
-void encodeExr(const Image& image, std::ostream& out) {
+void encodeExr(const Image& image, std::ostream& out, const std::string& description) {
     const std::string channels = image.channels == 3 ? "BGR" : "Y";
-    const std::string header = makeHeader(image, channels);
+    const std::string header = makeHeader(image, channels, description);
     const std::uint32_t rowBytes = image.width * image.channels * sizeof(float);
     const std::uint64_t blockBytes = 2 * sizeof(std::uint32_t) + rowBytes;
     const std::uint64_t firstBlock = header.size() + std::uint64_t{image.height} * sizeof(std::uint64_t);

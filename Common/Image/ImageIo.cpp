@@ -5,11 +5,13 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Image/Codecs.h"
+#include "Common/Image/PngText.h"
 #include "Common/Shared/Tonemap.h"
 
 namespace rt::image {
@@ -122,13 +124,13 @@ Texels loadTexels(const fs::path& path) {
     return texels;
 }
 
-void writeImage(const fs::path& path, const Image& image) {
+void writeImage(const fs::path& path, const Image& image, const std::string& description) {
     const Codec codec = codecOf<UsageError>(path, true);
-    if (!isFinite(image)) return writeImage(path, withFiniteValues(image));
+    if (!isFinite(image)) return writeImage(path, withFiniteValues(image), description);
     AtomicFile file(path);
     switch (codec) {
         case Codec::Exr:
-            encodeExr(image, file.stream());
+            encodeExr(image, file.stream(), description);
             break;
         case Codec::Pfm:
             encodePfm(image, file.stream());
@@ -137,10 +139,23 @@ void writeImage(const fs::path& path, const Image& image) {
             encodeHdr(image, file.stream());
             break;
         default:
-            encodePng(image, file.stream());
+            if (description.empty()) {
+                encodePng(image, file.stream());
+            } else {
+                std::ostringstream png;
+                encodePng(image, png);
+                file.stream() << withPngText(png.str(), kDescriptionKey, description);
+            }
             break;
     }
     file.commit();
+}
+
+std::optional<std::string> readDescription(const fs::path& path) {
+    const Codec codec = codecOf<InputError>(path, false);
+    if (codec != Codec::Png && codec != Codec::Exr) return std::nullopt;
+    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    return codec == Codec::Png ? findPngText(bytes, kDescriptionKey) : findExrText(bytes, path.string());
 }
 
 void checkWritable(const fs::path& path) {

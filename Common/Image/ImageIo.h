@@ -6,6 +6,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,7 +32,11 @@ Texels loadTexels(const std::filesystem::path& path);
 // Writes 1 or 3 channels, replacing the file atomically. NaN is written as 0 and an infinity, or what a format cannot
 // hold, as the nearest value that it can. Throws UsageError for an extension that is unknown, RenderError when writing
 // fails.
-void writeImage(const std::filesystem::path& path, const Image& image);
+// `description` is kept in a PNG (as iTXt "ray-tracing") and an EXR (attribute of that name), and left out elsewhere.
+void writeImage(const std::filesystem::path& path, const Image& image, const std::string& description = {});
+
+// What writeImage was given as description; nothing where the file holds none. Throws InputError as readImage does.
+std::optional<std::string> readDescription(const std::filesystem::path& path);
 
 // Throws the UsageError of writeImage beforehand, so that a long render does not end with it.
 void checkWritable(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <span>
 
+#include "Common/Core/Interruption.h"
 #include "Common/Scene/Bounds.h"
 
 namespace rt::scene {
@@ -138,6 +139,7 @@ void tryAxis(std::span<const Item> items, const Bounds& centers, int axis, Plane
 
 // Divides `items`, two or more, into two parts; where they lie in one place, into halves.
 std::array<Group, 2> split(std::span<Item> items) {
+    interruptionPoint();
     Bounds centers;
     for (const Item& item : items) centers.add(item.center);
     Plane best;

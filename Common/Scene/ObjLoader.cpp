@@ -12,6 +12,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Bounds.h"
 #include "Common/Scene/Polygon.h"
@@ -121,6 +122,7 @@ class Builder : public tinyobj::MaterialReader {
     }
 
     void addPosition(float x, float y, float z) {
+        interruptionPoint();
         checkNumbers(3);
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail("a coordinate is too large");
         positions_.emplace_back(x, y, z);
@@ -137,6 +139,7 @@ class Builder : public tinyobj::MaterialReader {
     }
 
     void addFace(const tinyobj::index_t* corners, int count) {
+        interruptionPoint();
         if (count < 3) fail("a face of " + std::to_string(count) + " corners: at least 3 are needed");
         if (static_cast<std::size_t>(count) > kMaxPolygonCorners)
             fail("a face of " + std::to_string(count) + " corners: at most " + std::to_string(kMaxPolygonCorners));

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "Common/Core/Interruption.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/SceneReader.h"
 #include "Common/Scene/StandIns.h"
@@ -120,6 +121,7 @@ std::vector<glm::uvec3> readTriangles(const JsonNode& node, std::size_t vertexCo
     if (count == 0 || count % 3 != 0) node.failValue("an array whose length is a multiple of 3 and not 0");
     std::vector<glm::uvec3> triangles(count / 3);
     for (std::size_t i = 0; i < count; ++i) {
+        interruptionPoint();
         const JsonNode index = node.element(i);
         const bool isIndex = index.value().is_number_unsigned() && index.value().get<std::uint64_t>() < vertexCount;
         if (!isIndex) index.failValue("the index of a position, 0 to " + std::to_string(vertexCount - 1));

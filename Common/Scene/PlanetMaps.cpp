@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Scene/StandIns.h"
 #include "Common/Shared/Random.h"
 
@@ -128,6 +129,7 @@ TexelData makePlanetMap(const std::string& name) {
     TexelData data{kWidth, kHeight, shared::kTexelSrgb8, {}};
     data.words.reserve(std::size_t{kWidth} * kHeight);
     for (std::uint32_t y = 0; y < kHeight; ++y) {
+        interruptionPoint();
         const double theta = kPi * (y + 0.5) / kHeight;
         for (std::uint32_t x = 0; x < kWidth; ++x) {
             const double phi = 2 * kPi * (x + 0.5) / kWidth;

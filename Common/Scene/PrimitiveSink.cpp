@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Scene/LightTable.h"
 #include "Common/Scene/MeshOrder.h"
 
@@ -93,6 +94,7 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
                            const SphereFrame& frame) {
     const bool isMoving = motion != glm::dvec3(0);
     if (isExcluded(frame.at.part, frame.isShareable && !isMoving)) return;
+    interruptionPoint();
     const glm::dvec3 c = frame.map.point(center), m = frame.map.vector(motion);
     const double r = frame.scale ? radius * *frame.scale : radius;
     if (!representable(c) || !representable(m) || !(r >= kMinRadius && r <= kMaxCoordinate)) {
@@ -155,6 +157,7 @@ void PrimitiveSink::add(const BoxDesc& box, const Placement& at) {
 
 void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
                          const MaterialDesc& material, bool light, const Affine& map) {
+    interruptionPoint();
     shared::Quad record{};
     record.corner = shared::vec3(map.point(corner));
     record.edgeU = shared::vec3(map.vector(u));
@@ -195,6 +198,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     std::vector<glm::uvec3> triangles;
     triangles.reserve(data.triangles.size());
     for (const glm::uvec3& t : data.triangles) {
+        interruptionPoint();
         if (std::max({t.x, t.y, t.z}) >= positions.size())
             throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
                              std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
@@ -220,6 +224,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
     std::vector<std::uint32_t> renamed(positions.size(), shared::kNone);
     for (const glm::uvec3& t : triangles) {
+        interruptionPoint();
         for (int corner = 0; corner < 3; ++corner) {
             std::uint32_t& name = renamed[t[corner]];
             if (name == shared::kNone) {

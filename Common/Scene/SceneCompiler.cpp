@@ -24,6 +24,7 @@ class Compiler {
   public:
     Compiler(const SceneDesc& desc, const CompileOptions& options)
         : desc_(desc),
+          camera_(options.camera.value_or(desc.camera)),
           textures_(desc, options, *out_),
           materials_(desc, options, *out_, textures_),
           models_(desc, options, *out_, textures_, materials_),
@@ -32,7 +33,7 @@ class Compiler {
     std::shared_ptr<const CompiledScene> run() {
         out_->id = desc_.id;
         out_->title = desc_.title;
-        out_->camera = desc_.camera;
+        out_->camera = camera_;
         out_->defaults = desc_.render;
         out_->origin = desc_.camera.lookFrom;
         out_->globals.origin = shared::vec3(out_->origin);
@@ -208,6 +209,7 @@ class Compiler {
     }
 
     const SceneDesc& desc_;
+    const CameraDesc camera_;
     std::shared_ptr<CompiledScene> out_ = std::make_shared<CompiledScene>();
     TextureTable textures_;
     MaterialTable materials_;

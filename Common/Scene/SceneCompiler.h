@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "Common/Scene/CompiledScene.h"
@@ -22,6 +23,7 @@ struct TexelData {
 struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
+    std::optional<CameraDesc> camera; // in place of the scene's, which the flat scene's origin stays at
     // Reads an image file; throws InputError. A scene with image files needs it.
     std::function<TexelData(const std::filesystem::path&)> loadTexels;
 };

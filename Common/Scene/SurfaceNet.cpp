@@ -8,6 +8,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "Common/Core/Interruption.h"
+
 namespace rt::scene {
 
 namespace {
@@ -27,6 +29,7 @@ class Net {
         for (auto& slice : samples_) slice.resize(area);
         for (auto& slice : vertices_) slice.assign(area, kNoVertex);
         for (int y = 0; y < count_.y; ++y) {
+            interruptionPoint();
             if (y % kBlock == 0) chooseBlocks(y);
             sampleSlice(y);
             if (y > 0) {

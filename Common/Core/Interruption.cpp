@@ -1,0 +1,22 @@
+#include "Common/Core/Interruption.h"
+
+#include <utility>
+
+namespace rt {
+namespace {
+
+thread_local const std::atomic<bool>* requested = nullptr;
+
+} // namespace
+
+Interruptible::Interruptible(const std::atomic<bool>& flag) : outer_(std::exchange(requested, &flag)) {}
+
+Interruptible::~Interruptible() {
+    requested = outer_;
+}
+
+void interruptionPoint() {
+    if (requested != nullptr && requested->load(std::memory_order_relaxed)) throw Interrupted();
+}
+
+} // namespace rt

@@ -1,0 +1,28 @@
+// Long work of one thread, as reading a scene, that another thread may call off.
+#pragma once
+#include <atomic>
+#include <exception>
+
+namespace rt {
+
+class Interrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted"; }
+};
+
+// While it exists, interruptionPoint() throws on this thread once the flag is set. The flag must outlive it.
+class Interruptible {
+  public:
+    explicit Interruptible(const std::atomic<bool>& flag);
+    ~Interruptible();
+    Interruptible(const Interruptible&) = delete;
+    Interruptible& operator=(const Interruptible&) = delete;
+
+  private:
+    const std::atomic<bool>* outer_;
+};
+
+// Throws Interrupted where somebody waits for the work to end. Cheap enough for every element of a mesh.
+void interruptionPoint();
+
+} // namespace rt
