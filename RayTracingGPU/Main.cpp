@@ -34,8 +34,9 @@ rt::ExitCode render(const rt::app::Options& options) {
             rt::vulkan::ContextOptions{options.device, options.validation, needsRayTracing(options.gpuEngine)});
         return rt::gpu::makeGpuEngine(*context, {.engine = options.gpuEngine});
     });
-    if (context && context->validationMessages() > 0) {
-        throw rt::RenderError(std::to_string(context->validationMessages()) + " messages of Vulkan's validation");
+    context.reset();
+    if (const std::uint64_t messages = rt::vulkan::Instance::allValidationMessages(); messages > 0) {
+        throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");
     }
     return code;
 }
@@ -56,9 +57,7 @@ class OwningEngine final : public rt::app::Engine {
     }
     void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
     rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override {
-        const rt::app::RenderStatus status = engine_->renderSome(budget);
-        reportValidation();
-        return status;
+        return engine_->renderSome(budget);
     }
     const rt::image::Film& film() override { return engine_->film(); }
     rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
@@ -67,21 +66,8 @@ class OwningEngine final : public rt::app::Engine {
     bool knowsCost() const override { return engine_->knowsCost(); }
     rt::image::Image renderCost(std::uint32_t samples) override { return engine_->renderCost(samples); }
     rt::app::EngineReport report() const override { return engine_->report(); }
-    ~OwningEngine() override {
-        engine_.reset();
-        reportValidation();
-    }
-
-    static std::uint64_t validationMessages() { return allMessages_; }
 
   private:
-    void reportValidation() {
-        allMessages_ += context_.validationMessages() - ownMessages_;
-        ownMessages_ = context_.validationMessages();
-    }
-
-    inline static std::atomic<std::uint64_t> allMessages_{0};
-    std::uint64_t ownMessages_ = 0;
     rt::vulkan::VulkanContext context_;
     std::unique_ptr<rt::app::Engine> engine_;
 };
@@ -106,11 +92,7 @@ rt::ExitCode showWindow(const rt::app::Options& options) {
         return std::make_unique<OwningEngine>(context, choice.kind);
     };
     program.devices = suitableDevices();
-    const rt::ExitCode code = rt::gui::runWindow(options, program);
-    if (const std::uint64_t messages = OwningEngine::validationMessages(); messages > 0) {
-        throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");
-    }
-    return code;
+    return rt::gui::runWindow(options, program);
 }
 
 #else

@@ -15,6 +15,7 @@
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/UserFiles.h"
+#include "Common/Vulkan/Instance.h"
 
 namespace rt::gui {
 namespace {
@@ -62,12 +63,11 @@ class App {
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
           sentEnd_(endFiles(options, settings_)),
           session_(sessionSetup(options, program, settings_, history_)),
-          gui_{session_, settings_, camera_, history_, window_, options.program == app::kGpuProgram, program.devices} {
+          gui_{session_, settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram, program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
     ExitCode run();
-    std::uint64_t validationMessages() const { return device_.validationMessages(); }
 
   private:
     bool isAwake();
@@ -85,6 +85,7 @@ class App {
     GraphicsDevice device_;
     Presenter presenter_;
     ImGuiLayer imgui_;
+    Thumbnails thumbnails_{device_, presenter_.renderPass()};
     app::RunHistory history_;
     app::CameraController camera_;
     app::RenderRequest sentRequest_;
@@ -143,7 +144,10 @@ void App::turn() {
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     sendChanges();
     if (gui_.saveRequested) save();
-    presenter_.present(picture_.constants(), [this](VkCommandBuffer commands) { imgui_.draw(commands); });
+    presenter_.present(picture_.constants(), [this](VkCommandBuffer commands) {
+        thumbnails_.setCommands(commands);
+        imgui_.draw(commands);
+    });
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);
@@ -233,6 +237,7 @@ void App::drawFrame(double seconds) {
     std::vector<int> keys;
     for (const Window::KeyPress& press : presses) keys.push_back(press.key);
     imgui_.beginFrame(keys);
+    thumbnails_.beginFrame();
     for (const Window::KeyPress& press : presses) obeyKey(gui_, press);
     drawInterface();
     flying_ = fly(gui_, seconds);
@@ -266,11 +271,9 @@ void App::drawInterface() {
 
 ExitCode runWindow(const app::Options& options, const WindowProgram& program) {
     app::checkOutputs(options); // before hours are spent
-    App app(options, program);
-    const ExitCode code = app.run();
-    if (app.validationMessages() > 0) {
-        throw RenderError(std::to_string(app.validationMessages()) + " messages of Vulkan's validation");
-    }
+    const ExitCode code = App(options, program).run();
+    if (const std::uint64_t messages = vulkan::Instance::allValidationMessages(); messages > 0)
+        throw RenderError(std::to_string(messages) + " messages of Vulkan's validation");
     return code;
 }
 

@@ -175,16 +175,16 @@ void FilmPass::upload(VkCommandBuffer commands, std::uint32_t frame, Slot which,
                          0, nullptr, 0, nullptr);
 }
 
-void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants) const {
+void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants,
+                    const VkRect2D& part) const {
     constants.width = sizes_[0][0];
     constants.height = sizes_[0][1];
     constants.scale *= static_cast<float>(reduction_);
     if (sizes_[1] != sizes_[0]) constants.split = -1; // a held image of another size cannot be compared
     const VkViewport viewport{0, 0, static_cast<float>(extent.width), static_cast<float>(extent.height), 0, 1};
-    const VkRect2D scissor{{0, 0}, extent};
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
+    vkCmdSetScissor(commands, 0, 1, &part);
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0, nullptr);
     vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     vkCmdDraw(commands, 3, 1, 0, 0);

@@ -34,7 +34,10 @@ class FilmPass {
     // that is too large for the device only every n-th pixel is shown.
     void upload(VkCommandBuffer commands, std::uint32_t frame, Slot slot, const image::Image& image);
     // Within the render pass. The size in the constants is filled in.
-    void draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants) const;
+    void draw(VkCommandBuffer commands, VkExtent2D extent, const PresentConstants& constants) const {
+        draw(commands, extent, constants, {{0, 0}, extent});
+    }
+    void draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants, const VkRect2D& part) const;
 
     std::uint32_t reduction() const { return reduction_; } // pixels of the picture, a side, for one that is shown
 

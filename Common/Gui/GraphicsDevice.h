@@ -28,7 +28,6 @@ class GraphicsDevice {
     VkSurfaceKHR surface() const { return surface_; }
     const std::string& name() const { return name_; }
     VkDeviceSize maxStorageBytes() const { return maxStorageBytes_; }
-    std::uint64_t validationMessages() const { return instance_.validationMessages(); }
 
     void renewSurface(const Window& window); // after it was lost; nothing may use it any more
     std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;

@@ -8,6 +8,7 @@
 #include "Common/App/CameraController.h"
 #include "Common/App/GuiSettings.h"
 #include "Common/App/InteractiveSession.h"
+#include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"
 
@@ -26,6 +27,7 @@ struct Gui {
     app::CameraController& camera;
     app::RunHistory& history;
     Window& window;
+    Thumbnails& thumbnails;
     const bool isGpu;
     const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -8,20 +9,43 @@
 namespace rt::gui {
 namespace {
 
+constexpr float kThumbnail = 3.2f; // its side, in heights of the font
+
 const scene::BuiltinScene* findBuiltin(const std::string& id) {
     for (const scene::BuiltinScene& scene : scene::builtinScenes())
         if (scene.id == id.substr(0, id.find(':'))) return &scene;
     return nullptr;
 }
 
+// A thumbnail, the title and the line of description; whether it was chosen.
+bool drawChoice(Gui& gui, const scene::BuiltinScene& scene, bool selected) {
+    const float font = ImGui::GetFontSize(), side = kThumbnail * font;
+    ImGui::PushID(scene.id.data());
+    const bool chosen = ImGui::Selectable("##choice", selected, 0, {0, side});
+    ImGui::PopID();
+    const ImVec2 corner = ImGui::GetItemRectMin();
+    if (!ImGui::IsItemVisible()) return chosen;
+    gui.thumbnails.draw(std::string(scene.id), corner, side);
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float left = corner.x + side + 0.5f * font;
+    const float width = std::max(1.0f, ImGui::GetItemRectMax().x - left);
+    list.AddText({left, corner.y}, ImGui::GetColorU32(ImGuiCol_Text), scene.title.data(),
+                 scene.title.data() + scene.title.size());
+    list.AddText(ImGui::GetFont(), font, {left, corner.y + 1.1f * font}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                 scene.description.data(), scene.description.data() + scene.description.size(), width);
+    return chosen;
+}
+
 void drawSceneCombo(Gui& gui) {
     const std::string title = gui.state.scene ? gui.state.scene->title : "...";
     row("Scene", "Keys 1 to 9 choose the first nine, Page Up and Page Down the one before and behind");
-    if (!ImGui::BeginCombo("##scene", title.c_str(), ImGuiComboFlags_HeightLarge)) return;
+    const float font = ImGui::GetFontSize();
+    const ImVec2 most{36 * font, 0.8f * ImGui::GetMainViewport()->Size.y};
+    ImGui::SetNextWindowSizeConstraints({std::min(most.x, 0.9f * ImGui::GetMainViewport()->Size.x), 0}, most);
+    if (!ImGui::BeginCombo("##scene", title.c_str())) return;
     for (const scene::BuiltinScene& scene : scene::builtinScenes()) {
-        const bool selected = gui.state.source == scene.id;
-        if (ImGui::Selectable(std::string(scene.title).c_str(), selected)) gui.openScene(std::string(scene.id));
-        tooltip(std::string(scene.description).c_str());
+        const bool selected = findBuiltin(gui.state.source) == &scene;
+        if (drawChoice(gui, scene, selected)) gui.openScene(std::string(scene.id));
         if (selected) ImGui::SetItemDefaultFocus();
     }
     ImGui::EndCombo();
@@ -66,6 +90,11 @@ void drawFiles(Gui& gui) {
 void drawScenePanel(Gui& gui) {
     drawSceneCombo(gui);
     if (const scene::BuiltinScene* builtin = findBuiltin(gui.state.source)) {
+        const float side = kThumbnail * ImGui::GetFontSize();
+        if (gui.thumbnails.draw(std::string(builtin->id), ImGui::GetCursorScreenPos(), side)) {
+            ImGui::Dummy({side, side});
+            ImGui::SameLine();
+        }
         note(std::string(builtin->description));
         drawSceneCount(gui, *builtin);
     } else if (!gui.state.source.empty()) {

@@ -24,10 +24,13 @@ bool hasValidationLayer() {
     });
 }
 
+std::atomic<std::uint64_t> allMessages{0};
+
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
     constexpr std::uint64_t kMostShown = 20;
     const auto before = static_cast<std::atomic<std::uint64_t>*>(counter)->fetch_add(1, std::memory_order_relaxed);
+    allMessages.fetch_add(1, std::memory_order_relaxed);
     if (before < kMostShown) logWarning(std::string("validation: ") + data->pMessage);
     return VK_FALSE;
 }
@@ -44,6 +47,10 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<std::uint64_t>& cou
 }
 
 }  // namespace
+
+std::uint64_t Instance::allValidationMessages() {
+    return allMessages.load(std::memory_order_relaxed);
+}
 
 Instance::Instance(bool validation, std::vector<const char*> extensions) {
     if (validation && !hasValidationLayer()) {

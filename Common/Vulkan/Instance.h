@@ -22,6 +22,8 @@ class Instance {
 
     VkInstance get() const { return instance_; }
     std::uint64_t validationMessages() const { return messages_.load(std::memory_order_relaxed); }
+    // Of all instances of the process, also those that are gone with what they had to say of their end.
+    static std::uint64_t allValidationMessages();
 
   private:
     VkInstance instance_ = VK_NULL_HANDLE;

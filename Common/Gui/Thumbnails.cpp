@@ -1,0 +1,89 @@
+#include "Common/Gui/Thumbnails.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+#include "Common/Core/Paths.h"
+#include "Common/Image/ImageIo.h"
+#include "Common/Scene/BuiltinScenes.h"
+
+namespace rt::gui {
+
+Thumbnails::Thumbnails(GraphicsDevice& device, VkRenderPass renderPass)
+    : device_(device), pass_(device, renderPass), loading_(std::async(std::launch::async, load)) {}
+
+Thumbnails::~Thumbnails() {
+    vkDeviceWaitIdle(device_.device());
+}
+
+Thumbnails::Sheet Thumbnails::load() {
+    Sheet sheet;
+    std::vector<float> pixels;
+    for (const scene::BuiltinScene& scene : scene::builtinScenes()) {
+        const std::string id(scene.id);
+        const auto file = findAsset("thumbnails/" + id + ".png");
+        if (!file) continue;
+        try {
+            const image::Image image = image::readImage(*file);
+            if (image.width != kSide || image.height != kSide || image.channels != 3) continue;
+            sheet.places[id] = static_cast<std::uint32_t>(sheet.places.size());
+            pixels.insert(pixels.end(), image.data.begin(), image.data.end());
+        } catch (const Error& error) {
+            logWarning(error.what()); // the scene itself can be shown
+        }
+    }
+    if (sheet.places.empty()) return sheet;
+    sheet.image = image::Image(kSide, kSide * static_cast<std::uint32_t>(sheet.places.size()));
+    sheet.image.data = std::move(pixels);
+    return sheet;
+}
+
+void Thumbnails::beginFrame() {
+    tiles_.clear();
+    if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+    const Sheet sheet = loading_.get();
+    if (sheet.places.empty()) return;
+    device_.run([&](VkCommandBuffer commands) { pass_.upload(commands, 0, FilmPass::Slot::Picture, sheet.image); });
+    places_ = sheet.places;
+}
+
+bool Thumbnails::draw(const std::string& scene, ImVec2 corner, float side) {
+    const auto place = places_.find(scene);
+    if (place == places_.end()) return false;
+    tiles_.push_back({this, place->second, corner, side});
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddCallback(
+        [](const ImDrawList*, const ImDrawCmd* command) {
+            const Tile& tile = *static_cast<const Tile*>(command->UserCallbackData);
+            tile.owner->record(tile, command->ClipRect);
+        },
+        &tiles_.back());
+    list.AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+    return true;
+}
+
+void Thumbnails::record(const Tile& tile, const ImVec4& clip) const {
+    const ImDrawData* data = ImGui::GetDrawData();
+    const ImVec2 origin = data->DisplayPos, pixels = data->FramebufferScale;
+    const float width = data->DisplaySize.x * pixels.x, height = data->DisplaySize.y * pixels.y;
+    const float x = std::round((tile.corner.x - origin.x) * pixels.x);
+    const float y = std::round((tile.corner.y - origin.y) * pixels.y);
+    const float side = std::round(tile.side * pixels.x);
+    const float left = std::max({x, (clip.x - origin.x) * pixels.x, 0.0f});
+    const float top = std::max({y, (clip.y - origin.y) * pixels.y, 0.0f});
+    const float right = std::min({x + side, (clip.z - origin.x) * pixels.x, width});
+    const float bottom = std::min({y + side, (clip.w - origin.y) * pixels.y, height});
+    if (!(right - left >= 1 && bottom - top >= 1)) return;
+    PresentConstants constants;
+    constants.scale = side / static_cast<float>(kSide);
+    constants.originX = x;
+    constants.originY = y - static_cast<float>(tile.place) * side;
+    const VkRect2D scissor{{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
+                           {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};
+    pass_.draw(commands_, {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)}, constants, scissor);
+}
+
+} // namespace rt::gui
