@@ -11,6 +11,9 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <FilmReduce.comp.h>
 #include <PathTrace.Projected.comp.h>
 #include <PathTrace.comp.h>
+#include <Preview.comp.h>
+#include <Preview.frag.h>
+#include <Preview.vert.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
 #include <RayTracing.Projected.rgen.h>
@@ -39,6 +42,9 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
         case Shader::SphereHit: return RayTracing_Procedural_rchit;
         case Shader::SphereIntersection: return RayTracing_Procedural_rint;
         case Shader::FilmReduce: return FilmReduce_comp;
+        case Shader::PreviewVertex: return Preview_vert;
+        case Shader::PreviewFragment: return Preview_frag;
+        case Shader::PreviewFinish: return Preview_comp;
     }
     return {};
 }

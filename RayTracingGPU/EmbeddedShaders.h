@@ -20,6 +20,9 @@ enum class Shader {
     SphereHit,
     SphereIntersection,
     FilmReduce,
+    PreviewVertex,
+    PreviewFragment,
+    PreviewFinish,
 };
 
 // SPIR-V words, living as long as the program.

@@ -19,6 +19,7 @@
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/Launches.h"
+#include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RtPipeline.h"
 
 namespace rt::gpu {
@@ -60,6 +61,7 @@ class GpuEngine final : public app::Engine {
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
         if (cancel != nullptr && cancel->load(std::memory_order_relaxed)) return false;
+        preview_.reset();
         scene_ = std::move(prepared);
         launchSize_.reset();
         return true;
@@ -72,6 +74,8 @@ class GpuEngine final : public app::Engine {
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
     bool knowsCost() const override { return true; }
     image::Image renderCost(std::uint32_t samples) override;
+    bool canPreview() const override { return context_.info().draws; }
+    app::Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override;
     app::EngineReport report() const override;
 
   private:
@@ -103,6 +107,7 @@ class GpuEngine final : public app::Engine {
     vulkan::Buffer blockSums_;
 
     std::unique_ptr<GpuScene> scene_;
+    std::optional<PreviewPass> preview_; // of the scene, once it was asked for
     app::RenderSettings settings_;
     shared::RenderParams params_{};
     std::uint32_t features_ = 0;
@@ -342,6 +347,15 @@ image::Image GpuEngine::renderCost(std::uint32_t samples) {
     const std::unique_ptr<Kernel> kernel = makeKernel(kernelKey_, Shader::CostCompute, Shader::CostGeneration);
     cache_.save();
     return renderCostPass(context_, *kernel, settings_.width, settings_.height, std::max(samples, 1u));
+}
+
+app::Preview GpuEngine::renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
+    if (!canPreview()) return {};
+    if (!preview_) {
+        preview_.emplace(context_, cache_, *scene_);
+        cache_.save();
+    }
+    return preview_->render(camera, width, height);
 }
 
 app::EngineReport GpuEngine::report() const {

@@ -65,6 +65,10 @@ class OwningEngine final : public rt::app::Engine {
     }
     bool knowsCost() const override { return engine_->knowsCost(); }
     rt::image::Image renderCost(std::uint32_t samples) override { return engine_->renderCost(samples); }
+    bool canPreview() const override { return engine_->canPreview(); }
+    rt::app::Preview renderPreview(const rt::scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override {
+        return engine_->renderPreview(camera, width, height);
+    }
     rt::app::EngineReport report() const override { return engine_->report(); }
 
   private:

@@ -194,6 +194,23 @@ struct AovLaunch {
 };
 const uint kAovValues = 7u;
 
+// ---- preview by rasterisation ----------------------------------------------------------------------------------------
+
+RT_MUTABLE_ARRAY(MutableFourArray, vec4)
+
+// Push constants of Preview.vert, .frag and .comp. A point p is drawn at (clipX, clipY, near, clipW), each row times (p, 1).
+struct PreviewLaunch {
+    WordArray indices;       // lightCount lights, then what a draw's instances are: kNone is the world itself
+    MutableFourArray pixels; // radiance, and the distance along the pixel's ray, 0 where nothing is drawn
+    vec4 clipX;
+    vec4 clipY;
+    vec4 clipW; // 1 in the plane of focus, 0 at the camera
+    vec3 ambient; // radiance from all around
+    float near;
+    uint lightCount;
+    uint unused; // as in TreeArrays
+};
+
 // ---- shader binding table -------------------------------------------------------------------------------------------
 
 // A hit group's record is the offset of the instance plus the index of the geometry in its structure, so that a structure may

@@ -58,6 +58,12 @@ struct AovImages {
     image::Image albedo, normal, depth;
 };
 
+// The scene as rasterisation draws it at once: lit without shadows, one ray a pixel.
+struct Preview {
+    image::Image picture; // linear radiance
+    image::Image depth;   // as AovImages'
+};
+
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
     virtual ~Engine() = default;
@@ -78,6 +84,12 @@ struct Engine {
     virtual bool knowsCost() const { return false; }
     virtual image::Image renderCost(std::uint32_t samples) {
         (void)samples;
+        return {};
+    }
+    // Needs a scene but no film, and leaves that as it is. An engine that cannot draw returns images without pixels.
+    virtual bool canPreview() const { return false; }
+    virtual Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
+        (void)camera, (void)width, (void)height;
         return {};
     }
     virtual EngineReport report() const = 0;

@@ -127,6 +127,7 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
     reader.read("exposure", settings.exposure, -100, 100);
     reader.read("tonemap", kTonemaps, settings.tonemap);
     reader.read("save_folder", settings.saveFolder);
+    reader.read("ray_tracing", settings.rayTracing);
     reader.read("scene", settings.scene);
     if (settings.scene.empty()) settings.scene = GuiSettings().scene;
     if (const auto* recent = reader.find("recent"); recent != nullptr && recent->is_array()) {
@@ -161,6 +162,7 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                     {"exposure", s.exposure},
                     {"tonemap", nameOf(kTonemaps, s.tonemap)},
                     {"save_folder", s.saveFolder},
+                    {"ray_tracing", s.rayTracing},
                     {"scene", s.scene},
                     {"recent", s.recent},
                     {"render", toJson(s.request)},

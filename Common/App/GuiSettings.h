@@ -34,6 +34,7 @@ struct GuiSettings {
     std::vector<std::string> recent; // scene files, the latest first
     std::string scene = "cornell-box-lights";
     RenderRequest request;
+    bool rayTracing = true; // of ray-tracing-gpu; off: its preview
     EngineChoice engine;
     bool operator==(const GuiSettings&) const = default;
 

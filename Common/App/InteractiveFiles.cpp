@@ -26,6 +26,7 @@ Options InteractiveSession::optionsOf(const SaveRequest& request) const {
 }
 
 void InteractiveSession::write(const SaveRequest& request) {
+    if (isPreviewing()) return writePreview(request);
     for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
         fail(std::make_exception_ptr(RenderError(failure)), false);
 }

@@ -36,12 +36,16 @@ RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
 
 // ---- rendering -------------------------------------------------------------------------------------------------------
 
-void InteractiveSession::startFilm() {
+RenderSettings InteractiveSession::sizedSettings() const {
     Options options;
     options.size = request_.size;
     options.settings = request_.settings;
     settleImageSize(options, scene_->defaults.aspect);
-    RenderSettings settings = options.settings;
+    return options.settings;
+}
+
+void InteractiveSession::startFilm() {
+    RenderSettings settings = sizedSettings();
     settings.seed += round_;
     settings.sppIsKnown = !request_.timeLimit;
     settings.secondMoments = settings.replicates < 2;
@@ -208,6 +212,7 @@ RunRecord InteractiveSession::makeRecord() const {
 // ---- what is shown ---------------------------------------------------------------------------------------------------
 
 void InteractiveSession::publish() {
+    if (isPreviewing()) return;
     const Stopwatch watch;
     const image::Film& film = engine_->film();
     auto radiance = std::make_shared<image::Image>(film.resolve());
@@ -289,15 +294,15 @@ std::shared_ptr<const image::Image> InteractiveSession::shownImage(
 }
 
 void InteractiveSession::findFocus(std::uint32_t x, std::uint32_t y) {
-    if (x >= settings_.width || y >= settings_.height) return;
     AovRequest request;
     request.depth = true;
-    const AovImages aovs = engine_->renderAovs(request, 1);
-    const float distance = *aovs.depth.pixel(x, y);
+    const image::Image depth = isPreviewing() ? preview_.depth : engine_->renderAovs(request, 1).depth;
+    if (x >= depth.width || y >= depth.height) return;
+    const float distance = *depth.pixel(x, y);
     if (!(distance > 0)) return; // the sky
     const double half = std::tan(0.5 * camera_.verticalFov * 0.017453292519943295);
-    const double up = half * ((y + 0.5) / settings_.height * 2 - 1);
-    const double right = half * ((x + 0.5) / settings_.width * 2 - 1) * settings_.width / settings_.height;
+    const double up = half * ((y + 0.5) / depth.height * 2 - 1);
+    const double right = half * ((x + 0.5) / depth.width * 2 - 1) * depth.width / depth.height;
     const double cosine = 1 / std::sqrt(1 + up * up + right * right);
     update([&](SessionState& state) {
         state.focusDistance = distance * cosine;

@@ -117,6 +117,9 @@ void InteractiveSession::save(SaveRequest request) {
 void InteractiveSession::view(const ViewRequest& view) {
     post(false, [&](Requests& requests) { requests.view = view; });
 }
+void InteractiveSession::preview(bool on) {
+    post(true, [on](Requests& requests) { requests.preview = on; });
+}
 void InteractiveSession::renderReference(std::uint32_t spp) {
     post(true, [&](Requests& requests) { requests.referenceSpp = spp; });
 }
@@ -164,9 +167,10 @@ void InteractiveSession::work() {
         }
         try {
             apply(std::move(requests));
-            if (isActive() && engine_ && scene_) renderSlice();
+            if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
         } catch (...) {
             fail(std::current_exception(), false);
+            setStage("");
             setActivity(Activity::Failed);
             filmIsStale_ = true;
         }
@@ -177,7 +181,7 @@ void InteractiveSession::work() {
 // Waits while there is nothing to do.
 InteractiveSession::Requests InteractiveSession::take() {
     std::unique_lock lock(mutex_);
-    wake_.wait(lock, [this] { return requests_.any() || (isActive() && engine_ && scene_); });
+    wake_.wait(lock, [this] { return requests_.any() || hasWork(); });
     cancelRender_ = requests_.quit;
     if (unanswered_ && !unshown_) unshown_ = unanswered_;
     unanswered_.reset();
@@ -201,21 +205,25 @@ void InteractiveSession::apply(Requests requests) {
         round_ = 0;
         referenceSpp_.reset();
     }
+    if (requests.changesWhatIsSeen()) previewIsStale_ = true;
+    if (requests.preview) switchPreview(*requests.preview);
     for (const SaveRequest& save : requests.saves) write(save);
     if (requests.referenceFile) readReferenceFile(*requests.referenceFile);
-    if (requests.referenceSpp) {
+    if (requests.referenceSpp && isPreviewing()) {
+        fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")), false);
+    } else if (requests.referenceSpp) {
         referenceSpp_ = requests.referenceSpp;
         filmIsStale_ = true;
         setActivity(Activity::Rendering);
     }
-    if (requests.focus && !filmIsStale_) findFocus((*requests.focus)[0], (*requests.focus)[1]);
+    if (requests.focus && (isPreviewing() || !filmIsStale_)) findFocus((*requests.focus)[0], (*requests.focus)[1]);
     if (requests.view && *requests.view != view_) {
         featureView_ = nullptr;
         featureIsFull_ = false;
         view_ = *requests.view;
-        if (engine_ && scene_ && !filmIsStale_) publish();
+        if (isReady() && !filmIsStale_) publish();
     }
-    if (requests.command) obey(*requests.command);
+    if (requests.command && !isPreviewing()) obey(*requests.command);
     if (!filmIsStale_ || activity_ == Activity::Stopped) unshown_.reset(); // there will be nothing new to see
     // What was changed is looked at, unless the user has stopped rendering.
     if (filmIsStale_ && activity_ != Activity::Stopped && activity_ != Activity::Rendering) {
@@ -233,10 +241,11 @@ void InteractiveSession::makeEngine(const EngineChoice& choice) {
         if (scene_ && !filmIsNew_) engine->reset(camera_, settings_); // compiles what a film like the present one needs
         engine_ = std::move(engine);
         choice_ = choice;
-        const bool canShowCost = engine_->knowsCost();
+        const bool canShowCost = engine_->knowsCost(), canPreview = engine_->canPreview();
         update([&](SessionState& state) {
             state.engine = choice;
             state.canShowCost = canShowCost;
+            state.canPreview = canPreview;
         });
         filmIsStale_ = filmIsNew_ = true;
     } catch (...) {

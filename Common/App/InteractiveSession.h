@@ -62,6 +62,7 @@ struct Picture {
     std::shared_ptr<const image::Image> image;    // linear
     std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
     bool isDisplay = false;                       // no exposure and no tone curve belong to it
+    bool isPreview = false;                       // by rasterisation
     std::uint64_t serial = 0;                     // grows with each new picture
     std::uint64_t spp = 0; // of the pixel with the fewest samples; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
@@ -113,6 +114,7 @@ struct SessionState {
     std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
     std::vector<ErrorPoint> curve;   // of this film, against the reference
     bool canShowCost = false;        // the engine knows what a pixel costs
+    bool canPreview = false;         // it can draw without ray tracing
     double focusDistance = 0;        // that makes sharp what was picked last
     std::uint64_t focusSerial = 0;   // grows with each pick that met something
     std::uint64_t historySerial = 0; // grows when a run is added to the history
@@ -158,6 +160,9 @@ class InteractiveSession {
     void reset(); // begins anew
     void save(SaveRequest request);
     void view(const ViewRequest& view);
+    // Shows the preview instead of the film, where the engine has one; rays rest meanwhile, and the film goes on afterwards
+    // unless something that concerns it has changed.
+    void preview(bool on);
     // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear image
     // file of the present size. Stop gives a render up, and what was the reference before stays.
     void renderReference(std::uint32_t spp);
@@ -187,13 +192,15 @@ class InteractiveSession {
         std::optional<Command> command;
         std::vector<SaveRequest> saves;
         std::optional<ViewRequest> view;
+        std::optional<bool> preview;
         std::optional<std::uint32_t> referenceSpp;
         std::optional<std::string> referenceFile;
         std::optional<std::array<std::uint32_t, 2>> focus;
         bool any() const {
-            return quit || engine || request || scene || camera || command || !saves.empty() || view || referenceSpp ||
-                   referenceFile || focus;
+            return quit || engine || request || scene || camera || command || !saves.empty() || view || preview ||
+                   referenceSpp || referenceFile || focus;
         }
+        bool changesWhatIsSeen() const { return engine || request || scene || camera || preview; }
     };
 
     template <class Change>
@@ -209,8 +216,15 @@ class InteractiveSession {
     void adopt(LoadedScene loaded);
     void obey(Command command);
     void fail(const std::exception_ptr& failure, bool fatal);
+    bool isReady() const { return engine_ && scene_; }
     bool isActive() const { return activity_ == Activity::Rendering; }
+    bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
+    bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive()); }
     void setActivity(Activity activity);
+    RenderSettings sizedSettings() const;
+    void switchPreview(bool on);
+    void renderPreview();
+    void writePreview(const SaveRequest& request);
     void startFilm();
     void renderDraft(const RenderSettings& settings);
     void renderSlice();
@@ -274,6 +288,9 @@ class InteractiveSession {
     double loadSeconds_ = 0;
     double samplesPerSecond_ = 2e5; // for the size of drafts; a cautious guess at first
     image::Image draft_;
+    bool previewIsWanted_ = false;
+    bool previewIsStale_ = true;
+    Preview preview_;
     ViewRequest view_;
     std::shared_ptr<const image::Image> featureView_; // of the film, for modes that samples do not change
     bool featureIsFull_ = false;                      // in the film's resolution

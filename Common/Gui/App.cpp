@@ -92,6 +92,7 @@ class App {
     app::EngineChoice sentEngine_;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
+    bool sentRayTracing_ = true;
     const image::Image* shownHeld_ = nullptr;
     std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
     app::InteractiveSession session_;
@@ -202,6 +203,10 @@ void App::sendChanges() {
     if (settings_.engine != sentEngine_) {
         sentEngine_ = settings_.engine;
         session_.choose(sentEngine_);
+    }
+    if (settings_.rayTracing != sentRayTracing_) {
+        sentRayTracing_ = settings_.rayTracing;
+        session_.preview(!sentRayTracing_);
     }
     if (gui_.viewRequest != sentView_) {
         sentView_ = gui_.viewRequest;

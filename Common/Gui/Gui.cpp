@@ -56,6 +56,10 @@ void Gui::toggleHeatMap() {
     viewRequest.mode = isOn ? app::ViewMode::Picture : app::ViewMode::Heat;
 }
 
+void Gui::setRayTracing(bool on) {
+    settings.rayTracing = on || !state.canPreview;
+}
+
 void Gui::scaleInterface(float change) {
     settings.uiScale = std::clamp(settings.uiScale + change, app::kLeastUiScale, app::kMostUiScale);
 }

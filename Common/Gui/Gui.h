@@ -57,6 +57,7 @@ struct Gui {
     void copyPose();          // of the camera, to the clipboard
     void pastePose();
     void toggleHeatMap();
+    void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);
     void say(const std::string& text, bool isError);
 };

@@ -28,6 +28,7 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl + wheel", "zoom the picture"},
     {"Ctrl + right drag", "move the picture"},
     {"F", "fit the picture"},
+    {"P", "preview without ray tracing, and back (ray-tracing-gpu)"},
     {"H", "heat map: rays that each pixel costs"},
     {"B", "hold the picture for comparison, let it go"},
     {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},

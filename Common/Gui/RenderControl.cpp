@@ -51,17 +51,20 @@ void drawRenderControl(Gui& gui) {
     const app::SessionState& state = gui.state;
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
-    const bool rendering = state.activity == Activity::Rendering;
-    const bool paused = state.activity == Activity::Paused;
+    const bool isPreview = state.picture.isPreview;
+    const bool rendering = !isPreview && state.activity == Activity::Rendering;
+    const bool paused = !isPreview && state.activity == Activity::Paused;
     if (button("Render", "Renders from the beginning, or goes on after a pause (Space)", !rendering, width)) {
-        gui.session.render();
+        isPreview ? gui.setRayTracing(true) : gui.session.render();
     }
     ImGui::SameLine(0, space);
     if (button("Pause", "Holds the render; Render goes on (Space)", rendering, width)) gui.session.pause();
     ImGui::SameLine(0, space);
     if (button("Stop", "Ends the render; what there is of it stays", rendering || paused, width)) gui.session.stop();
     ImGui::SameLine(0, space);
-    if (button("Reset", "Throws the samples away and renders from the beginning", true, width)) gui.session.reset();
+    if (button("Reset", "Throws the samples away and renders from the beginning", !isPreview, width)) {
+        gui.session.reset();
+    }
 
     const float share = state.status.samplesTotal > 0
                             ? static_cast<float>(static_cast<double>(state.status.samplesDone) /
@@ -74,9 +77,9 @@ void drawRenderControl(Gui& gui) {
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     ImGui::GetWindowDrawList()->AddText({corner.x + 0.5f * (bar.x - extent.x), corner.y + 0.5f * (bar.y - extent.y)},
                                         ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-    std::string line = activityText(state.activity);
+    std::string line = isPreview ? "preview: ray tracing is off" : activityText(state.activity);
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
-    if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty()) line += ", " + left;
+    if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview) line += ", " + left;
     ImGui::TextDisabled("%s", line.c_str());
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;

@@ -65,6 +65,7 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F, When::Plain, [](Gui& gui) { gui.view = {}; }},
     {GLFW_KEY_B, When::Plain, holdPicture},
     {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
+    {GLFW_KEY_P, When::Plain, [](Gui& gui) { gui.setRayTracing(!gui.settings.rayTracing); }},
     {GLFW_KEY_PAGE_UP, When::Plain, [](Gui& gui) { gui.stepScene(-1); }},
     {GLFW_KEY_PAGE_DOWN, When::Plain, [](Gui& gui) { gui.stepScene(1); }},
 };

@@ -30,6 +30,7 @@ constexpr Mode kModes[] = {
 };
 
 bool isAvailable(const Gui& gui, ViewMode mode) {
+    if (gui.state.picture.isPreview) return mode == ViewMode::Picture;
     if (mode == ViewMode::Error) return gui.state.referenceFits;
     if (mode == ViewMode::Heat) return gui.state.canShowCost;
     return true;

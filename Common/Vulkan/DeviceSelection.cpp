@@ -77,6 +77,17 @@ std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice device) {
     return best;
 }
 
+bool canDraw(VkPhysicalDevice device, std::uint32_t queueFamily) {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    if (queueFamily >= count || (families[queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) return false;
+    VkFormatProperties format;
+    vkGetPhysicalDeviceFormatProperties(device, kDepthFormat, &format);
+    return (format.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;
+}
+
 DeviceInfo describe(VkPhysicalDevice device) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
@@ -102,6 +113,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     const std::optional<std::uint32_t> family = findQueueFamily(device);
     if (!family) addMissing(info.missing, "a compute queue");
     info.queueFamily = family.value_or(0);
+    info.draws = family && canDraw(device, *family);
     return info;
 }
 

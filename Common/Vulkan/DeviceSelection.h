@@ -10,6 +10,8 @@
 
 namespace rt::vulkan {
 
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
 struct DeviceInfo {
     VkPhysicalDevice device = VK_NULL_HANDLE;
     std::string name;
@@ -17,6 +19,7 @@ struct DeviceInfo {
     std::string version; // of Vulkan
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::uint32_t queueFamily = 0;
+    bool draws = false;             // its queue rasterises, too, into kDepthFormat
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
     bool suitable() const { return missing.empty(); }

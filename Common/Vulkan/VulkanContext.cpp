@@ -1,5 +1,6 @@
 #include "Common/Vulkan/VulkanContext.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstring>
@@ -129,6 +130,10 @@ void VulkanContext::queryLimits() {
     limits_.maxPrimitives = structure.maxPrimitiveCount;
     limits_.maxInstances = structure.maxInstanceCount;
     limits_.maxAllocation = memory.maxMemoryAllocationSize;
+    const VkPhysicalDeviceLimits& core = properties.properties.limits;
+    limits_.maxDrawnSide = std::min({core.maxFramebufferWidth, core.maxFramebufferHeight, core.maxImageDimension2D,
+                                     static_cast<std::uint32_t>(core.maxViewportDimensions[0]),
+                                     static_cast<std::uint32_t>(core.maxViewportDimensions[1])});
     limits_.vendor = properties.properties.vendorID;
     limits_.deviceId = properties.properties.deviceID;
     std::memcpy(limits_.pipelineCacheId, properties.properties.pipelineCacheUUID, VK_UUID_SIZE);

@@ -43,6 +43,7 @@ struct DeviceLimits {
     std::uint64_t maxPrimitives = 0;    // of one acceleration structure
     std::uint64_t maxInstances = 0;
     std::uint64_t maxAllocation = 0; // bytes, of one piece of memory
+    std::uint32_t maxDrawnSide = 0;  // pixels, of an image that is drawn
     double timestampSeconds = 0;     // of one tick; 0: the queue has no timestamps
     std::uint64_t timestampMask = 0;
     std::uint32_t vendor = 0;

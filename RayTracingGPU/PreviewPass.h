@@ -1,0 +1,58 @@
+// A picture by rasterisation of the scene that the engine has on its device: instanced, textured, lit without shadows.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "Common/App/Engine.h"
+#include "Common/Vulkan/PipelineCache.h"
+#include "Common/Vulkan/VulkanResources.h"
+#include "RayTracingGPU/GpuScene.h"
+#include "RayTracingGPU/PreviewTarget.h"
+
+namespace rt::gpu {
+
+// Of one scene, whose buffers its shaders read. A device that cannot draw (DeviceInfo::draws) cannot have one.
+class PreviewPass {
+  public:
+    // `scene` must outlive it.
+    PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const GpuScene& scene);
+
+    // One ray through the middle of each pixel and of the lens, at the opening of the shutter. Throws RenderError, also where
+    // the image is larger than the device draws.
+    app::Preview render(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
+
+  private:
+    // Primitives of one kind in one geometry, with their instances.
+    struct Draw {
+        std::uint32_t shape = 0;
+        std::uint32_t firstVertex = 0, vertexCount = 0;
+        std::uint32_t firstInstance = 0, instanceCount = 0;
+    };
+
+    void listDraws();
+    void createBindings();
+    void createPipelines(const vulkan::PipelineCache& cache);
+    vulkan::Handle<VkPipeline> createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape);
+    void uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
+    void record(VkCommandBuffer commands);
+
+    vulkan::VulkanContext& context_;
+    const GpuScene& scene_;
+    std::uint32_t features_;
+    std::vector<Draw> draws_;
+    vulkan::Buffer indices_; // see PreviewLaunch
+    vulkan::Buffer constants_;
+    shared::PreviewLaunch launch_{};
+
+    vulkan::Handle<VkDescriptorSetLayout> setLayout_;
+    vulkan::Handle<VkDescriptorPool> pool_;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    vulkan::Handle<VkPipelineLayout> layout_;
+    vulkan::Handle<VkRenderPass> renderPass_;
+    std::array<vulkan::Handle<VkPipeline>, 3> drawing_; // by shape: kSphere, kQuad, kTriangle
+    vulkan::Handle<VkPipeline> finishing_;
+    PreviewTarget target_;
+};
+
+} // namespace rt::gpu

@@ -1,0 +1,151 @@
+#include "RayTracingGPU/PreviewTarget.h"
+
+#include <array>
+#include <string>
+
+#include "Common/Vulkan/Check.h"
+
+namespace rt::gpu {
+namespace {
+
+using vulkan::check;
+
+constexpr const char* kWhat = "Preparing the preview";
+
+} // namespace
+
+vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device) {
+    std::array<VkAttachmentDescription, 2> attachments{};
+    for (VkAttachmentDescription& attachment : attachments) {
+        attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+        attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    }
+    attachments[0].format = kPreviewColor;
+    attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    attachments[0].finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    attachments[1].format = vulkan::kDepthFormat;
+    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    attachments[1].finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &color;
+    subpass.pDepthStencilAttachment = &depth;
+    // Commands wait for each other before and behind: nothing of ours overlaps.
+    constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                              VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+                                              VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+    constexpr VkAccessFlags kWriting =
+        VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+    std::array<VkSubpassDependency, 2> dependencies{};
+    dependencies[0] = {VK_SUBPASS_EXTERNAL,
+                       0,
+                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       kDrawing,
+                       VK_ACCESS_MEMORY_WRITE_BIT,
+                       kWriting | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+                       0};
+    dependencies[1] = {0,        VK_SUBPASS_EXTERNAL,         kDrawing, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       kWriting, VK_ACCESS_TRANSFER_READ_BIT, 0};
+    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
+    info.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    info.pAttachments = attachments.data();
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
+    info.pDependencies = dependencies.data();
+    VkRenderPass renderPass = VK_NULL_HANDLE;
+    check(vkCreateRenderPass(device, &info, nullptr, &renderPass), kWhat);
+    return {device, renderPass, vkDestroyRenderPass};
+}
+
+PreviewTarget::Attachment PreviewTarget::attach(vulkan::VulkanContext& context, VkFormat format, VkExtent2D extent,
+                                                VkImageUsageFlags usage, VkImageAspectFlags aspect) {
+    const VkDevice device = context.device();
+    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = format;
+    info.extent = {extent.width, extent.height, 1};
+    info.mipLevels = info.arrayLayers = 1;
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.usage = usage;
+    Attachment result;
+    VkImage image = VK_NULL_HANDLE;
+    check(vkCreateImage(device, &info, nullptr, &image), kWhat);
+    result.image = {device, image, vkDestroyImage};
+
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(device, image, &needs);
+    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
+    allocation.allocationSize = needs.size;
+    allocation.memoryTypeIndex = context.memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0);
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    check(vkAllocateMemory(device, &allocation, nullptr, &memory), "Memory for the preview");
+    result.memory = {device, memory, vkFreeMemory};
+    check(vkBindImageMemory(device, image, memory, 0), kWhat);
+
+    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    viewInfo.image = image;
+    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    viewInfo.format = format;
+    viewInfo.subresourceRange = {aspect, 0, 1, 0, 1};
+    VkImageView view = VK_NULL_HANDLE;
+    check(vkCreateImageView(device, &viewInfo, nullptr, &view), kWhat);
+    result.view = {device, view, vkDestroyImageView};
+    return result;
+}
+
+PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent)
+    : extent_(extent) {
+    const std::uint32_t most = context.limits().maxDrawnSide;
+    if (extent.width > most || extent.height > most) {
+        throw RenderError("the preview of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
+                          " pixels: " + context.info().name + " draws at most " + std::to_string(most) + " a side");
+    }
+    color_ = attach(context, kPreviewColor, extent,
+                    VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+    depth_ = attach(context, vulkan::kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                    VK_IMAGE_ASPECT_DEPTH_BIT);
+    const std::array<VkImageView, 2> views{color_.view.get(), depth_.view.get()};
+    VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    info.renderPass = renderPass;
+    info.attachmentCount = static_cast<std::uint32_t>(views.size());
+    info.pAttachments = views.data();
+    info.width = extent.width;
+    info.height = extent.height;
+    info.layers = 1;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), kWhat);
+    framebuffer_ = {context.device(), framebuffer, vkDestroyFramebuffer};
+    const VkDeviceSize bytes = VkDeviceSize{extent.width} * extent.height * 4 * sizeof(float);
+    pixels_ = vulkan::Buffer(context, bytes, 0, vulkan::Memory::Device, "the preview");
+}
+
+void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass) const {
+    const std::array<VkClearValue, 2> zero{}; // nothing drawn, infinitely far
+    VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    info.renderPass = renderPass;
+    info.framebuffer = framebuffer_.get();
+    info.renderArea = {{0, 0}, extent_};
+    info.clearValueCount = static_cast<std::uint32_t>(zero.size());
+    info.pClearValues = zero.data();
+    vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport{0, 0, static_cast<float>(extent_.width), static_cast<float>(extent_.height), 0, 1};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &info.renderArea);
+}
+
+void PreviewTarget::end(VkCommandBuffer commands) const {
+    vkCmdEndRenderPass(commands);
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {extent_.width, extent_.height, 1};
+    vkCmdCopyImageToBuffer(commands, color_.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.get(), 1,
+                           &region);
+}
+
+} // namespace rt::gpu

@@ -1,0 +1,42 @@
+// What the preview is drawn into: an image of four floats a pixel, with a depth buffer, and the buffer that it is copied to.
+#pragma once
+#include <cstdint>
+
+#include "Common/Vulkan/VulkanResources.h"
+
+namespace rt::gpu {
+
+inline constexpr VkFormat kPreviewColor = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+// Clears both attachments and leaves the colours ready to be copied.
+vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device);
+
+class PreviewTarget {
+  public:
+    PreviewTarget() = default;
+    // Throws RenderError where the device does not draw such a large image.
+    PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent);
+
+    VkExtent2D extent() const { return extent_; }
+    const vulkan::Buffer& pixels() const { return pixels_; } // four floats each
+    // Begins the render pass, with viewport and scissor of the whole image.
+    void begin(VkCommandBuffer commands, VkRenderPass renderPass) const;
+    // Ends it and copies what was drawn to pixels().
+    void end(VkCommandBuffer commands) const;
+
+  private:
+    struct Attachment {
+        vulkan::Handle<VkDeviceMemory> memory; // outlives the image
+        vulkan::Handle<VkImage> image;
+        vulkan::Handle<VkImageView> view;
+    };
+    static Attachment attach(vulkan::VulkanContext& context, VkFormat format, VkExtent2D extent,
+                             VkImageUsageFlags usage, VkImageAspectFlags aspect);
+
+    VkExtent2D extent_{};
+    Attachment color_, depth_;
+    vulkan::Handle<VkFramebuffer> framebuffer_;
+    vulkan::Buffer pixels_;
+};
+
+} // namespace rt::gpu

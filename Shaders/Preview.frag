@@ -1,0 +1,60 @@
+// The colour of what a pixel's ray meets first. Surfaces are those of the ray tracer: the same formulas find position, normal,
+// texture and material.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "Preview.glsl"
+
+layout(location = 0) in vec2 weights;
+layout(location = 1) flat in uvec2 place;
+layout(location = 0) out vec4 color; // radiance, distance
+
+// The ray's parameter where it meets the sphere; negative: nowhere.
+float sphereDistance(SceneRef scene, Ray ray) {
+    Ray local = ray;
+    if (has(kFeatures, kFeatureInstances) && place.y != kNone) {
+        Instance instance = loadInstance(scene, place.y);
+        local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
+        local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+    }
+    Sphere sphere = loadSphere(scene, place.x);
+    return intersectSphere(local, sphere.center, sphere.radius, kInfinity);
+}
+
+// Diffuse surfaces as they are; metal and glass half as if they were, half as a mirror of the sky.
+vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
+    Material material = loadMaterial(scene, surface.material);
+    bool isFront = dot(wo, surface.normal) > 0.0f;
+    vec3 normal = isFront ? surface.shading : -surface.shading;
+    vec3 radiance = vec3(0.0f);
+    if (has(kFeatures, kFeatureEmissive) && (isFront || material.emissionSides == kSidesBoth)) {
+        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv);
+    }
+    if (material.kind == kMaterialEmitter) return radiance;
+    vec3 albedo = texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+    vec3 incident = incidentLight(scene, surface.position, normal, wo);
+    if (material.kind != kMaterialLambertian) {
+        incident = 0.5f * (incident + skyRadiance(kFeatures, scene, reflect(-wo, normal)));
+    }
+    return radiance + albedo * incident;
+}
+
+void main() {
+    SceneRef scene;
+    scene.unused = 0u;
+    Ray ray = previewRay(uvec2(gl_FragCoord.xy));
+    Hit hit;
+    hit.t = 0.0f;
+    hit.kind = kShape;
+    hit.primitive = place.x;
+    hit.instance = place.y;
+    hit.u = weights.x;
+    hit.v = weights.y;
+    if (kShape == kSphere) {
+        hit.t = sphereDistance(scene, ray);
+        if (hit.t < 0.0f) discard;
+    }
+    Surface surface = makeSurface(kFeatures, scene, ray, hit);
+    float t = kShape == kSphere ? hit.t : dot(surface.position - ray.origin, ray.direction);
+    gl_FragDepth = launch.near / dot(launch.clipW, vec4(ray.origin + t * ray.direction, 1.0f));
+    color = vec4(surfaceRadiance(scene, surface, -ray.direction), t);
+}

@@ -1,0 +1,226 @@
+// The preview by rasterisation against the ray tracer's first hits: the same surfaces at the same distances, in the same
+// colours.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "Common/App/SceneSource.h"
+#include "Common/Core/Error.h"
+#include "Common/Scene/CameraRecord.h"
+#include "Common/Scene/SceneJson.h"
+#include "Common/Shared/Features.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+using image::Image;
+using Scene = std::shared_ptr<const scene::CompiledScene>;
+
+constexpr std::uint32_t kWidth = 96, kHeight = 72;
+
+std::unique_ptr<app::Engine> makeEngine(const Scene& scene, app::GpuEngineKind kind = app::GpuEngineKind::Compute) {
+    auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = kind});
+    engine->setScene(scene, nullptr);
+    return engine;
+}
+
+Scene fromText(const std::string& text) {
+    return app::compile(scene::parseScene(text, "test.json", {}), true);
+}
+
+// First hits of the scene when the shutter opens, one ray a pixel through a pinhole.
+app::AovImages firstHits(const Scene& scene, scene::CameraDesc camera, std::uint32_t width = kWidth,
+                         std::uint32_t height = kHeight) {
+    auto still = std::make_shared<scene::CompiledScene>(*scene);
+    still->sphereMotions.clear();
+    still->features &= ~(shared::kFeatureMovingSpheres | shared::kFeatureMotion);
+    camera.defocusAngle = 0;
+    app::RenderSettings settings;
+    settings.width = width;
+    settings.height = height;
+    settings.spp = 1;
+    const auto engine = makeEngine(still);
+    engine->reset(camera, settings);
+    return engine->renderAovs({true, true, true}, 1);
+}
+
+// Share of the pixels in which each value of `traced` is, up to this relative margin, among those that `preview` has in the pixel
+// and around it: the ray of a sample does not go through the pixel's middle.
+double agreement(const Image& preview, const Image& traced, float margin) {
+    const auto isNear = [&](std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+        float low = 1e30f, high = 0;
+        for (std::uint32_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, preview.height); ++j) {
+            for (std::uint32_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, preview.width); ++i) {
+                low = std::min(low, preview.pixel(i, j)[channel]);
+                high = std::max(high, preview.pixel(i, j)[channel]);
+            }
+        }
+        const float value = traced.pixel(x, y)[channel];
+        return value >= (1 - margin) * low && value <= (1 + margin) * high;
+    };
+    std::size_t same = 0;
+    for (std::uint32_t y = 0; y < preview.height; ++y) {
+        for (std::uint32_t x = 0; x < preview.width; ++x) {
+            bool all = true;
+            for (std::uint32_t c = 0; c < traced.channels; ++c) all = all && isNear(x, y, c);
+            same += all;
+        }
+    }
+    return static_cast<double>(same) / (static_cast<double>(preview.width) * preview.height);
+}
+double depthAgreement(const Image& preview, const Image& traced) {
+    return agreement(preview, traced, 0.001f);
+}
+
+// The direction through the middle of a pixel.
+glm::dvec3 directionOf(const Scene& scene, std::uint32_t x, std::uint32_t y) {
+    const shared::Camera c = scene::makeCamera(scene->camera, kWidth, kHeight, scene->origin);
+    const double u = (x + 0.5) / kWidth, v = (y + 0.5) / kHeight;
+    return glm::normalize(glm::dvec3(c.corner) + glm::dvec3(c.across) * u + glm::dvec3(c.down) * v);
+}
+
+// ---- distances -------------------------------------------------------------------------------------------------------
+
+class PreviewDepthTest : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, PreviewDepthTest,
+                         ::testing::Values("cornell-box-lights", "one-weekend-final", "next-week-random-spheres",
+                                           "next-week-final", "rest-of-life-cornell-box", "cube-and-spheres",
+                                           "triangle-lights", "veach-mis"),
+                         [](const auto& info) {
+                             std::string name = info.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST_P(PreviewDepthTest, IsTheRayTracers) {
+    const Scene scene = app::compile(app::loadScene(GetParam()), true);
+    scene::CameraDesc camera = scene->camera; // nearer, at an angle
+    const glm::dvec3 view = camera.lookAt - camera.lookFrom;
+    camera.lookFrom += 0.3 * view + 0.1 * glm::length(view) * glm::dvec3(1, 2, 1);
+    camera.verticalFov = 75;
+    const Image preview = makeEngine(scene)->renderPreview(camera, 61, 83).depth;
+    EXPECT_GE(depthAgreement(preview, firstHits(scene, camera, 61, 83).depth), 0.97);
+}
+
+// Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest sphere.
+constexpr const char* kInstances = R"({"version": 1,
+    "camera": {"look_from": [0.5, 1, 6], "look_at": [0, 0, 0], "vertical_fov": 50},
+    "background": {"type": "constant", "color": [1, 1, 1]},
+    "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.25, 0.125]},
+                  "n": {"type": "lambertian", "albedo": [0.2, 0.4, 0.8]}},
+    "prototypes": {"p": [
+        {"type": "sphere", "center": [0, 0, 0], "radius": 0.5, "material": "m"},
+        {"type": "quad", "corner": [-1, -0.6, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "material": "n"},
+        {"type": "mesh", "positions": [-0.5, 0.5, 0, 0.5, 0.5, 0, 0, 1.3, 0.2], "triangles": [0, 1, 2],
+         "material": "m"}]},
+    "objects": [
+        {"type": "sphere", "center": [0, 0, 0], "radius": 30, "material": "n"},
+        {"type": "instance", "prototype": "p", "transform": [{"scale": [1.2, 1, 1]}, {"translate": [-1.6, 0, 0]}]},
+        {"type": "instance", "prototype": "p", "material": "n",
+         "transform": [{"scale": [1, 2, 0.5]}, {"rotate": {"axis": [1, 2, 3], "degrees": 40}}, {"translate": [0, 1, -2]}]},
+        {"type": "instance", "prototype": "p",
+         "transform": [{"scale": [-1, 1.5, 1]}, {"rotate": {"axis": [0, 1, 0], "degrees": 30}}, {"translate": [1.6, 0, 0]}]}]})";
+
+TEST(PreviewTest, InstancesAreWhereTheRayTracerMeetsThem) {
+    const Scene scene = fromText(kInstances);
+    ASSERT_EQ(scene->instances.size(), 3u);
+    const app::Preview preview =
+        makeEngine(scene, app::GpuEngineKind::Pipeline)->renderPreview(scene->camera, kWidth, kHeight);
+    EXPECT_GE(depthAgreement(preview.depth, firstHits(scene, scene->camera).depth), 0.99);
+}
+
+// ---- colours ---------------------------------------------------------------------------------------------------------
+
+// Under a white sky a white surface has radiance 1.05 (0.5 + 0.5 cos) with the angle that it is seen at: textures, instances'
+// materials and interpolated normals all enter as in the ray tracer's albedo and normal.
+TEST(PreviewTest, ColoursAreTheMaterialsTimesTheLight) {
+    for (const std::string& scene : {std::string(kInstances), std::string(R"({"version": 1,
+            "camera": {"look_from": [0, 1, 5], "look_at": [0, 0, 0], "vertical_fov": 40},
+            "background": {"type": "constant", "color": [1, 1, 1]},
+            "textures": {"squares": {"type": "checker", "scale": 1.5, "even": [0.9, 0.1, 0.1], "odd": [0.1, 0.2, 0.9]},
+                         "marble": {"type": "noise", "kind": "marble", "scale": 1, "frequency": 3}},
+            "materials": {"floor": {"type": "lambertian", "albedo": "squares"},
+                          "ball": {"type": "lambertian", "albedo": "marble"}},
+            "objects": [
+                {"type": "quad", "corner": [-9, -1, 9], "edge_u": [18, 0, 0], "edge_v": [0, 0, -18], "material": "floor"},
+                {"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "ball"}]})")}) {
+        const Scene compiled = fromText(scene);
+        const app::Preview preview = makeEngine(compiled)->renderPreview(compiled->camera, kWidth, kHeight);
+        const app::AovImages hits = firstHits(compiled, compiled->camera);
+        Image expected(kWidth, kHeight, 3);
+        for (std::uint32_t y = 0; y < kHeight; ++y) {
+            for (std::uint32_t x = 0; x < kWidth; ++x) {
+                const bool isSky = *hits.depth.pixel(x, y) == 0;
+                const float* n = hits.normal.pixel(x, y);
+                const double cosine = -glm::dot(glm::dvec3(n[0], n[1], n[2]), directionOf(compiled, x, y));
+                const auto light = static_cast<float>(1.05 * (0.5 + 0.5 * cosine));
+                for (int c = 0; c < 3; ++c) expected.pixel(x, y)[c] = isSky ? 1.0f : light * hits.albedo.pixel(x, y)[c];
+            }
+        }
+        EXPECT_GE(agreement(preview.picture, expected, 0.02f), 0.97) << scene;
+    }
+}
+
+// A black ball in black fog under a white sky: what is left of the sky is the transmittance.
+TEST(PreviewTest, MediaDimWhatIsBehindThem) {
+    const Scene scene = fromText(R"({"version": 1,
+        "camera": {"look_from": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 40},
+        "background": {"type": "constant", "color": [1, 1, 1]},
+        "materials": {"black": {"type": "lambertian", "albedo": [0, 0, 0]}},
+        "objects": [
+            {"type": "medium", "density": 0.7, "albedo": [0, 0, 0],
+             "boundary": {"type": "box", "min": [-1, -1, -1], "max": [1, 1, 1]}},
+            {"type": "sphere", "center": [0, 0, 0], "radius": 0.2, "material": "black"}]})");
+    const app::Preview preview = makeEngine(scene)->renderPreview(scene->camera, 65, 65);
+    EXPECT_NEAR(preview.picture.pixel(32, 20)[0], std::exp(-0.7 * 2), 0.02); // beside the ball, two units of fog
+    EXPECT_NEAR(preview.picture.pixel(1, 1)[0], 1, 1e-6);
+    EXPECT_LT(preview.picture.pixel(32, 32)[0], 1e-6f);
+    EXPECT_NEAR(*preview.depth.pixel(32, 32), 4.8f, 1e-3f);
+}
+
+// ---- beside the film -------------------------------------------------------------------------------------------------
+
+class PreviewEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, PreviewEngineTest, kBothEngines, engineName);
+
+TEST_P(PreviewEngineTest, LeavesTheFilmAsItIs) {
+    const Scene scene = app::compile(app::loadScene("cornell-box-lights"), true);
+    app::RenderSettings settings;
+    settings.width = settings.height = 20;
+    settings.spp = 40;
+    const auto film = [&](bool withPreview) {
+        const auto engine = makeEngine(scene, GetParam());
+        engine->reset(scene->camera, settings);
+        scene::CameraDesc other = scene->camera;
+        other.lookFrom.x += 1;
+        do {
+            if (withPreview) engine->renderPreview(other, 33, 21);
+        } while (!engine->renderSome({std::chrono::duration<double>(1e-9), nullptr}).finished);
+        return engine->film().resolve().data;
+    };
+    EXPECT_EQ(film(true), film(false));
+}
+
+TEST_P(PreviewEngineTest, FollowsTheScene) {
+    const Scene first = app::compile(app::loadScene("cornell-box-lights"), true);
+    const Scene second = app::compile(app::loadScene("one-weekend-final"), true);
+    const auto engine = makeEngine(first, GetParam());
+    EXPECT_TRUE(engine->canPreview());
+    const std::vector<float> before = engine->renderPreview(first->camera, 40, 30).picture.data;
+    engine->setScene(second, nullptr);
+    const std::vector<float> other = engine->renderPreview(second->camera, 40, 30).picture.data;
+    EXPECT_NE(other, before);
+    engine->setScene(first, nullptr);
+    EXPECT_EQ(engine->renderPreview(first->camera, 40, 30).picture.data, before);
+    EXPECT_THROW(engine->renderPreview(first->camera, device().limits().maxDrawnSide + 1, 1), RenderError);
+}
+
+} // namespace
+} // namespace rt::test
