@@ -72,7 +72,7 @@ void readRequest(const Reader& reader, RenderRequest& request) {
     if (aspect > 0) request.size.aspect = aspect;
     reader.read("one_sided_lights", request.oneSidedLights);
     reader.read("accumulate", request.accumulate);
-    reader.read("samples_per_frame", request.samplesPerFrame, 1, 65536);
+    reader.read("samples_per_frame", request.samplesPerFrame, 0, 65536);
     reader.read("loop", request.loop);
 }
 

@@ -17,6 +17,8 @@ constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goe
 constexpr double kEarlySeconds = 2;        // pictures come often at first
 constexpr double kEarlyInterval = 0.04;
 constexpr double kLateInterval = 0.15;
+constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
+constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while it is being rendered
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
 
@@ -50,7 +52,7 @@ void InteractiveSession::startFilm() {
     settings.sppIsKnown = !request_.timeLimit;
     settings.secondMoments = settings.replicates < 2;
     if (!request_.accumulate) {
-        settings.spp = request_.samplesPerFrame;
+        settings.spp = samplesOfFrame(settings);
         settings.secondMoments = settings.secondMoments && setup_.options.wants(Aov::Variance);
     }
     if (referenceSpp_) settings = referenceSettings(settings, *referenceSpp_);
@@ -69,6 +71,7 @@ void InteractiveSession::startFilm() {
     settings_ = settings;
     filmIsStale_ = false;
     status_ = {};
+    publishedSamples_ = 0;
     status_.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
     renderSeconds_ = 0;
     sinceStart_ = {};
@@ -103,7 +106,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     const Stopwatch watch;
     // Not interrupted by the next change: a camera in motion would never show anything.
     RenderStatus status;
-    do status = engine_->renderSome({std::chrono::duration<double>(kDraftSeconds), &cancelBuild_});
+    do status = engine_->renderSome({std::chrono::duration<double>(setup_.sliceSeconds), &cancelBuild_});
     while (!status.finished && !cancelBuild_ && (!cancelRender_ || watch.seconds() < kMostDraftSeconds));
     const double seconds = std::max(watch.seconds(), 1e-4);
     samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status.samplesDone) / seconds;
@@ -141,12 +144,33 @@ void InteractiveSession::renderSlice() {
     }
     if (status_.finished) return finish(StopReason::Spp);
     if (request_.timeLimit && renderSeconds_ >= *request_.timeLimit) return finish(StopReason::TimeLimit);
-    const double interval = sinceStart_.seconds() < kEarlySeconds ? kEarlyInterval : kLateInterval;
-    if (!cancelRender_ && sincePublished_.seconds() > std::max(interval, publishSeconds_ / kPublishShare)) publish();
+    if (!cancelRender_ && isFrameDue()) publish();
+}
+
+// Of a frame that is not accumulated.
+std::uint32_t InteractiveSession::samplesOfFrame(const RenderSettings& settings) const {
+    if (request_.samplesPerFrame > 0) return request_.samplesPerFrame;
+    const double pixels = static_cast<double>(settings.width) * settings.height;
+    return static_cast<std::uint32_t>(std::clamp(samplesPerSecond_ * kFrameSeconds / pixels, 1.0, 65536.0));
+}
+
+// Whether what has been rendered is to be shown before it is complete.
+bool InteractiveSession::isFrameDue() const {
+    const double seconds = sincePublished_.seconds();
+    if (seconds <= publishSeconds_ / kPublishShare) return false;
+    if (!request_.accumulate) return seconds > kLongFrameSeconds;
+    if (sinceStart_.seconds() < kEarlySeconds) return seconds > kEarlyInterval;
+    if (request_.samplesPerFrame == 0) return seconds > kLateInterval;
+    const std::uint64_t frame =
+        std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
+    return status_.samplesDone - publishedSamples_ >= frame || seconds > kLongFrameSeconds;
 }
 
 // What the engine holds becomes the reference, or a run of the history.
 void InteractiveSession::finish(StopReason reason) {
+    if (!request_.accumulate && renderSeconds_ > 0) { // slices of a short frame say too little
+        samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status_.samplesDone) / renderSeconds_;
+    }
     publish();
     const std::uint64_t spp = engine_->film().minSamples();
     if (referenceSpp_) {
@@ -246,6 +270,7 @@ void InteractiveSession::publish() {
     });
     noteAnswer();
     publishSeconds_ = watch.seconds();
+    publishedSamples_ = status_.samplesDone;
     sincePublished_ = {};
 }
 

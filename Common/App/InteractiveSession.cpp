@@ -19,6 +19,11 @@ std::string messageOf(const std::exception_ptr& failure) {
 
 } // namespace
 
+bool needsAnotherFilm(const RenderRequest& before, RenderRequest after) {
+    if (before.accumulate && after.accumulate) after.samplesPerFrame = before.samplesPerFrame; // only when it is shown
+    return after != before;
+}
+
 InteractiveSession::InteractiveSession(Setup setup)
     : setup_(std::move(setup)),
       wantedScene_(setup_.scene),
@@ -192,8 +197,12 @@ void InteractiveSession::apply(Requests requests) {
     // A device that was lost does not come back to the engine that used it.
     const bool isBroken = !engine_ || (activity_ == Activity::Failed && requests.any());
     if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
-    if (requests.request && *requests.request != request_) {
+    if (requests.request) {
+        const bool isAnother = needsAnotherFilm(request_, *requests.request);
         request_ = *requests.request;
+        if (!isAnother) requests.request.reset();
+    }
+    if (requests.request) {
         filmIsStale_ = true;
         round_ = 0;
         referenceSpp_.reset();

@@ -48,12 +48,16 @@ struct RenderRequest {
     RenderSettings settings; // width and height follow from size and scene
     SizeRequest size;
     bool oneSidedLights = true;
-    bool accumulate = true;             // false: every frame is an image of its own, with other random numbers
-    std::uint32_t samplesPerFrame = 25; // of a frame that is not accumulated
+    bool accumulate = true; // false: every frame is an image of its own, with other random numbers
+    // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second. 0: as many as there
+    // is time for between two frames.
+    std::uint32_t samplesPerFrame = 25;
     bool loop = false;                  // begin again when done, with the next seed
     std::optional<double> timeLimit;    // seconds of sampling
     bool operator==(const RenderRequest&) const = default;
 };
+// Whether the film of one is of no use for the other.
+bool needsAnotherFilm(const RenderRequest& before, RenderRequest after);
 
 enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
 
@@ -228,6 +232,8 @@ class InteractiveSession {
     void startFilm();
     void renderDraft(const RenderSettings& settings);
     void renderSlice();
+    std::uint32_t samplesOfFrame(const RenderSettings& settings) const;
+    bool isFrameDue() const;
     void finish(StopReason reason);
     void publish();
     Options optionsOf(const SaveRequest& request) const;
@@ -302,6 +308,7 @@ class InteractiveSession {
     Stopwatch sinceStart_;
     Stopwatch sincePublished_;
     double publishSeconds_ = 0;
+    std::uint64_t publishedSamples_ = 0; // of the film, when it was shown last
 
     SceneLoader loader_; // last: its thread posts to the worker's members
     std::thread worker_;

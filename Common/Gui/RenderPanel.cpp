@@ -109,6 +109,7 @@ void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
 void drawRenderPanel(Gui& gui) {
     app::RenderRequest& request = gui.settings.request;
     app::RenderSettings& settings = request.settings;
+    drawEnginePanel(gui);
     inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
     inputCount("Depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
     drawSize(gui);
@@ -118,18 +119,18 @@ void drawRenderPanel(Gui& gui) {
           "grid. "
           "Normal: independent.",
           kSamplerNames, settings.sampler);
-    checkbox("Accumulate",
+    checkbox("Accumulate rays between frames",
              "On: samples add up in one image. Off: every frame is an image of its own, with other random numbers",
              request.accumulate);
-    if (!request.accumulate) {
-        inputCount("Samples per frame", "Samples per pixel of each frame", request.samplesPerFrame, 1, 65536, 5);
-    }
+    inputCount("Samples per frame",
+               "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
+               "while it is rendered. 0: auto, as many as there is time for between two frames",
+               request.samplesPerFrame, 0, 65536, 5);
     checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
     checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
     inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
     inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
                settings.replicates, 1, 1024, 1);
-    drawEnginePanel(gui);
 }
 
 } // namespace rt::gui

@@ -324,6 +324,42 @@ TEST_F(InteractiveSessionTest, LoopsAndFramesThatAreNotAccumulatedTakeOtherSeeds
     EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
 }
 
+TEST_F(InteractiveSessionTest, HowOftenASumIsShownDoesNotConcernTheFilm) {
+    RenderRequest before, after;
+    after.samplesPerFrame = 0;
+    EXPECT_FALSE(needsAnotherFilm(before, after));
+    after.accumulate = false;
+    EXPECT_TRUE(needsAnotherFilm(before, after));
+    before.accumulate = false;
+    EXPECT_TRUE(needsAnotherFilm(before, after));
+    before.samplesPerFrame = 0;
+    EXPECT_FALSE(needsAnotherFilm(before, after));
+
+    InteractiveSession::Setup s = setup(1'000'000);
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.spp > 0; }));
+    const int films = SlowEngine::films;
+    for (const std::uint32_t samples : {0u, 1u, 100'000u}) {
+        s.request.samplesPerFrame = samples;
+        session.change(s.request);
+        const std::uint64_t spp = session.state().picture.spp;
+        // Also a frame that takes long is shown.
+        EXPECT_TRUE(reaches(session, [&](const SessionState& state) { return state.picture.spp > spp; })) << samples;
+    }
+    EXPECT_EQ(SlowEngine::films, films);
+}
+
+TEST_F(InteractiveSessionTest, FramesOfTheirOwnAreAsLargeAsThereIsTimeFor) {
+    InteractiveSession::Setup s = setup(1'000'000);
+    s.request.accumulate = false;
+    s.request.samplesPerFrame = 0;
+    InteractiveSession session(s);
+    // 24 x 24 pixels at 5 ms a sample: more than one of them, and far fewer than a sum would have.
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) {
+        return state.settings.seed >= 3 && state.settings.spp > 1 && state.settings.spp < 1000;
+    })) << session.state().settings.spp;
+}
+
 TEST_F(InteractiveSessionTest, RunsThatEndGoIntoTheHistory) {
     RunHistory history(folder_ / "history.jsonl");
     InteractiveSession::Setup s = setup(20);
