@@ -13,8 +13,10 @@
 #include "Common/Gui/Presenter.h"
 #include "Common/Gui/SavePaths.h"
 #include "Common/Gui/Shortcuts.h"
+#include "Common/Gui/Snapshot.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/UserFiles.h"
+#include "Common/Image/ImageIo.h"
 #include "Common/Vulkan/Instance.h"
 
 namespace rt::gui {
@@ -63,7 +65,8 @@ class App {
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
           sentEnd_(endFiles(options, settings_)),
           session_(sessionSetup(options, program, settings_, history_)),
-          gui_{session_, settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram, program.devices} {
+          gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
+               program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
@@ -75,6 +78,7 @@ class App {
     void takeState();
     void sendChanges();
     void save();
+    void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(double seconds);
     void drawInterface();
 
@@ -145,10 +149,12 @@ void App::turn() {
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     sendChanges();
     if (gui_.saveRequested) save();
-    presenter_.present(picture_.constants(), [this](VkCommandBuffer commands) {
+    const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
         imgui_.draw(commands);
-    });
+    };
+    if (gui_.chartRequested) saveChart(drawInterface);
+    presenter_.present(picture_.constants(), drawInterface);
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);
@@ -233,6 +239,22 @@ void App::save() {
     request.stats.clear();
     if (request.files.empty()) request.files = savePaths(settings_.saveFolder, gui_.state);
     session_.save(std::move(request));
+}
+
+void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
+    gui_.chartRequested = false;
+    const std::string file = (saveFolder(settings_.saveFolder) / "ray-tracing-errors.png").string();
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale, size = ImGui::GetIO().DisplaySize;
+    const VkExtent2D extent{static_cast<std::uint32_t>(size.x * pixels.x),
+                            static_cast<std::uint32_t>(size.y * pixels.y)};
+    const Rect chart{gui_.chart.x * pixels.x, gui_.chart.y * pixels.y, gui_.chart.width * pixels.x,
+                     gui_.chart.height * pixels.y};
+    try {
+        image::writeImage(file, takeSnapshot(device_, presenter_.format(), extent, chart, drawInterface));
+        gui_.say("Saved " + file, false);
+    } catch (const Error& error) {
+        gui_.say(error.what(), true);
+    }
 }
 
 void App::drawFrame(double seconds) {

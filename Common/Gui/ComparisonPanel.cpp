@@ -187,12 +187,16 @@ void drawComparisonPanel(Gui& gui) {
     ImGui::Checkbox("This scene only", &gui.onlyThisScene);
     ImGui::SameLine(0, 2 * space);
     if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
+    ImGui::SameLine(0, space);
+    if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(speedUp(runs).c_str());
     ImGui::PopTextWrapPos();
     drawTable(runs, {0, std::max(1.0f, ImGui::GetContentRegionAvail().y)});
     ImGui::EndChild();
     ImGui::SameLine(0, space);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    gui.chart = {corner.x, corner.y, chart, ImGui::GetContentRegionAvail().y};
     drawLogLogChart("##chart", "seconds", "relMSE", makeSeries(gui, runs), {chart, ImGui::GetContentRegionAvail().y});
 }
 

@@ -8,6 +8,7 @@
 #include "Common/App/CameraController.h"
 #include "Common/App/GuiSettings.h"
 #include "Common/App/InteractiveSession.h"
+#include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"
@@ -42,6 +43,8 @@ struct Gui {
     std::uint32_t referenceSpp = 1024;
     std::string referencePath;
     bool onlyThisScene = true;
+    Rect chart;                  // of the comparison, in the window's units
+    bool chartRequested = false; // as a file
     UiFigures figures;
     bool showHelp = false;
     bool focusOpen = false; // the keyboard is to go to the field of the path

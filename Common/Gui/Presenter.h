@@ -23,6 +23,7 @@ class Presenter {
     Presenter& operator=(const Presenter&) = delete;
 
     VkRenderPass renderPass() const { return renderPass_.get(); }
+    VkFormat format() const { return format_.format; } // of the swapchain
     std::uint32_t imageCount() const { return static_cast<std::uint32_t>(images_.size()); }
 
     // Are shown from the next frame on. The image must have three channels.

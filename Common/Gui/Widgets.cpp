@@ -147,7 +147,7 @@ bool button(const char* label, const char* tip, bool enabled, float width) {
     if (!enabled) ImGui::BeginDisabled();
     const bool pressed = ImGui::Button(label, {width, 0});
     if (!enabled) ImGui::EndDisabled();
-    tooltip(tip);
+    if (!pressed) tooltip(tip); // which would cover what a button makes a picture of
     return pressed;
 }
 
