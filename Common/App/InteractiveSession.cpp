@@ -268,7 +268,10 @@ void InteractiveSession::makeEngine(const EngineChoice& choice) {
 void InteractiveSession::adopt(LoadedScene loaded) {
     if (loaded.failure) {
         setStage("");
-        return fail(loaded.failure, !scene_);
+        const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
+        fail(loaded.failure, !scene_ && !canFallBack);
+        if (!scene_ && canFallBack) open(setup_.fallbackScene);
+        return;
     }
     if (!engine_) return;
     setStage("Building " + loaded.scene->title);

@@ -52,8 +52,8 @@ struct RenderRequest {
     // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second. 0: as many as there
     // is time for between two frames.
     std::uint32_t samplesPerFrame = 25;
-    bool loop = false;                  // begin again when done, with the next seed
-    std::optional<double> timeLimit;    // seconds of sampling
+    bool loop = false;               // begin again when done, with the next seed
+    std::optional<double> timeLimit; // seconds of sampling
     bool operator==(const RenderRequest&) const = default;
 };
 // Whether the film of one is of no use for the other.
@@ -142,10 +142,11 @@ class InteractiveSession {
         EngineChoice engine;
         RenderRequest request;
         SceneRequest scene;
+        std::string fallbackScene;        // opened where the first cannot be had; empty: that is fatal
         std::optional<SaveRequest> atEnd; // as writeAtEnd()
-        double sliceSeconds = 0.03;     // of one call of the engine
-        RunHistory* history = nullptr;  // gets the runs that end; may be none
-        std::function<void()> onChange; // called on other threads when there is something new to show
+        double sliceSeconds = 0.03;       // of one call of the engine
+        RunHistory* history = nullptr;    // gets the runs that end; may be none
+        std::function<void()> onChange;   // called on other threads when there is something new to show
     };
     explicit InteractiveSession(Setup setup);
     ~InteractiveSession(); // as close()

@@ -36,6 +36,10 @@ bool standardErrorIsTerminal() {
     return _isatty(2) != 0;
 }
 
+bool hasDisplay() {
+    return true;
+}
+
 std::uint64_t residentBytes() {
     PROCESS_MEMORY_COUNTERS counters{};
     return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) ? counters.WorkingSetSize : 0;
@@ -75,6 +79,18 @@ std::uint64_t peakResidentBytes() {
 
 bool standardErrorIsTerminal() {
     return isatty(STDERR_FILENO) != 0;
+}
+
+bool hasDisplay() {
+#ifndef __APPLE__
+    for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"}) {
+        const char* value = std::getenv(variable);
+        if (value != nullptr && *value != '\0') return true;
+    }
+    return false;
+#else
+    return true;
+#endif
 }
 
 std::uint64_t residentBytes() {

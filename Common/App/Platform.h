@@ -7,6 +7,7 @@ namespace rt::app {
 
 std::uint64_t peakResidentBytes(); // of this process; 0 where unknown
 bool standardErrorIsTerminal();
+bool hasDisplay(); // false where a window cannot be opened for want of a screen; true where only trying tells
 // $XDG_CONFIG_HOME/ray-tracing or the platform's place for it; empty when the environment names none.
 std::filesystem::path userConfigDirectory();
 std::uint64_t residentBytes(); // of this process at present; 0 where unknown

@@ -44,6 +44,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.engine = settings.engine;
     setup.request = settings.request;
     setup.scene = {settings.scene, settings.request.oneSidedLights, options.camera};
+    // A file that was open the last time may be gone by now.
+    if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
     setup.sliceSeconds = options.program == app::kGpuProgram ? 0.008 : 0.03;
     setup.history = &history;

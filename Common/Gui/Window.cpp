@@ -7,6 +7,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/Check.h"
 
@@ -39,6 +40,11 @@ bool isOnAMonitor(const WindowPlace& place) {
 } // namespace
 
 Window::Window(const std::string& title, const WindowPlace& place) {
+    // Libraries below would say so in their own words, besides.
+    if (!app::hasDisplay())
+        throw RenderError(
+            "no window can be opened: DISPLAY and WAYLAND_DISPLAY are not set; "
+            "--headless renders without one");
     if (glfwInit() != GLFW_TRUE)
         throw RenderError("no window can be opened: " + lastError() + "; --headless renders without one");
     if (glfwVulkanSupported() != GLFW_TRUE) {

@@ -295,6 +295,17 @@ TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return isFinished(s) && s.picture.serial > serial; }));
 }
 
+TEST_F(InteractiveSessionTest, ARememberedSceneThatIsGoneGivesWayToAnother) {
+    InteractiveSession::Setup with = setup(4);
+    with.scene.source = (folder_ / "gone.json").string();
+    with.fallbackScene = "one-weekend-default";
+    InteractiveSession session(std::move(with));
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_EQ(session.state().source, "one-weekend-default");
+    EXPECT_NE(session.state().error.find("gone.json"), std::string::npos);
+    EXPECT_EQ(session.state().fatal, nullptr);
+}
+
 TEST_F(InteractiveSessionTest, SavesWhatItShows) {
     InteractiveSession session(setup(4));
     ASSERT_TRUE(reaches(session, isFinished));
