@@ -12,6 +12,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include "tests/gui/XClient.h"
+
 namespace rt::test {
 namespace {
 
@@ -131,6 +133,16 @@ int Desktop::quit() {
     if (!isRunning()) return -1;
     key("Escape");
     key("ctrl+q");
+    return waitForEnd();
+}
+
+int Desktop::endBySignal(int signal) {
+    if (!isRunning()) return -1;
+    kill(program_, signal);
+    return waitForEnd();
+}
+
+int Desktop::waitForEnd() {
     const int process = program_;
     int status = 0;
     const bool ended = eventually([&] { return waitpid(process, &status, WNOHANG) != 0; });
@@ -157,6 +169,14 @@ std::string Desktop::title() {
 
 void Desktop::resize(int width, int height) {
     act("windowsize " + window_ + " " + std::to_string(width) + " " + std::to_string(height));
+}
+
+void Desktop::minimise(bool minimised) {
+    setMinimised(display_, std::stoul(window_), minimised);
+}
+
+bool Desktop::drop(const std::vector<std::string>& files) {
+    return dropFiles(display_, std::stoul(window_), files);
 }
 
 std::uint64_t Desktop::residentBytes() const {

@@ -22,6 +22,7 @@ class Desktop : public testing::Test {
     void start(const std::string& program, const std::vector<std::string>& arguments = {});
     // Closes the window by Ctrl+Q; the exit code tells of validation's messages, too.
     int quit();
+    int endBySignal(int signal); // the exit code
     bool isRunning();
     std::string log() const; // what the program has written
 
@@ -31,6 +32,9 @@ class Desktop : public testing::Test {
     void type(const std::string& text);
     std::string title();
     void resize(int width, int height);
+    void minimise(bool minimised);
+    // Drops files on the window as another program would; whether they were taken.
+    bool drop(const std::vector<std::string>& files);
     std::uint64_t residentBytes() const;
 
     // Waits for what takes a while on a busy machine; the time only ends a test that fails.
@@ -40,7 +44,7 @@ class Desktop : public testing::Test {
     std::filesystem::path folder_; // of this test: settings, pictures, files
 
   private:
-    std::string environment() const;
+    int waitForEnd();
 
     std::string display_; // ":99"
     int screen_ = -1;     // processes

@@ -9,24 +9,15 @@
 
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/BuiltinScenes.h"
-#include "tests/gui/Desktop.h"
+#include "tests/gui/WindowTest.h"
 
 namespace rt::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
+class ControlsTest : public WindowTest {
   protected:
-    void start(const std::vector<std::string>& arguments = {}) { Desktop::start(GetParam(), arguments); }
-    void expectCleanEnd() {
-        ASSERT_TRUE(isRunning()) << log();
-        EXPECT_EQ(quit(), 0) << log(); // 1 where validation had something to say
-    }
-    nlohmann::json settings() const {
-        std::ifstream in(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json"));
-        return nlohmann::json::parse(in, nullptr, false);
-    }
     void openPath(const std::string& path) {
         key("ctrl+o"); // the field is empty then
         pause(1500);   // for a frame or two of a busy machine
@@ -35,18 +26,16 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         key("Return");
     }
 };
+INSTANTIATE_TEST_SUITE_P(, ControlsTest, kBothPrograms, nameOfProgram);
 
-INSTANTIATE_TEST_SUITE_P(, WindowTest, testing::Values("ray-tracing-cpu", "ray-tracing-gpu"),
-                         [](const auto& info) { return std::string(info.param) == "ray-tracing-cpu" ? "Cpu" : "Gpu"; });
-
-TEST_P(WindowTest, ShowsEveryScene) {
-    start({"--width", "32", "--spp", "1"});
-    ASSERT_FALSE(HasFatalFailure());
-    // A software driver takes seconds for each scene's pipeline: there it is the nine that have keys.
+TEST_P(ControlsTest, ShowsEveryScene) {
+    // Compute shaders are what a software driver makes quicker.
     const bool isGpu = std::string(GetParam()) == "ray-tracing-gpu";
-    const std::size_t count = isGpu ? 9 : scene::builtinScenes().size();
+    start({"--width", "32", "--spp", "1", "--engine", isGpu ? "compute" : "multi"});
+    ASSERT_FALSE(HasFatalFailure());
+    const std::size_t count = scene::builtinScenes().size();
     for (std::size_t i = 1; i < count; ++i) {
-        key(isGpu ? std::to_string(i + 1) : "Next");
+        key("Next");
         const std::string wanted = std::string(scene::builtinScenes()[i].title) + " - " + GetParam();
         ASSERT_TRUE(eventually([&] { return !isRunning() || title() == wanted; }));
         ASSERT_EQ(title(), wanted) << log();
@@ -54,13 +43,8 @@ TEST_P(WindowTest, ShowsEveryScene) {
     expectCleanEnd();
 }
 
-TEST_P(WindowTest, OpensFilesAndKeepsTheSceneWhereTheyAreBad) {
-    const fs::path good = folder_ / "good.json", bad = folder_ / "bad.json";
-    std::ofstream(good) << R"({"version": 1, "title": "Just opened",
-        "camera": {"look_from": [0, 0, 3], "look_at": [0, 0, 0]},
-        "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},
-        "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
-        "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
+TEST_P(ControlsTest, OpensFilesAndKeepsTheSceneWhereTheyAreBad) {
+    const fs::path good = writeScene("good.json", "Just opened"), bad = folder_ / "bad.json";
     std::ofstream(bad) << R"({"camera": 12)";
     start();
     ASSERT_FALSE(HasFatalFailure());
@@ -77,7 +61,7 @@ TEST_P(WindowTest, OpensFilesAndKeepsTheSceneWhereTheyAreBad) {
     EXPECT_EQ(settings()["recent"][0], good.string());
 }
 
-TEST_P(WindowTest, SavesThePictureAndRemembersSettings) {
+TEST_P(ControlsTest, SavesThePictureAndRemembersSettings) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     pause(500);
@@ -104,25 +88,8 @@ TEST_P(WindowTest, SavesThePictureAndRemembersSettings) {
     EXPECT_TRUE(fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"));
 }
 
-TEST_P(WindowTest, SurvivesEverySize) {
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    for (const auto& [width, height] :
-         {std::pair{1, 1}, {2, 700}, {1200, 3}, {40, 40}, {1279, 899}, {300, 200}, {1, 1}}) {
-        resize(width, height);
-        pause(150);
-        ASSERT_TRUE(isRunning()) << width << "x" << height << "\n" << log();
-    }
-    resize(1000, 700);
-    for (int i = 0; i < 2; ++i) {
-        key("F11");
-        pause(300);
-    }
-    expectCleanEnd();
-}
-
 // Clicks into every place of the panels, which opens, toggles, types and drags whatever there is.
-TEST_P(WindowTest, EveryControlCanBeTouched) {
+TEST_P(ControlsTest, EveryControlCanBeTouched) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
@@ -149,7 +116,7 @@ TEST_P(WindowTest, EveryControlCanBeTouched) {
 }
 
 // What 200 actions that nobody would think of leave behind: a program that runs, answers and ends as it should.
-TEST_P(WindowTest, SurvivesRandomActions) {
+TEST_P(ControlsTest, SurvivesRandomActions) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     const char* const keys[] = {"F1",

@@ -1,0 +1,43 @@
+// A test of either program with its window.
+#pragma once
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/gui/Desktop.h"
+
+namespace rt::test {
+
+class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
+  protected:
+    void start(const std::vector<std::string>& arguments = {}) { Desktop::start(GetParam(), arguments); }
+    void expectCleanEnd() {
+        ASSERT_TRUE(isRunning()) << log();
+        EXPECT_EQ(quit(), 0) << log(); // 1 where validation had something to say
+    }
+    nlohmann::json settings() const {
+        std::ifstream in(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json"));
+        const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
+        return json.is_object() ? json : nlohmann::json::object(); // there are none yet
+    }
+    // A scene file of this title, good to be opened.
+    std::filesystem::path writeScene(const std::string& name, const std::string& title) const {
+        const std::filesystem::path file = folder_ / name;
+        std::ofstream(file) << R"({"version": 1, "title": ")" << title << R"(",
+            "camera": {"look_from": [0, 0, 3], "look_at": [0, 0, 0]},
+            "background": {"type": "gradient", "bottom": [1, 1, 1], "top": [0.5, 0.7, 1]},
+            "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.5, 0.5]}},
+            "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "m"}]})";
+        return file;
+    }
+};
+
+inline const auto kBothPrograms = testing::Values("ray-tracing-cpu", "ray-tracing-gpu");
+inline std::string nameOfProgram(const testing::TestParamInfo<const char*>& info) {
+    return std::string(info.param) == "ray-tracing-cpu" ? "Cpu" : "Gpu";
+}
+
+} // namespace rt::test

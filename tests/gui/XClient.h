@@ -1,0 +1,14 @@
+// What xdotool cannot do: another program that files are dragged from, and a window manager's part in minimising.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace rt::test {
+
+// Drops files on a window by the protocol XDND, version 5; whether the window took them.
+bool dropFiles(const std::string& display, unsigned long window, const std::vector<std::string>& files);
+
+// As the only window manager of the display.
+void setMinimised(const std::string& display, unsigned long window, bool minimised);
+
+} // namespace rt::test
