@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <bit>
 #include <cmath>
 #include <mutex>
@@ -215,30 +216,18 @@ class CpuEngine final : public app::Engine {
         return images;
     }
 
-    bool knowsCost() const override { return true; }
-    image::Image renderCost(std::uint32_t samples) override {
+    bool knowsCost(app::Cost) const override { return true; }
+    image::Image renderCost(app::Cost cost, std::uint32_t samples) override {
         const std::uint32_t count = std::clamp(samples, 1u, Film::kBlock);
-        image::Image rays(settings_.width, settings_.height, 1);
+        image::Image costs(settings_.width, settings_.height, 1);
         std::atomic<std::uint32_t> nextRow{0};
         runWorkers(policy_, threads_, [&](std::uint32_t) {
-            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < rays.height;
+            for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < costs.height;
                  y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
-                for (std::uint32_t x = 0; x < rays.width; ++x) {
-                    float sum[3] = {};
-                    KernelCounters counters;
-                    TileTask task;
-                    task.x = x;
-                    task.y = y;
-                    task.width = task.height = task.stride = 1;
-                    task.count = count;
-                    task.sum = sum;
-                    kernel_->renderTile(context_, task, counters);
-                    const std::uint64_t all = counters.camera + counters.scattered + counters.shadow;
-                    *rays.pixel(x, y) = static_cast<float>(all) / static_cast<float>(count);
-                }
+                for (std::uint32_t x = 0; x < costs.width; ++x) *costs.pixel(x, y) = pixelCost(cost, x, y, count);
             }
         });
-        return rays;
+        return costs;
     }
 
     app::EngineReport report() const override {
@@ -256,6 +245,24 @@ class CpuEngine final : public app::Engine {
     }
 
   private:
+    // Rays or seconds a sample.
+    float pixelCost(app::Cost cost, std::uint32_t x, std::uint32_t y, std::uint32_t samples) const {
+        using Clock = std::chrono::steady_clock;
+        float sum[3] = {};
+        KernelCounters counters;
+        TileTask task;
+        task.x = x;
+        task.y = y;
+        task.width = task.height = task.stride = 1;
+        task.count = samples;
+        task.sum = sum;
+        const Clock::time_point start = Clock::now();
+        kernel_->renderTile(context_, task, counters);
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow);
+        return static_cast<float>((cost == app::Cost::Time ? seconds : rays) / samples);
+    }
+
     static constexpr std::uint32_t kNoTile = ~0u; // no pass is in progress
 
     static bool cancelled(const app::Budget& budget) {

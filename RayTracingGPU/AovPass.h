@@ -1,4 +1,4 @@
-// First-hit features of an image, band by band.
+// First-hit features of an image.
 #pragma once
 #include "Common/App/Engine.h"
 #include "RayTracingGPU/Kernel.h"

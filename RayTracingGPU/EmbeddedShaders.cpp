@@ -6,6 +6,12 @@ using std::uint32_t; // the generated headers say uint32_t
 
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
+#include <Cost.Projected.Time.comp.h>
+#include <Cost.Projected.Time.rgen.h>
+#include <Cost.Projected.comp.h>
+#include <Cost.Projected.rgen.h>
+#include <Cost.Time.comp.h>
+#include <Cost.Time.rgen.h>
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
@@ -32,10 +38,16 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
         case Shader::ProjectedPathCompute: return PathTrace_Projected_comp;
         case Shader::AovCompute: return Aov_comp;
         case Shader::CostCompute: return Cost_comp;
+        case Shader::ProjectedCostCompute: return Cost_Projected_comp;
+        case Shader::TimeCompute: return Cost_Time_comp;
+        case Shader::ProjectedTimeCompute: return Cost_Projected_Time_comp;
         case Shader::RayGeneration: return RayTracing_rgen;
         case Shader::ProjectedRayGeneration: return RayTracing_Projected_rgen;
         case Shader::AovGeneration: return Aov_rgen;
         case Shader::CostGeneration: return Cost_rgen;
+        case Shader::ProjectedCostGeneration: return Cost_Projected_rgen;
+        case Shader::TimeGeneration: return Cost_Time_rgen;
+        case Shader::ProjectedTimeGeneration: return Cost_Projected_Time_rgen;
         case Shader::Miss: return RayTracing_rmiss;
         case Shader::TriangleHit: return RayTracing_rchit;
         case Shader::QuadHit: return RayTracing_Quad_rchit;

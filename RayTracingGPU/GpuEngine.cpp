@@ -51,7 +51,7 @@ class GpuEngine final : public app::Engine {
           options_(options),
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
           engine_(chooseEngine(options.engine, context.info())),
-          bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::AovLaunch))),
+          bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           reducer_(context, cache_),
           constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
                      "constants"),
@@ -72,8 +72,8 @@ class GpuEngine final : public app::Engine {
     app::RenderStatus renderSome(const app::Budget& budget) override;
     const Film& film() override;
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
-    bool knowsCost() const override { return true; }
-    image::Image renderCost(std::uint32_t samples) override;
+    bool knowsCost(app::Cost cost) const override { return cost == app::Cost::Rays || context_.info().hasShaderClock; }
+    image::Image renderCost(app::Cost cost, std::uint32_t samples) override;
     bool canPreview() const override { return context_.info().draws; }
     app::Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override;
     app::EngineReport report() const override;
@@ -343,10 +343,17 @@ app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32
     return renderAovPass(context_, *kernel, settings_.width, settings_.height, request, samples);
 }
 
-image::Image GpuEngine::renderCost(std::uint32_t samples) {
-    const std::unique_ptr<Kernel> kernel = makeKernel(kernelKey_, Shader::CostCompute, Shader::CostGeneration);
+image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
+    if (!knowsCost(cost)) return {};
+    constexpr Shader kCompute[2][2] = {{Shader::CostCompute, Shader::ProjectedCostCompute},
+                                       {Shader::TimeCompute, Shader::ProjectedTimeCompute}};
+    constexpr Shader kGeneration[2][2] = {{Shader::CostGeneration, Shader::ProjectedCostGeneration},
+                                          {Shader::TimeGeneration, Shader::ProjectedTimeGeneration}};
+    const int time = cost == app::Cost::Time ? 1 : 0;
+    const int projected = shared::has(features_, shared::kFeatureProjected) ? 1 : 0;
+    const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time][projected]);
     cache_.save();
-    return renderCostPass(context_, *kernel, settings_.width, settings_.height, std::max(samples, 1u));
+    return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth, std::max(samples, 1u));
 }
 
 app::Preview GpuEngine::renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {

@@ -7,6 +7,8 @@ namespace rt::gpu {
 
 // No watchdog fires and a cancelled render ends soon when launches are short; a device is busy when they are not too short.
 inline constexpr double kLaunchSeconds = 0.04;
+// A window's draws wait for at most one launch, which leaves them half of a frame.
+inline constexpr double kWindowLaunchSeconds = 0.008;
 
 class LaunchSize {
   public:

@@ -63,8 +63,10 @@ class OwningEngine final : public rt::app::Engine {
     rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
         return engine_->renderAovs(request, samples);
     }
-    bool knowsCost() const override { return engine_->knowsCost(); }
-    rt::image::Image renderCost(std::uint32_t samples) override { return engine_->renderCost(samples); }
+    bool knowsCost(rt::app::Cost cost) const override { return engine_->knowsCost(cost); }
+    rt::image::Image renderCost(rt::app::Cost cost, std::uint32_t samples) override {
+        return engine_->renderCost(cost, samples);
+    }
     bool canPreview() const override { return engine_->canPreview(); }
     rt::app::Preview renderPreview(const rt::scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override {
         return engine_->renderPreview(camera, width, height);

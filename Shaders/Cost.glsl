@@ -1,28 +1,47 @@
-// Rays that a pixel costs, averaged over its first samples: camera, scattered and shadow. The includer provides traceRay().
-#include "SceneAccess.glsl"
-#include "Common/Shared/PathStep.h"
+// What a pixel costs, averaged over its first samples: rays, camera, scattered and shadow; or with RT_TIME ticks of the shader
+// clock, which count all that lanes of a group wait for each other. The includer provides traceRay().
+#ifdef RT_TIME
+#extension GL_ARB_shader_clock : require
+#endif
+#include "PixelPass.glsl"
 
-layout(push_constant, scalar) uniform Launch { AovLaunch launch; };
+// Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
+uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
+    PathState path = beginPath(params, samples);
+    DirectLight direct = noDirectLight();
+    uint rays = 0u;
+    bool goesOn = true;
+    bool checking = false;
+    while (goesOn || checking) {
+        Ray ray = path.ray;
+        if (checking) ray = shadowRay(path, direct);
+        Hit hit = traceRay(ray, checking, checking ? direct.distance : kInfinity);
+        rays++;
+        if (checking) {
+            direct.distance = 0.0f;
+        } else {
+            goesOn = pathVertex(kFeatures, scene, params, samples.smp, vertexNumbers(samples.smp, path.vertex), hit, path,
+                                direct);
+        }
+        checking = direct.distance > 0.0f;
+    }
+    return rays;
+}
 
 // What the invocation of one pixel of a launch does.
-void writeCost(uint index) {
-    if (index >= launch.pixels) return;
+void writeCost(uint invocation) {
     SceneRef scene;
     scene.unused = 0u;
     RenderParams params = renderParams();
-    uvec2 pixel = uvec2(index % params.width, launch.firstRow + index / params.width);
-    Sampler smp = makeSampler(params, pixel.y * params.width + pixel.x, 0u, 0u);
-    uint rays = 0u;
-    for (; smp.index < launch.samples; smp.index++) {
-        PathState path = startPath(kFeatures, params, constants.camera, smp, pixel, randomPair(smp, kPairPixel));
-        bool goesOn = true;
-        while (goesOn) {
-            DirectLight direct = noDirectLight();
-            Hit hit = traceRay(path.ray, false, kInfinity);
-            goesOn = pathVertex(kFeatures, scene, params, smp, vertexNumbers(smp, path.vertex), hit, path, direct);
-            // Whether the light arrives makes no difference to how the path goes on.
-            rays += direct.distance > 0.0f ? 2u : 1u;
-        }
-    }
-    launch.values.at[index] = float(rays) / float(launch.samples);
+    PixelSamples samples;
+    if (!beginPixel(invocation, params, samples)) return;
+    uint cost = 0u;
+#ifdef RT_TIME
+    uint start = clock2x32ARB().x; // a launch is far shorter than the low word's turn
+#endif
+    for (; samples.smp.index < launch.samples; samples.smp.index++) cost += tracePath(scene, params, samples);
+#ifdef RT_TIME
+    cost = cost > 0u ? clock2x32ARB().x - start : 0u; // the paths must have been traced
+#endif
+    launch.values.at[invocation] = float(cost) / float(launch.samples);
 }

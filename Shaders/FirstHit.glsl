@@ -1,22 +1,18 @@
 // First-hit features of a pixel, averaged over its first samples. The includer provides traceRay().
-#include "SceneAccess.glsl"
-#include "Common/Shared/PathStep.h"
-
-layout(push_constant, scalar) uniform Launch { AovLaunch launch; };
+#include "PixelPass.glsl"
 
 // What the invocation of one pixel of a launch does.
-void writeFeatures(uint index) {
-    if (index >= launch.pixels) return;
+void writeFeatures(uint invocation) {
     SceneRef scene;
     scene.unused = 0u;
     RenderParams params = renderParams();
-    uvec2 pixel = uvec2(index % params.width, launch.firstRow + index / params.width);
-    Sampler smp = makeSampler(params, pixel.y * params.width + pixel.x, 0u, 0u);
+    PixelSamples samples;
+    if (!beginPixel(invocation, params, samples)) return;
     vec3 albedo = vec3(0.0f);
     vec3 normal = vec3(0.0f);
     float depth = 0.0f;
-    for (; smp.index < launch.samples; smp.index++) {
-        Ray ray = startPath(kFeatures, params, constants.camera, smp, pixel, randomPair(smp, kPairPixel)).ray;
+    for (; samples.smp.index < launch.samples; samples.smp.index++) {
+        Ray ray = beginPath(params, samples).ray;
         Hit hit = traceRay(ray, false, kInfinity);
         if (hit.t < 0.0f) continue;
         Surface surface = makeSurface(kFeatures, scene, ray, hit);
@@ -26,7 +22,7 @@ void writeFeatures(uint index) {
         depth += hit.t;
     }
     float scale = 1.0f / float(launch.samples);
-    uint first = index * kAovValues;
+    uint first = invocation * kAovValues;
     for (uint c = 0u; c < 3u; c++) {
         launch.values.at[first + c] = albedo[c] * scale;
         launch.values.at[first + 3u + c] = normal[c] * scale;

@@ -181,17 +181,18 @@ RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
     return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
 }
 
-// ---- first-hit features ----------------------------------------------------------------------------------------------
+// ---- first-hit features and costs ------------------------------------------------------------------------------------
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
-// Push constants of FirstHit.glsl: rows firstRow and following, one invocation a pixel.
-struct AovLaunch {
-    MutableFloatArray values; // kAovValues per pixel: albedo, normal, depth
-    uint firstRow;
-    uint pixels;  // of the rows
+// Push constants of PixelPass.glsl: pixels firstPixel and following, row by row, one invocation each.
+struct PixelLaunch {
+    MutableFloatArray values; // of the first of these pixels, then of the others; first hits: kAovValues each
+    uint firstPixel;
+    uint pixels;
     uint samples;
 };
+// Albedo, normal, depth.
 const uint kAovValues = 7u;
 
 // ---- preview by rasterisation ----------------------------------------------------------------------------------------

@@ -64,6 +64,11 @@ struct Preview {
     image::Image depth;   // as AovImages'
 };
 
+enum class Cost {
+    Rays, // camera, scattered and shadow
+    Time, // in a unit of the engine's own: the processor's or the device's clock
+};
+
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
     virtual ~Engine() = default;
@@ -79,11 +84,14 @@ struct Engine {
     // is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
-    // Rays that each pixel costs, camera, scattered and shadow, averaged over the first `samples` samples; one channel. The
-    // film stays as it is. An engine that does not know the cost returns an image without pixels.
-    virtual bool knowsCost() const { return false; }
-    virtual image::Image renderCost(std::uint32_t samples) {
-        (void)samples;
+    // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine that
+    // does not know the cost returns an image without pixels.
+    virtual bool knowsCost(Cost cost) const {
+        (void)cost;
+        return false;
+    }
+    virtual image::Image renderCost(Cost cost, std::uint32_t samples) {
+        (void)cost, (void)samples;
         return {};
     }
     // Needs a scene but no film, and leaves that as it is. An engine that cannot draw returns images without pixels.

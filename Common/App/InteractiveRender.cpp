@@ -117,7 +117,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     picture.image = picture.radiance;
     if (aovsFor(view_.mode).any() || view_.mode == ViewMode::Heat) {
         const image::Image shown = view_.mode == ViewMode::Heat
-                                       ? showCost(engine_->renderCost(1), view_.scale)
+                                       ? showCost(shownCost(), engine_->renderCost(shownCost(), 1), view_.scale)
                                        : showFeatures(view_.mode, engine_->renderAovs(aovsFor(view_.mode), 1));
         if (!shown.data.empty()) {
             featureView_ = std::make_shared<image::Image>(enlarge(shown, settings.width, settings.height));
@@ -305,9 +305,9 @@ std::shared_ptr<const image::Image> InteractiveSession::shownImage(
             // In full resolution once the camera rests.
             if (featureView_ && (featureIsFull_ || sinceStart_.seconds() < kRestSeconds)) return featureView_;
             if (view_.mode == ViewMode::Heat) {
-                const image::Image cost = engine_->renderCost(affordable(16));
+                const image::Image cost = engine_->renderCost(shownCost(), affordable(16));
                 if (cost.data.empty()) break;
-                featureView_ = std::make_shared<image::Image>(showCost(cost, view_.scale));
+                featureView_ = std::make_shared<image::Image>(showCost(shownCost(), cost, view_.scale));
             } else {
                 const AovImages aovs = engine_->renderAovs(aovsFor(view_.mode), affordable(8));
                 featureView_ = std::make_shared<image::Image>(showFeatures(view_.mode, aovs));

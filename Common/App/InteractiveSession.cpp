@@ -250,11 +250,11 @@ void InteractiveSession::makeEngine(const EngineChoice& choice) {
         if (scene_ && !filmIsNew_) engine->reset(camera_, settings_); // compiles what a film like the present one needs
         engine_ = std::move(engine);
         choice_ = choice;
-        const bool canShowCost = engine_->knowsCost(), canPreview = engine_->canPreview();
         update([&](SessionState& state) {
             state.engine = choice;
-            state.canShowCost = canShowCost;
-            state.canPreview = canPreview;
+            state.canShowCost = engine_->knowsCost(Cost::Rays);
+            state.canShowTime = engine_->knowsCost(Cost::Time);
+            state.canPreview = engine_->canPreview();
         });
         filmIsStale_ = filmIsNew_ = true;
     } catch (...) {

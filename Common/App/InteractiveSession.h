@@ -117,7 +117,8 @@ struct SessionState {
     bool isReferenceRender = false;  // what is being rendered will be the reference
     std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
     std::vector<ErrorPoint> curve;   // of this film, against the reference
-    bool canShowCost = false;        // the engine knows what a pixel costs
+    bool canShowCost = false;        // the engine knows what a pixel costs in rays
+    bool canShowTime = false;        // and in time
     bool canPreview = false;         // it can draw without ray tracing
     double focusDistance = 0;        // that makes sharp what was picked last
     std::uint64_t focusSerial = 0;   // grows with each pick that met something
@@ -235,6 +236,7 @@ class InteractiveSession {
     void renderSlice();
     std::uint32_t samplesOfFrame(const RenderSettings& settings) const;
     bool isFrameDue() const;
+    Cost shownCost() const { return engine_->knowsCost(view_.cost) ? view_.cost : Cost::Rays; }
     void finish(StopReason reason);
     void publish();
     Options optionsOf(const SaveRequest& request) const;

@@ -67,14 +67,20 @@ image::Image showError(const image::Image& picture, const image::Image& referenc
     return image::colourise(level, picture.width, picture.height);
 }
 
-image::Image showCost(const image::Image& rays, double scale) {
-    float most = 0;
-    for (const float value : rays.data) most = std::max(most, value);
-    std::vector<float> level(rays.data.size());
-    const float full = std::log1p(most);
+image::Image showCost(Cost cost, const image::Image& costs, double scale) {
+    std::vector<float> sorted = costs.data;
+    std::sort(sorted.begin(), sorted.end());
+    // A pixel that costs as much as a typical one has the same colour in both units: about that of two rays.
+    float most = sorted.empty() ? 0 : sorted.back(), unit = 1;
+    if (cost == Cost::Time && !sorted.empty()) {
+        most = sorted[(sorted.size() - 1) * 199 / 200];
+        unit = std::max(0.5f * sorted[sorted.size() / 2], 1e-30f);
+    }
+    std::vector<float> level(costs.data.size());
+    const float full = std::log1p(most / unit);
     for (std::size_t i = 0; i < level.size(); ++i)
-        level[i] = full > 0 ? static_cast<float>(scale) * std::log1p(rays.data[i]) / full : 0;
-    return image::colourise(level, rays.width, rays.height);
+        level[i] = full > 0 ? static_cast<float>(scale) * std::log1p(costs.data[i] / unit) / full : 0;
+    return image::colourise(level, costs.width, costs.height);
 }
 
 } // namespace rt::app

@@ -14,8 +14,9 @@ enum class ViewMode { Picture, Albedo, Normal, Depth, Noise, Error, Heat };
 
 struct ViewRequest {
     ViewMode mode = ViewMode::Picture;
-    double scale = 1;     // of Noise, Error and Heat: values are multiplied by it before they get a colour
-    bool inspect = false; // the state is to hold what the inspector shows
+    double scale = 1;       // of Noise, Error and Heat: values are multiplied by it before they get a colour
+    bool inspect = false;   // the state is to hold what the inspector shows
+    Cost cost = Cost::Rays; // of Heat
     bool operator==(const ViewRequest&) const = default;
 };
 
@@ -32,7 +33,8 @@ image::Image showNoise(const image::Film& film, double scale);
 // |picture - reference| relative to the reference, likewise.
 image::Image showError(const image::Image& picture, const image::Image& reference, double scale);
 
-// Rays per pixel on a logarithmic scale: the most of any pixel is the brightest colour.
-image::Image showCost(const image::Image& rays, double scale);
+// The cost of each pixel on a logarithmic scale: the most that any pixel costs is the brightest colour. Of times it is the most
+// but for one pixel in 200, which were interrupted.
+image::Image showCost(Cost cost, const image::Image& costs, double scale);
 
 } // namespace rt::app

@@ -50,10 +50,13 @@ void Gui::pastePose() {
     }
 }
 
+// Off, rays, time where that is known, off.
 void Gui::toggleHeatMap() {
     if (!state.canShowCost) return;
     const bool isOn = viewRequest.mode == app::ViewMode::Heat;
-    viewRequest.mode = isOn ? app::ViewMode::Picture : app::ViewMode::Heat;
+    const bool hasNext = isOn && viewRequest.cost == app::Cost::Rays && state.canShowTime;
+    viewRequest.mode = isOn && !hasNext ? app::ViewMode::Picture : app::ViewMode::Heat;
+    viewRequest.cost = hasNext ? app::Cost::Time : app::Cost::Rays;
 }
 
 void Gui::setRayTracing(bool on) {

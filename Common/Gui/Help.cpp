@@ -29,7 +29,7 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl + right drag", "move the picture"},
     {"F", "fit the picture"},
     {"P", "preview without ray tracing, and back (ray-tracing-gpu)"},
-    {"H", "heat map: rays that each pixel costs"},
+    {"H", "heat map: what each pixel costs, in rays or time"},
     {"B", "hold the picture for comparison, let it go"},
     {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},
     {"Ctrl + plus, minus", "larger, smaller interface"},

@@ -12,6 +12,8 @@ constexpr app::Named<app::Tonemap> kTonemapNames[] = {
 constexpr app::Named<app::ColorMode> kColorModeNames[] = {
     {"Dark", app::ColorMode::Dark}, {"Light", app::ColorMode::Light}, {"High contrast", app::ColorMode::HighContrast}};
 
+constexpr app::Named<app::Cost> kCostNames[] = {{"Rays", app::Cost::Rays}, {"Time", app::Cost::Time}};
+
 using app::ViewMode;
 
 struct Mode {
@@ -26,7 +28,7 @@ constexpr Mode kModes[] = {
     {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright"},
     {"Noise", ViewMode::Noise, "Standard error of each pixel relative to its value, after 16 samples"},
     {"Error", ViewMode::Error, "Difference from the reference relative to it"},
-    {"Heat map", ViewMode::Heat, "Rays that each pixel costs, on a logarithmic scale (H)"},
+    {"Heat map", ViewMode::Heat, "What each pixel costs, in rays or time, on a logarithmic scale (H)"},
 };
 
 bool isAvailable(const Gui& gui, ViewMode mode) {
@@ -48,6 +50,10 @@ void drawModes(Gui& gui) {
             tooltip(mode.tip);
         }
         ImGui::EndCombo();
+    }
+    if (view.mode == ViewMode::Heat && gui.state.canShowTime) {
+        combo("Cost", "Rays: camera, scattered and shadow. Time: by the clock of the processor or the device's shaders",
+              kCostNames, view.cost);
     }
     if (view.mode == ViewMode::Noise || view.mode == ViewMode::Error || view.mode == ViewMode::Heat) {
         sliderReal("Scale", "Values are multiplied by this before they get a colour, from blue over green to yellow",

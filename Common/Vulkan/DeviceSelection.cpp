@@ -52,6 +52,14 @@ std::string missingForPipeline(VkPhysicalDevice device, const std::vector<VkExte
     return missing;
 }
 
+bool hasShaderClock(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions) {
+    if (!contains(extensions, VK_KHR_SHADER_CLOCK_EXTENSION_NAME)) return false;
+    VkPhysicalDeviceShaderClockFeaturesKHR clock{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &clock};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    return clock.shaderSubgroupClock == VK_TRUE;
+}
+
 std::string missingFeatures(VkPhysicalDevice device) {
     VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core};
@@ -104,6 +112,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     }
     const std::vector<VkExtensionProperties> extensions = extensionsOf(device);
     info.missing = missingFeatures(device);
+    info.hasShaderClock = hasShaderClock(device, extensions);
     info.missingForPipeline = missingForPipeline(device, extensions);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
         // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not with

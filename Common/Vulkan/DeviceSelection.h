@@ -20,6 +20,7 @@ struct DeviceInfo {
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::uint32_t queueFamily = 0;
     bool draws = false;             // its queue rasterises, too, into kDepthFormat
+    bool hasShaderClock = false;    // shaders may ask what time it is
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
     bool suitable() const { return missing.empty(); }

@@ -81,6 +81,15 @@ void VulkanContext::createDevice() {
     if (rays) core.pNext = &structure;
     core.bufferDeviceAddress = VK_TRUE;
     core.scalarBlockLayout = VK_TRUE;
+    std::vector<const char*> extensions;
+    if (rays) extensions = pipelineExtensions();
+    VkPhysicalDeviceShaderClockFeaturesKHR clock{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR};
+    if (info_.hasShaderClock) {
+        clock.shaderSubgroupClock = VK_TRUE;
+        clock.pNext = core.pNext;
+        core.pNext = &clock;
+        extensions.push_back(VK_KHR_SHADER_CLOCK_EXTENSION_NAME);
+    }
     const VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
 
     const float priority = 1.0f;
@@ -91,10 +100,8 @@ void VulkanContext::createDevice() {
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    if (rays) {
-        info.enabledExtensionCount = static_cast<std::uint32_t>(pipelineExtensions().size());
-        info.ppEnabledExtensionNames = pipelineExtensions().data();
-    }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     check(vkCreateDevice(info_.device, &info, nullptr, &device_), "Opening " + info_.name);
     vkGetDeviceQueue(device_, info_.queueFamily, 0, &queue_);
 }

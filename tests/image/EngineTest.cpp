@@ -1,6 +1,7 @@
 // What the CPU engine promises whatever it renders: the same bits for any scheduling, kernel or interruption.
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -87,6 +88,19 @@ TEST(CpuEngine, MoreFeaturesThanNeededChangeNothing) {
 }
 
 // Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
+TEST(CpuEngine, CostsAreTheRaysOfTheRenderAndTime) {
+    const auto scene = builtin("cornell-box-lights");
+    const auto engine = cpu::makeCpuEngine({cpu::Policy::Par, 2});
+    engine->setScene(scene, nullptr);
+    engine->reset(scene->camera, plainSettings(12, 8));
+    finish(*engine);
+    const app::RayCounts rays = engine->report().rays;
+    double sum = 0;
+    for (const float cost : engine->renderCost(app::Cost::Rays, 8).data) sum += std::round(8.0 * cost);
+    EXPECT_EQ(sum, static_cast<double>(rays.camera + rays.scattered + rays.shadow));
+    for (const float cost : engine->renderCost(app::Cost::Time, 8).data) EXPECT_GT(cost, 0);
+}
+
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");
     const auto settings = plainSettings(24, 16);

@@ -1,0 +1,46 @@
+#include "RayTracingGPU/PixelPass.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "RayTracingGPU/Launches.h"
+#include "Shaders/Records.h"
+
+namespace rt::gpu {
+namespace {
+
+constexpr std::uint64_t kPiecePixels = 1u << 20; // on the device at a time
+
+} // namespace
+
+void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const PixelPass& pass,
+                  const std::function<void(std::span<const float> values, std::size_t firstPixel)>& take) {
+    const std::uint64_t pixels = std::uint64_t{pass.width} * pass.height;
+    const std::uint64_t piece = std::min(pixels, kPiecePixels);
+    std::vector<float> values(piece * pass.values);
+    const vulkan::Buffer buffer(context, values.size() * sizeof(float), 0, vulkan::Memory::Device, "values of pixels");
+    LaunchSize size(context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU, pass.maxDepth);
+    for (std::uint64_t first = 0; first < pixels; first += piece) {
+        const std::uint64_t end = std::min(pixels, first + piece);
+        for (std::uint64_t pixel = first; pixel < end;) {
+            const std::uint64_t fitting = std::max<std::uint64_t>(1, size.suggest(kWindowLaunchSeconds) / pass.samples);
+            const std::uint64_t count = std::min(end - pixel, fitting);
+            shared::PixelLaunch launch{};
+            launch.values = buffer.address() + (pixel - first) * pass.values * sizeof(float);
+            launch.firstPixel = static_cast<std::uint32_t>(pixel);
+            launch.pixels = static_cast<std::uint32_t>(count);
+            launch.samples = pass.samples;
+            const double seconds = context.runTimed([&](VkCommandBuffer commands) {
+                kernel.launch(commands, launch, launch.pixels);
+                vulkan::barrier(commands);
+            });
+            size.measured(count * pass.samples, seconds);
+            pixel += count;
+        }
+        const std::span<float> done = std::span(values).first((end - first) * pass.values);
+        vulkan::download(context, buffer, std::as_writable_bytes(done));
+        take(done, first);
+    }
+}
+
+} // namespace rt::gpu

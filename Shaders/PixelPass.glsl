@@ -1,0 +1,22 @@
+// How shaders of one invocation a pixel begin, which go through the pixel's first samples. The includer provides traceRay().
+#include "SceneAccess.glsl"
+#include "Common/Shared/PathStep.h"
+
+layout(push_constant, scalar) uniform Launch { PixelLaunch launch; };
+
+struct PixelSamples {
+    uvec2 pixel;
+    Sampler smp; // of the next sample
+};
+
+// False: there is no pixel for this invocation.
+bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) {
+    uint index = launch.firstPixel + invocation;
+    samples.pixel = uvec2(index % params.width, index / params.width);
+    samples.smp = makeSampler(params, index, 0u, 0u);
+    return invocation < launch.pixels;
+}
+
+PathState beginPath(RenderParams params, PixelSamples samples) {
+    return startPath(kFeatures, params, constants.camera, samples.smp, samples.pixel, randomPair(samples.smp, kPairPixel));
+}
