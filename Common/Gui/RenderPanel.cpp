@@ -119,13 +119,15 @@ void drawRenderPanel(Gui& gui) {
           "grid. "
           "Normal: independent.",
           kSamplerNames, settings.sampler);
-    checkbox("Accumulate rays between frames",
-             "On: samples add up in one image. Off: every frame is an image of its own, with other random numbers",
+    checkbox("Accumulate rays",
+             "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other "
+             "random numbers",
              request.accumulate);
-    inputCount("Samples per frame",
-               "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
-               "while it is rendered. 0: auto, as many as there is time for between two frames",
-               request.samplesPerFrame, 0, 65536, 5);
+    inputCount(
+        "Samples per frame",
+        "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
+        "while it is rendered. 0: auto, as many as there is time for between two frames",
+        request.samplesPerFrame, 0, 65536, 5);
     checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
     checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
     inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);

@@ -34,7 +34,7 @@ std::vector<std::string> savePaths(const std::string& folder, const app::Session
     std::string name = state.scene->id;
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '_') c = '-';
-    name += "-" + std::to_string(state.picture.spp) + "spp";
+    name += state.picture.isPreview ? "-preview" : "-" + std::to_string(state.picture.spp) + "spp";
     for (int i = 1;; ++i) {
         const fs::path png = place / (name + (i > 1 ? "-" + std::to_string(i) : "") + ".png");
         const fs::path exr = fs::path(png).replace_extension(".exr");
