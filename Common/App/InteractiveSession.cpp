@@ -30,6 +30,7 @@ InteractiveSession::InteractiveSession(Setup setup)
       oneSidedLights_(setup_.request.oneSidedLights),
       atEnd_(setup_.atEnd),
       request_(setup_.request),
+      previewIsWanted_(setup_.preview),
       loader_([this](LoadedScene loaded) {
           post(false, [&loaded](Requests& requests) { requests.scene = std::move(loaded); });
       }) {

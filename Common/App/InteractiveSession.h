@@ -145,6 +145,7 @@ class InteractiveSession {
         SceneRequest scene;
         std::string fallbackScene;        // opened where the first cannot be had; empty: that is fatal
         std::optional<SaveRequest> atEnd; // as writeAtEnd()
+        bool preview = false;             // is shown from the beginning
         double sliceSeconds = 0.03;       // of one call of the engine
         RunHistory* history = nullptr;    // gets the runs that end; may be none
         std::function<void()> onChange;   // called on other threads when there is something new to show

@@ -47,6 +47,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     // A file that was open the last time may be gone by now.
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
+    setup.preview = !settings.rayTracing;
     setup.sliceSeconds = options.program == app::kGpuProgram ? 0.008 : 0.03;
     setup.history = &history;
     setup.onChange = [] { Window::wake(); };
@@ -65,6 +66,7 @@ class App {
           history_(app::RunHistory::userFile()),
           sentRequest_(settings_.request),
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
+          sentRayTracing_(settings_.rayTracing),
           sentEnd_(endFiles(options, settings_)),
           session_(sessionSetup(options, program, settings_, history_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
@@ -96,9 +98,9 @@ class App {
     app::CameraController camera_;
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
+    bool sentRayTracing_;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
-    bool sentRayTracing_ = true;
     const image::Image* shownHeld_ = nullptr;
     std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
     app::InteractiveSession session_;

@@ -185,6 +185,19 @@ TEST(PreviewTest, MediaDimWhatIsBehindThem) {
     EXPECT_NEAR(*preview.depth.pixel(32, 32), 4.8f, 1e-3f);
 }
 
+// No primitive: only sky and fog.
+TEST(PreviewTest, NothingIsDrawnWhereThereIsNothing) {
+    const Scene scene = fromText(R"({"version": 1,
+        "camera": {"look_from": [0, 0, 5], "look_at": [0, 0, 0], "vertical_fov": 40},
+        "background": {"type": "constant", "color": [0.25, 0.5, 1]},
+        "objects": [{"type": "medium", "density": 1, "albedo": [0, 0, 0],
+                     "boundary": {"type": "sphere", "center": [0, 0, 0], "radius": 1}}]})");
+    const app::Preview preview = makeEngine(scene)->renderPreview(scene->camera, 65, 65);
+    EXPECT_EQ(*std::max_element(preview.depth.data.begin(), preview.depth.data.end()), 0);
+    EXPECT_NEAR(preview.picture.pixel(0, 0)[1], 0.5, 1e-6);
+    EXPECT_NEAR(preview.picture.pixel(32, 32)[1], 0.5 * std::exp(-2.0), 1e-3);
+}
+
 // ---- beside the film -------------------------------------------------------------------------------------------------
 
 class PreviewEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};

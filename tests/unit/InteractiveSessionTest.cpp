@@ -281,6 +281,17 @@ TEST_F(InteractiveSessionTest, ThePreviewLeavesTheFilmAsItIsAndRaysRest) {
     EXPECT_GT(SlowEngine::films, films);
 }
 
+TEST_F(InteractiveSessionTest, APreviewFromTheBeginningNeedsNoRay) {
+    InteractiveSession::Setup s = setup(4);
+    s.makeEngine = [](const EngineChoice&) { return std::make_unique<DrawingEngine>(); };
+    s.preview = true;
+    const int films = SlowEngine::films;
+    InteractiveSession session(s);
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.isPreview; }));
+    EXPECT_EQ(SlowEngine::films, films);
+    EXPECT_EQ(session.state().settings.width, 24u);
+}
+
 TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     InteractiveSession session(setup(4));
     ASSERT_TRUE(reaches(session, isFinished));
