@@ -1,4 +1,4 @@
-// Runs every shared formula for the tests, see FormulaProbe.h.
+// Runs the shared formulas of one family for the tests, see FormulaProbe.h.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -7,6 +7,7 @@
 #include "FormulaProbe.h"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kFamily = 0u;
 layout(buffer_reference, scalar) buffer Results { uvec4 at[]; };
 layout(push_constant, scalar) uniform Launch {
     Results results; // count for each formula
@@ -14,6 +15,7 @@ layout(push_constant, scalar) uniform Launch {
 };
 
 void main() {
+    uint formula = gl_WorkGroupID.y;
     uint i = gl_GlobalInvocationID.x;
-    if (i < count) results.at[gl_WorkGroupID.y * count + i] = probe(gl_WorkGroupID.y, i);
+    if (i < count && familyOf(formula) == kFamily) results.at[formula * count + i] = probe(kFamily, formula, i);
 }

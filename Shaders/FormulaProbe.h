@@ -111,8 +111,6 @@ RT_FN uvec4 probeSampler(uint i) {
     RenderParams params = probeParams();
     params.samplerKind = i % 3u;
     uvec2 words = randomWords(makeSampler(params, i / 3u, i & 1u, i & 255u), i & 15u);
-    // Jittered strata compute with floats: compared to 16 bits of the result.
-    if (params.samplerKind == kSamplerStratified) words = words >> 16u;
     return uvec4(words.x, words.y, 0u, 0u);
 }
 
@@ -231,8 +229,7 @@ RT_FN Camera probeCamera() {
     return camera;
 }
 
-RT_FN uvec4 probeShape(RT_INOUT(Arguments) a, uint which) {
-    Ray ray = probeRay(a);
+RT_FN uvec4 probeHit(RT_INOUT(Arguments) a, Ray ray, uint which) {
     vec3 p = cubePoint(a);
     if (which == kProbeSphereHit) {
         return floatWords(intersectSphere(ray, p * 0.5f, 0.25f + uniformNumber(a), kInfinity), 0.0f, 0.0f, 0.0f);
@@ -284,32 +281,30 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
     return floatWords(vec3(f), f.w);
 }
 
-RT_FN uvec4 probe(uint which, uint i) {
-    Arguments a;
-    a.key = i;
-    a.next = which << 8u;
+RT_FN uvec4 probeNumbers(RT_INOUT(Arguments) a, uint which, uint i) {
     if (which == kProbeHash) return uvec4(hash3(uvec3(i, 3u, 5u)), owenScramble(i, hash1(i)));
     if (which == kProbePermute)
         return uvec4(permute(i % 977u, 977u, hash1(i)), sobolPair(i, uvec3(i, 11u, 13u)), hash1(i));
     if (which == kProbeSampler) return probeSampler(i);
-    if (which <= kProbeSrgb) return probeElementary(a, which);
-    if (which <= kProbeOffset) return probeSampling(a, which);
-    if (which <= kProbeDielectric) return probeSurface(a, which);
+    return which <= kProbeSrgb ? probeElementary(a, which) : probeSampling(a, which);
+}
+
+RT_FN uvec4 probeLights(RT_INOUT(Arguments) a, uint which) {
     if (which <= kProbeTriangleLight) return probeLightSample(a, which - kProbeSphereLight);
-    if (which == kProbeContribution) {
-        LightBound bound;
-        bound.center = cubePoint(a);
-        bound.radius = 0.3f;
-        bound.axis = unitVector(a);
-        bound.twoSided = 0.0f;
-        bound.intensity = 2.0f;
-        vec3 p = cubePoint(a);
-        return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
-    }
     if (which == kProbeCluster) return probeCluster(a);
-    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
-    if (which <= kProbeTriangleHit) return probeShape(a, which);
+    LightBound bound;
+    bound.center = cubePoint(a);
+    bound.radius = 0.3f;
+    bound.axis = unitVector(a);
+    bound.twoSided = 0.0f;
+    bound.intensity = 2.0f;
+    vec3 p = cubePoint(a);
+    return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
+}
+
+RT_FN uvec4 probeScene(RT_INOUT(Arguments) a, uint which, uint i) {
     Ray ray = probeRay(a);
+    if (which <= kProbeTriangleHit) return probeHit(a, ray, which);
     if (which <= kProbeBoxMedium) {
         vec2 span = mediumInterval(probeMedium(which - kProbeSphereMedium), ray.origin, ray.direction);
         return floatWords(span.x, span.y, 0.0f, 0.0f);
@@ -331,6 +326,34 @@ RT_FN uvec4 probe(uint which, uint i) {
     ray = generateCameraRay(kFeatureThinLens, probeCamera(), uvec2(i % 640u, i % 360u), uvec2(640u, 360u), image,
                             uniformPair(a), 0.0f);
     return floatWords(ray.direction, ray.origin.x);
+}
+
+// Formulas that a device compiles into one pipeline: there are drivers that cannot compile all of them at once.
+const uint kFamilyNumbers = 0u;
+const uint kFamilySurfaces = 1u;
+const uint kFamilyLights = 2u;
+const uint kFamilyProjected = 3u;
+const uint kFamilyScene = 4u;
+const uint kFamilyCount = 5u;
+
+RT_FN uint familyOf(uint which) {
+    if (which <= kProbeOffset) return kFamilyNumbers;
+    if (which <= kProbeDielectric) return kFamilySurfaces;
+    if (which <= kProbeContribution || which == kProbeCluster) return kFamilyLights;
+    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return kFamilyProjected;
+    return kFamilyScene;
+}
+
+// family: that of the formula `which`.
+RT_FN uvec4 probe(uint family, uint which, uint i) {
+    Arguments a;
+    a.key = i;
+    a.next = which << 8u;
+    if (family == kFamilyNumbers) return probeNumbers(a, which, i);
+    if (family == kFamilySurfaces) return probeSurface(a, which);
+    if (family == kFamilyLights) return probeLights(a, which);
+    if (family == kFamilyProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
+    return probeScene(a, which, i);
 }
 
 RT_SHARED_END

@@ -163,11 +163,9 @@ RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
     uint round = s.index / cells;
     uint cell = permute(s.index % cells, cells, hash3(uvec3(s.key, round, pair)).z);
     uvec3 h = hash3(uvec3(s.key, s.index, pair));
-    // cell + jitter in 24 bits: the sum stays below the next cell, and the last below 1.
-    float x = (float(cell % s.strataX) + toUniform(h.x)) / float(s.strataX);
-    float y = (float(cell / s.strataX) + toUniform(h.y)) / float(s.strataY);
-    return uvec2(uint(min(x, 0.999999940395355f) * 16777216.0f) << 8u | h.x >> 24u,
-                 uint(min(y, 0.999999940395355f) * 16777216.0f) << 8u | h.y >> 24u);
+    // In integers, which are the same on every device.
+    return uvec2(cell % s.strataX * (0xffffffffu / s.strataX) + h.x / s.strataX,
+                 cell / s.strataX * (0xffffffffu / s.strataY) + h.y / s.strataY);
 }
 
 RT_FN vec2 randomPair(RT_IN(Sampler) s, uint pair) {
