@@ -332,15 +332,15 @@ RT_FN uvec4 probeScene(RT_INOUT(Arguments) a, uint which, uint i) {
 const uint kFamilyNumbers = 0u;
 const uint kFamilySurfaces = 1u;
 const uint kFamilyLights = 2u;
-const uint kFamilyProjected = 3u;
-const uint kFamilyScene = 4u;
-const uint kFamilyCount = 5u;
+const uint kFamilyScene = 3u;
+const uint kFamilyProjected = 4u; // and the next two: a light's shape each
+const uint kFamilyCount = 7u;
 
 RT_FN uint familyOf(uint which) {
     if (which <= kProbeOffset) return kFamilyNumbers;
     if (which <= kProbeDielectric) return kFamilySurfaces;
     if (which <= kProbeContribution || which == kProbeCluster) return kFamilyLights;
-    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return kFamilyProjected;
+    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return kFamilyProjected + which - kProbeSphereProjected;
     return kFamilyScene;
 }
 
@@ -352,8 +352,8 @@ RT_FN uvec4 probe(uint family, uint which, uint i) {
     if (family == kFamilyNumbers) return probeNumbers(a, which, i);
     if (family == kFamilySurfaces) return probeSurface(a, which);
     if (family == kFamilyLights) return probeLights(a, which);
-    if (family == kFamilyProjected) return probeProjectedLight(a, which - kProbeSphereProjected);
-    return probeScene(a, which, i);
+    if (family == kFamilyScene) return probeScene(a, which, i);
+    return probeProjectedLight(a, family - kFamilyProjected);
 }
 
 RT_SHARED_END
