@@ -1,11 +1,22 @@
 #include "tests/bench/EmbreeCeiling.h"
 
+#include <utility>
+#include <vector>
+
+#include "Common/Image/Summary.h"
+
 #ifndef RT_HAS_EMBREE
 
 namespace rt::bench {
 
-std::optional<double> embreeRaysPerSecond(const scene::CompiledScene&) {
+struct EmbreeRays::Data {};
+
+std::optional<EmbreeRays> EmbreeRays::make(const scene::CompiledScene&) {
     return std::nullopt;
+}
+
+double EmbreeRays::trace(std::size_t) {
+    return 0;
 }
 
 } // namespace rt::bench
@@ -15,14 +26,11 @@ std::optional<double> embreeRaysPerSecond(const scene::CompiledScene&) {
 #include <algorithm>
 #include <chrono>
 #include <cstring>
-#include <memory>
 #include <random>
-#include <vector>
 
 #include <embree3/rtcore.h>
 
 #include "Common/Accel/Parallel.h"
-#include "Common/Image/Summary.h"
 #include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 
@@ -35,7 +43,6 @@ using shared::vec3;
 
 constexpr std::uint32_t kSide = 384; // pixels of the image whose paths give the rays
 constexpr int kBounces = 3;
-constexpr int kRepeats = 5;
 constexpr std::size_t kChunk = 4096; // rays that a thread takes at a time
 
 template <auto release>
@@ -142,25 +149,51 @@ std::vector<Ray> makeRays(RTCScene embree, const scene::CompiledScene& scene) {
 
 } // namespace
 
-std::optional<double> embreeRaysPerSecond(const scene::CompiledScene& scene) {
+struct EmbreeRays::Data {
+    Device device{rtcNewDevice(nullptr)};
+    Scene scene;
+    std::vector<Ray> rays;
+    std::vector<float> distances;
+};
+
+std::optional<EmbreeRays> EmbreeRays::make(const scene::CompiledScene& scene) {
     if (!scene.instances.empty() || !scene.sphereMotions.empty()) return std::nullopt;
-    const Device device(rtcNewDevice(nullptr));
-    const Scene embree = makeScene(device.get(), scene);
-    const std::vector<Ray> rays = makeRays(embree.get(), scene);
-    std::vector<float> distances(rays.size());
-    std::vector<double> rates;
-    for (int repeat = 0; repeat < kRepeats; ++repeat) {
-        const auto start = std::chrono::steady_clock::now();
-        accel::parallelFor(0, (rays.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-            const std::size_t end = std::min((chunk + 1) * kChunk, rays.size());
-            for (std::size_t i = chunk * kChunk; i < end; ++i) distances[i] = trace(embree.get(), rays[i]).ray.tfar;
-        });
-        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-        rates.push_back(static_cast<double>(rays.size()) / seconds.count());
-    }
-    return image::median(rates);
+    auto data = std::make_unique<Data>();
+    data->scene = makeScene(data->device.get(), scene);
+    data->rays = makeRays(data->scene.get(), scene);
+    data->distances.resize(data->rays.size());
+    return EmbreeRays(std::move(data));
+}
+
+double EmbreeRays::trace(std::size_t threads) {
+    const std::vector<Ray>& rays = data_->rays;
+    const auto start = std::chrono::steady_clock::now();
+    accel::parallelFor(threads, (rays.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+        const std::size_t end = std::min((chunk + 1) * kChunk, rays.size());
+        for (std::size_t i = chunk * kChunk; i < end; ++i)
+            data_->distances[i] = bench::trace(data_->scene.get(), rays[i]).ray.tfar;
+    });
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    return static_cast<double>(rays.size()) / seconds.count();
 }
 
 } // namespace rt::bench
 
 #endif
+
+namespace rt::bench {
+
+EmbreeRays::EmbreeRays(std::unique_ptr<Data> data) : data_(std::move(data)) {}
+EmbreeRays::EmbreeRays(EmbreeRays&&) noexcept = default;
+EmbreeRays::~EmbreeRays() = default;
+
+std::optional<double> embreeRaysPerSecond(const scene::CompiledScene& scene) {
+    constexpr int kPasses = 5;
+    std::optional<EmbreeRays> embree = EmbreeRays::make(scene);
+    if (!embree) return std::nullopt;
+    std::vector<double> rates;
+    for (int pass = 0; pass < kPasses; ++pass) rates.push_back(embree->trace(0));
+    return image::median(rates);
+}
+
+} // namespace rt::bench
