@@ -109,19 +109,21 @@ TEST_P(PreviewDepthTest, IsTheRayTracers) {
     EXPECT_GE(depthAgreement(preview, firstHits(scene, camera, 61, 83).depth), 0.97);
 }
 
-// Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest sphere.
+// Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest sphere, a reflected one.
 constexpr const char* kInstances = R"({"version": 1,
     "camera": {"look_from": [0.5, 1, 6], "look_at": [0, 0, 0], "vertical_fov": 50},
     "background": {"type": "constant", "color": [1, 1, 1]},
     "materials": {"m": {"type": "lambertian", "albedo": [0.5, 0.25, 0.125]},
                   "n": {"type": "lambertian", "albedo": [0.2, 0.4, 0.8]}},
-    "prototypes": {"p": [
+    "prototypes": {
+        "shell": [{"type": "sphere", "center": [0, 0, 0], "radius": 30, "material": "n"}],
+        "p": [
         {"type": "sphere", "center": [0, 0, 0], "radius": 0.5, "material": "m"},
         {"type": "quad", "corner": [-1, -0.6, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "material": "n"},
         {"type": "mesh", "positions": [-0.5, 0.5, 0, 0.5, 0.5, 0, 0, 1.3, 0.2], "triangles": [0, 1, 2],
          "material": "m"}]},
     "objects": [
-        {"type": "sphere", "center": [0, 0, 0], "radius": 30, "material": "n"},
+        {"type": "instance", "prototype": "shell", "transform": [{"scale": [-1, 1.1, 1]}]},
         {"type": "instance", "prototype": "p", "transform": [{"scale": [1.2, 1, 1]}, {"translate": [-1.6, 0, 0]}]},
         {"type": "instance", "prototype": "p", "material": "n",
          "transform": [{"scale": [1, 2, 0.5]}, {"rotate": {"axis": [1, 2, 3], "degrees": 40}}, {"translate": [0, 1, -2]}]},
@@ -130,7 +132,7 @@ constexpr const char* kInstances = R"({"version": 1,
 
 TEST(PreviewTest, InstancesAreWhereTheRayTracerMeetsThem) {
     const Scene scene = fromText(kInstances);
-    ASSERT_EQ(scene->instances.size(), 3u);
+    ASSERT_EQ(scene->instances.size(), 4u);
     const app::Preview preview =
         makeEngine(scene, app::GpuEngineKind::Pipeline)->renderPreview(scene->camera, kWidth, kHeight);
     EXPECT_GE(depthAgreement(preview.depth, firstHits(scene, scene->camera).depth), 0.99);
