@@ -104,6 +104,24 @@ void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
              request.oneSidedLights);
 }
 
+void drawFrames(app::RenderRequest& request) {
+    checkbox(
+        "Accumulate rays",
+        "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other random "
+        "numbers",
+        request.accumulate);
+    bool isAuto = request.samplesPerFrame == 0;
+    if (checkbox("Auto frames", "Samples per frame: as many as there is time for between two frames", isAuto)) {
+        request.samplesPerFrame = isAuto ? 0 : app::RenderRequest().samplesPerFrame;
+    }
+    if (isAuto) return;
+    inputCount(
+        "Samples per frame",
+        "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
+        "while it is rendered",
+        request.samplesPerFrame, 1, 65536, 5);
+}
+
 } // namespace
 
 void drawRenderPanel(Gui& gui) {
@@ -119,15 +137,7 @@ void drawRenderPanel(Gui& gui) {
           "grid. "
           "Normal: independent.",
           kSamplerNames, settings.sampler);
-    checkbox("Accumulate rays",
-             "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other "
-             "random numbers",
-             request.accumulate);
-    inputCount(
-        "Samples per frame",
-        "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
-        "while it is rendered. 0: auto, as many as there is time for between two frames",
-        request.samplesPerFrame, 0, 65536, 5);
+    drawFrames(request);
     checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
     checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
     inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
