@@ -90,6 +90,7 @@ void InteractiveSession::change(const RenderRequest& request) {
         if (wantedScene_.oneSidedLights == request.oneSidedLights) return;
         wantedScene_.oneSidedLights = request.oneSidedLights;
         loader_.request(wantedScene_); // which lights there are is decided by the compiler
+        stageWatch_ = {};
     });
 }
 

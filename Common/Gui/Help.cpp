@@ -24,6 +24,7 @@ constexpr Shortcut kShortcuts[] = {
     {"Right drag", "look around"},
     {"Alt + left drag", "orbit around the target"},
     {"Middle drag", "pan"},
+    {"Ctrl + click", "make sharp what is there"},
     {"Wheel", "flying speed; with Shift: nearer, farther"},
     {"Ctrl + wheel", "zoom the picture"},
     {"Ctrl + right drag", "move the picture"},

@@ -50,9 +50,12 @@ void tooltip(const char* text) {
 
 void row(const char* label, const char* tip) {
     ImGui::AlignTextToFramePadding();
+    const float end = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::TextUnformatted(label);
     tooltip(tip);
-    ImGui::SameLine(ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x);
+    // A long label moves its control to the right rather than lie under it.
+    const float column = ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x;
+    ImGui::SameLine(std::max(column, end));
     ImGui::SetNextItemWidth(-1);
 }
 
