@@ -4,18 +4,18 @@
 #extension GL_ARB_shader_clock : require
 #endif
 #include "PixelPass.glsl"
+#include "TraceStep.glsl"
 
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
 uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
     PathState path = beginPath(params, samples);
     DirectLight direct = noDirectLight();
     uint rays = 0u;
+    uint nonfinite = 0u;
     bool goesOn = true;
-    bool checking = false;
-    while (goesOn || checking) {
-        Ray ray = path.ray;
-        if (checking) ray = shadowRay(path, direct);
-        Hit hit = traceRay(ray, checking, checking ? direct.distance : kInfinity);
+    while (goesOn || direct.distance > 0.0f) {
+        bool checking = direct.distance > 0.0f;
+        Hit hit = traceStep(path, direct, checking, nonfinite);
         rays++;
         if (checking) {
             direct.distance = 0.0f;
@@ -23,7 +23,6 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
             goesOn = pathVertex(kFeatures, scene, params, samples.smp, vertexNumbers(samples.smp, path.vertex), hit, path,
                                 direct);
         }
-        checking = direct.distance > 0.0f;
     }
     return rays;
 }

@@ -6,6 +6,7 @@
 // The includer provides traceRay().
 #include "SceneAccess.glsl"
 #include "Common/Shared/PathStep.h"
+#include "TraceStep.glsl"
 
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
@@ -39,35 +40,6 @@ bool takeWork(out Work work) {
 
 PathState beginPath(RenderParams params, Work work) {
     return startPath(kFeatures, params, constants.camera, work.smp, work.pixel, randomPair(work.smp, kPairPixel));
-}
-
-// Vulkan leaves undefined what becomes of rays that are not finite or that end before they begin; a device may never return.
-bool isTraceable(Ray ray, float tMax) {
-    float squared = dot(ray.direction, ray.direction); // 1 but for rounding
-    return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
-}
-
-// What the path's next ray meets; when `checking`, whether the shadow ray of the vertex before meets anything. A ray that cannot
-// be traced is counted; it ends the path, or lets no light through.
-Hit traceStep(PathState path, DirectLight direct, bool checking, inout uint nonfinite) {
-    Ray ray = path.ray;
-    float tMax = kInfinity;
-    if (checking) {
-        ray = shadowRay(path, direct);
-        tMax = direct.distance;
-    }
-    if (!isTraceable(ray, tMax)) {
-        nonfinite++;
-        Hit none;
-        none.t = checking ? 0.0f : -1.0f;
-        none.kind = kNone;
-        none.primitive = 0u;
-        none.instance = kNone;
-        none.u = 0.0f;
-        none.v = 0.0f;
-        return none;
-    }
-    return traceRay(ray, checking, tMax);
 }
 
 // What an invocation does; all invocations of a launch share its work.

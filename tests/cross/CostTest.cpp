@@ -19,7 +19,7 @@ class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
   protected:
     // Seen from so far that the box is surrounded by nothing.
     void start(const app::RenderSettings& settings) {
-        const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
+        const auto scene = app::compile(app::loadScene("next-week-cornell-box"), true);
         scene::CameraDesc camera = scene->camera;
         camera.verticalFov *= 1.6;
         engine_ = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});
