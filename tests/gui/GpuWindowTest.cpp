@@ -155,16 +155,19 @@ TEST_F(GpuWindowTest, TheEngineIsTheOneThatWasChosen) {
     }
 }
 
-// Where the row is depends on the interface: each place of that part is tried, with one of the entries below it.
+// Where the row is depends on the interface: each place of that part is tried, with one of the entries below it; again and more
+// slowly where the machine is busy.
 TEST_F(GpuWindowTest, TheEngineIsExchangedWhileTheWindowIsOpen) {
     store({{"engine", {{"kind", "compute"}}}});
     start();
     ASSERT_FALSE(HasFatalFailure());
     ASSERT_TRUE(eventually([&] { return isInHistory("compute"); })) << log();
-    for (int y = 340; y < 460 && !isInHistory("pipeline"); y += 10) {
-        act("mousemove 250 " + std::to_string(y) + " sleep 0.1 click 1 sleep 0.4 mousemove 250 " +
-            std::to_string(y + 44) + " sleep 0.1 click 1 sleep 0.4 key Escape");
-        pause(1000);
+    for (double wait = 0.3; wait < 4 && !isInHistory("pipeline"); wait *= 2) {
+        const std::string sleep = " sleep " + std::to_string(wait);
+        for (int y = 362; y < 450 && !isInHistory("pipeline"); y += 11) {
+            act("mousemove 250 " + std::to_string(y) + " sleep 0.1 click 1" + sleep + " mousemove 250 " +
+                std::to_string(y + 44) + " sleep 0.1 click 1" + sleep + " key Escape" + sleep);
+        }
     }
     EXPECT_TRUE(eventually([&] { return isInHistory("pipeline"); })) << log();
     expectCleanEnd();
