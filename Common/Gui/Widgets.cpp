@@ -71,10 +71,25 @@ bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::u
                 std::uint32_t step) {
     row(label, tip);
     ImGui::PushID(label);
-    const bool changed = editLater(value, [&](std::uint32_t& shown) {
-        ImGui::InputScalar("##value", ImGuiDataType_U32, &shown, step > 0 ? &step : nullptr);
+    const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+    if (step > 0) ImGui::SetNextItemWidth(-2 * (side + gap));
+    bool changed = editLater(value, [&](std::uint32_t& shown) {
+        ImGui::InputScalar("##value", ImGuiDataType_U32, &shown);
         if (!ImGui::IsItemActive()) shown = std::clamp(shown, min, max);
     });
+    // Buttons of our own: those of ImGui 1.86 end the program when one is pressed while the mouse holds something else.
+    for (const bool up : {false, true}) {
+        if (step == 0) break;
+        ImGui::SameLine(0, gap);
+        ImGui::PushButtonRepeat(true);
+        const bool pressed = ImGui::Button(up ? "+" : "-", {side, side});
+        ImGui::PopButtonRepeat();
+        const std::uint32_t from = std::clamp(value, min, max);
+        const std::uint32_t next = up ? from + std::min(step, max - from) : from - std::min(step, from - min);
+        if (!pressed || next == value) continue;
+        value = next;
+        changed = true;
+    }
     ImGui::PopID();
     return changed;
 }
