@@ -1,12 +1,15 @@
 // Gives Common/Shared its access to the scene on the CPU: SceneRef, every load...(), tracing. Include it before the headers
 // that fetch; everything here has internal linkage.
 #pragma once
+#include "Common/Accel/Prefetch.h"
 #include "Common/Shared/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 
 RT_SHARED_BEGIN
 
 using SceneRef = const cpu::CpuScene&;
+
+const uint kFarLights = 4096u; // more than a core's own cache holds
 
 RT_FN const SceneGlobals& loadGlobals(SceneRef scene) { return scene.globals; }
 RT_FN const Sphere& loadSphere(SceneRef scene, uint i) { return scene.spheres[i]; }
@@ -37,13 +40,23 @@ RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     c.axis = vec3(n.axisX[i], n.axisY[i], n.axisZ[i]);
     c.alignment = n.alignment[i];
     c.spreadCosine = n.spreadCosine[i];
-    c.spreadSine = n.spreadSine[i];
     c.facing = n.facing[i];
     c.around = n.around[i];
     c.child = n.child[i];
     return c;
 }
-RT_FN uint loadLightNodeParent(SceneRef scene, uint node) { return scene.lightNodes[node].parent; }
+RT_FN void expectLights(SceneRef scene, uint node) {
+    if (scene.globals.lightCount < kFarLights) return;
+    for (const uint child : scene.lightNodes[node].child) {
+        if ((child & kLightLeaf) == 0u) continue;
+        const char* light = reinterpret_cast<const char*>(scene.lights + (child & ~kLightLeaf));
+        accel::prefetch(light);
+        accel::prefetch(light + sizeof(Light) - 1);
+    }
+}
+RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
+    return scene.lightPlaces[scene.globals.lightCount + node];
+}
 RT_FN uint loadLightPlace(SceneRef scene, uint light) { return scene.lightPlaces[light]; }
 RT_FN float loadSkyCdf(SceneRef scene, uint i) { return scene.skyCdf[i]; }
 

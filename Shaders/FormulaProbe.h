@@ -180,9 +180,7 @@ RT_FN uvec4 probeCluster(RT_INOUT(Arguments) a) {
     c.radius = 0.5f * uniformNumber(a);
     c.axis = unitVector(a);
     c.alignment = uniformNumber(a);
-    vec2 spread = sinCos2Pi(0.5f * uniformNumber(a));
-    c.spreadCosine = spread.y;
-    c.spreadSine = spread.x;
+    c.spreadCosine = sinCos2Pi(0.5f * uniformNumber(a)).y;
     c.facing = 2.0f;
     c.around = 0.5f;
     c.child = 7u;

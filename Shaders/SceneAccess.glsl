@@ -26,7 +26,10 @@ uint loadPerlinPermutation(SceneRef scene, uint i) { return constants.arrays.per
 Medium loadMedium(SceneRef scene, uint i) { return constants.arrays.media.at[i]; }
 Light loadLight(SceneRef scene, uint i) { return constants.arrays.lights.at[i]; }
 LightBound loadLightBound(SceneRef scene, uint i) { return constants.arrays.lightBounds.at[i]; }
-uint loadLightNodeParent(SceneRef scene, uint node) { return constants.arrays.lightNodes.at[node].parent; }
+void expectLights(SceneRef scene, uint node) {} // nothing to be gained by fetching ahead
+uint loadLightNodeParent(SceneRef scene, uint node) {
+    return constants.arrays.lightPlaces.at[loadGlobals(scene).lightCount + node];
+}
 uint loadLightPlace(SceneRef scene, uint light) { return constants.arrays.lightPlaces.at[light]; }
 float loadSkyCdf(SceneRef scene, uint i) { return constants.arrays.skyCdf.at[i]; }
 
@@ -39,7 +42,6 @@ LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
                   constants.arrays.lightNodes.at[node].axisZ[i]);
     c.alignment = constants.arrays.lightNodes.at[node].alignment[i];
     c.spreadCosine = constants.arrays.lightNodes.at[node].spreadCosine[i];
-    c.spreadSine = constants.arrays.lightNodes.at[node].spreadSine[i];
     c.facing = constants.arrays.lightNodes.at[node].facing[i];
     c.around = constants.arrays.lightNodes.at[node].around[i];
     c.child = constants.arrays.lightNodes.at[node].child[i];

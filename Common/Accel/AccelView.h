@@ -90,6 +90,7 @@ constexpr std::uint32_t flatName(std::uint32_t kind, std::uint32_t primitive) {
 struct AccelView {
     std::uint32_t kinds = 0;  // feature bits of the primitives that exist
     bool flat = false;        // the lists below hold everything; otherwise the tree does
+    bool isLarge = false;     // does not fit into a core's own cache: worth fetching ahead
 
     FlatList<SphereBlock> flatSpheres;
     FlatList<MovingSphereBlock> flatMovingSpheres;

@@ -55,8 +55,9 @@ class Builder {
     void buildTask(const Range& range, std::vector<BvhNode>& nodes);
 
     std::uint32_t binCount(std::uint32_t items) const;
+    bool isMixed(const Range& range) const;
     // The plane to divide at; by count where no plane helps; nothing if the range is to be a leaf.
-    std::optional<Division> choose(const Range& range, const BinSums& sums, bool binned) const;
+    std::optional<Division> choose(const Range& range, const BinSums& sums, bool binned, bool isMixedLeaf) const;
     std::optional<Division> chooseForLeaf(const Range& range) const;
     void partition(const Range& range, const Division& division, const Binning& binning, Range& left, Range& right);
     void makeLeaf(const Range& range, std::vector<BvhNode>& nodes);
@@ -101,17 +102,25 @@ std::uint32_t Builder::binCount(std::uint32_t items) const {
     return std::min(settings_.bins, 4 + items / 8);
 }
 
-std::optional<Division> Builder::choose(const Range& range, const BinSums& sums, bool binned) const {
+std::optional<Division> Builder::choose(const Range& range, const BinSums& sums, bool binned, bool isMixedLeaf) const {
     if (range.depth > settings_.maxDepth / 2) return chooseForLeaf(range);
     Division division;
-    if (binned) division.split = sums.best(settings_.blockSize);
+    if (binned) division.split = sums.best(isMixedLeaf ? 1 : settings_.blockSize);
     if (division.split.axis < 0) return chooseForLeaf(range);
-    if (range.size() <= settings_.maxLeafSize) {
+    if (range.size() <= settings_.maxLeafSize && !isMixedLeaf) {
         const float area = range.box.halfArea();
         const float blocks = static_cast<float>((range.size() + settings_.blockSize - 1) / settings_.blockSize);
         if (area * blocks <= area * settings_.nodeCost + division.split.cost) return chooseForLeaf(range);
     }
     return division;
+}
+
+// Whether items of several groups are in the range.
+bool Builder::isMixed(const Range& range) const {
+    const ItemBox* items = buffers_[range.buffer].data();
+    for (std::uint32_t i = range.begin; grouped_ && i < range.end; ++i)
+        if (items[i].group != items[range.begin].group) return true;
+    return false;
 }
 
 // The range is not worth dividing by a plane: but a leaf must not be too large or hold items of two groups.
@@ -197,14 +206,15 @@ void Builder::buildTask(const Range& task, std::vector<BvhNode>& nodes) {
         open.pop_back();
         std::optional<Division> division;
         Binning binning;
-        if (range.size() <= settings_.blockSize) {
+        const bool isMixedLeaf = range.size() <= settings_.blockSize && isMixed(range);
+        if (range.size() <= settings_.blockSize && !isMixedLeaf) {
             division = chooseForLeaf(range);
         } else {
             const std::uint32_t bins = binCount(range.size());
             binning = Binning(range.centers, bins);
             BinSums sums(bins);
             if (binning.hasExtent()) sums.add(buffers_[range.buffer].data() + range.begin, range.size(), binning);
-            division = choose(range, sums, binning.hasExtent());
+            division = choose(range, sums, binning.hasExtent(), isMixedLeaf);
         }
         if (!division) {
             makeLeaf(range, nodes);
@@ -236,7 +246,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
     for (const BinSums& part : sums) {
         total.add(part);
     }
-    const std::optional<Division> division = choose(range, total, binning.hasExtent());
+    const std::optional<Division> division = choose(range, total, binning.hasExtent(), false);
     Range left, right;
     if (!division || division->by != Division::By::Plane) {
         partition(range, division.value_or(Division{Division::By::Count, {}, 0}), binning, left, right);

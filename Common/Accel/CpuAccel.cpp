@@ -14,13 +14,13 @@
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kLeafChunk = 1u << 10;  // leaves whose blocks are filled at a time
+constexpr std::size_t kLeafChunk = 1u << 10;   // leaves whose blocks are filled at a time
+constexpr std::size_t kLargeBytes = 1u << 20;  // of a tree that traversal fetches ahead
 
 // One geometry's tree between its construction and the filling of its leaf blocks.
 struct BuiltTree {
     TreeItems items;
-    std::vector<std::uint32_t> order;  // of items
-    std::vector<WideLeaf> leaves;
+    WideLeaves filling;
 };
 
 template <class Block>
@@ -41,7 +41,7 @@ void fillLeaf(const LargeArray<Block>& blocks, const WideLeaf& leaf, const Built
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
         Block& block = blocks[leaf.firstBlock + i / kWidth];
         if (i % kWidth == 0) block = emptyBlock<Block>();
-        fillLane(block, i % kWidth, input, tree.items.index(tree.order[leaf.firstItem + i]));
+        fillLane(block, i % kWidth, input, tree.items.index(tree.filling.items[leaf.firstItem + i]));
     }
 }
 
@@ -72,18 +72,18 @@ class Assembly {
 bool Assembly::buildTrees() {
     roots_.resize(input_.geometries.size());
     return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
-        std::vector<WideLeaf> leaves;
+        WideLeaves leaves;
         roots_[tree.geometry] = wide_.append(tree.bvh, tree.kinds, leaves);
         hasWorld_ = hasWorld_ || tree.geometry == 0;
-        trees_.push_back({std::move(tree.items), std::move(tree.bvh.items), std::move(leaves)});
+        trees_.push_back({std::move(tree.items), std::move(leaves)});
     });
 }
 
 void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const {
-    const Chunks chunks(tree.leaves.size(), kLeafChunk);
+    const Chunks chunks(tree.filling.leaves.size(), kLeafChunk);
     parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
         for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-            const WideLeaf& leaf = tree.leaves[i];
+            const WideLeaf& leaf = tree.filling.leaves[i];
             switch (leaf.kind) {
                 case LeafKind::Sphere:
                     fillLeaf(storage.spheres, leaf, tree, input_);
@@ -98,7 +98,7 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
                     fillLeaf(storage.triangles, leaf, tree, input_);
                     break;
                 case LeafKind::Instance: {
-                    const std::uint32_t index = tree.items.index(tree.order[leaf.firstItem]);
+                    const std::uint32_t index = tree.items.index(tree.filling.items[leaf.firstItem]);
                     const shared::Instance& instance = input_.instances[index];
                     PlacedGeometry& placed = storage.instances[leaf.firstBlock];
                     std::copy(std::begin(instance.toObject), std::end(instance.toObject), placed.toObject);
@@ -171,6 +171,7 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     assembly.fill(storage);
     view.flat = !assembly.hasWorld();
     view.root = assembly.root();
+    view.isLarge = accel->bytes() > kLargeBytes;
     view.nodes = storage.nodes.data();
     view.spheres = storage.spheres.data();
     view.movingSpheres = storage.movingSpheres.data();

@@ -11,25 +11,31 @@ namespace rt::accel {
 namespace {
 
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
-constexpr std::align_val_t kAlignment{64};
+constexpr std::size_t kAlignment = 64;
+
+// From half a large page on, memory is whole large pages.
+bool isLarge(std::size_t bytes) {
+    return bytes >= kLargePage / 2;
+}
+
+std::align_val_t alignment(std::size_t bytes) {
+    return std::align_val_t{isLarge(bytes) ? kLargePage : kAlignment};
+}
 
 }  // namespace
 
-// Memory is aligned to 64 bytes. From two large pages on the range of whole pages in it is advised to be backed by
-// them.
 void* allocateLarge(std::size_t bytes) {
-    void* memory = ::operator new(bytes, kAlignment);
+    if (!isLarge(bytes)) return ::operator new(bytes, alignment(bytes));
+    const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
+    void* memory = ::operator new(whole, alignment(bytes));
 #if defined(__linux__)
-    const std::uintptr_t begin = (reinterpret_cast<std::uintptr_t>(memory) + kLargePage - 1) / kLargePage * kLargePage;
-    const std::uintptr_t end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kLargePage * kLargePage;
-    if (end > begin)
-        madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);  // a wish: failure changes nothing
+    madvise(memory, whole, MADV_HUGEPAGE);  // a wish: failure changes nothing
 #endif
     return memory;
 }
 
-void freeLarge(void* memory) noexcept {
-    ::operator delete(memory, kAlignment);
+void freeLarge(void* memory, std::size_t bytes) noexcept {
+    ::operator delete(memory, alignment(bytes));
 }
 
 }  // namespace rt::accel

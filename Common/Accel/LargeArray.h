@@ -7,9 +7,9 @@
 
 namespace rt::accel {
 
-// `bytes` of memory, aligned for any record here; throws std::bad_alloc.
+// `bytes` of memory, aligned to a cache line; throws std::bad_alloc.
 void* allocateLarge(std::size_t bytes);
-void freeLarge(void* memory) noexcept;
+void freeLarge(void* memory, std::size_t bytes) noexcept;
 
 template <class T>
 class LargeArray {
@@ -18,7 +18,8 @@ class LargeArray {
   public:
     LargeArray() = default;
     explicit LargeArray(std::size_t count)
-        : data_(count == 0 ? nullptr : static_cast<T*>(allocateLarge(count * sizeof(T)))), size_(count) {}
+        : data_(count == 0 ? nullptr : static_cast<T*>(allocateLarge(count * sizeof(T))), Free{count * sizeof(T)}),
+          size_(count) {}
 
     T* data() const { return data_.get(); }
     std::size_t size() const { return size_; }
@@ -27,7 +28,8 @@ class LargeArray {
 
   private:
     struct Free {
-        void operator()(T* memory) const noexcept { freeLarge(memory); }
+        std::size_t bytes = 0;
+        void operator()(T* memory) const noexcept { freeLarge(memory, bytes); }
     };
     std::unique_ptr<T, Free> data_;
     std::size_t size_ = 0;

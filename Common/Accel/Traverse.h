@@ -9,6 +9,7 @@
 // geometry before all instances; so the answer depends neither on the tree nor on the order of traversal.
 #pragma once
 #include "Common/Accel/AccelView.h"
+#include "Common/Accel/Prefetch.h"
 #include "Common/Accel/ShapeBlocks.h"
 #include "Common/Accel/Simd.h"
 #include "Common/Shared/Features.h"
@@ -218,6 +219,24 @@ RT_FN bool testLeafAny(const ShapeRay& ray, const Block* blocks, Reference leaf,
     return false;
 }
 
+template <unsigned kBytes>
+RT_FN void prefetchBytes(const void* at) {
+    for (unsigned i = 0; i < kBytes; i += 64) prefetch(static_cast<const char*>(at) + i);
+}
+
+// Starts to fetch what `r` refers to: the first block of a leaf.
+RT_FN void prefetchReference(shared::uint features, const AccelView& view, Reference r) {
+    if ((r & kLeafBit) == 0) {
+        prefetchBytes<sizeof(WideNode)>(view.nodes + r);
+    } else if (shared::has(features, shared::kFeatureTriangles) && leafKind(r) == LeafKind::Triangle) {
+        prefetchBytes<sizeof(TriangleBlock)>(view.triangles + leafFirst(r));
+    } else if (shared::has(features, shared::kFeatureSpheres) && leafKind(r) == LeafKind::Sphere) {
+        prefetchBytes<sizeof(SphereBlock)>(view.spheres + leafFirst(r));
+    } else if (shared::has(features, shared::kFeatureQuads) && leafKind(r) == LeafKind::Quad) {
+        prefetchBytes<sizeof(QuadBlock)>(view.quads + leafFirst(r));
+    }
+}
+
 // ---- trees ----------------------------------------------------------------------------------------------------------
 
 RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
@@ -230,8 +249,9 @@ RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray)
     return r;
 }
 
-// Nearest hit below `root`, if nearer than `best`. Instances are followed one level down.
-template <bool World>
+// Nearest hit below `root`, if nearer than `best`. Instances are followed one level down. Ahead: what waits is fetched
+// from memory meanwhile, for trees that a core's own cache does not hold.
+template <bool World, bool Ahead>
 RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                      shared::uint instance, shared::Hit& best) {
     const BoxRay boxRay = makeBoxRay(ray);
@@ -245,7 +265,11 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
             Float8 entry;
             const unsigned hits = enterChildren(node, boxRay, best.t, entry);
             if (hits != 0) {
+                [[maybe_unused]] const unsigned waiting = size;
                 current = orderChildren(node, hits, entry, stack, size);
+                if constexpr (Ahead) {
+                    for (unsigned i = waiting; i < size; ++i) prefetchReference(features, view, stack[i].reference);
+                }
                 continue;
             }
         } else {
@@ -262,7 +286,8 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
                 if (shared::has(features, shared::kFeatureInstances)) {
                     const PlacedGeometry* placed = view.instances + leafFirst(current);
                     for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
-                        traceTree<false>(features, view, placed->root, toObject(*placed, ray), placed->instance, best);
+                        traceTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray), placed->instance,
+                                                best);
                     }
                 }
             }
@@ -275,13 +300,17 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
     }
 }
 
-template <bool World>
+template <bool World, bool Ahead>
 RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax) {
     const BoxRay boxRay = makeBoxRay(ray);
     const ShapeRay shapeRay = makeShapeRay(features, ray, World);
     Reference stack[kStackSize];
     unsigned size = 0;
+    // What is to be visited next, a ring: on its way from memory meanwhile.
+    constexpr unsigned kAhead = 4;
+    [[maybe_unused]] Reference ahead[kAhead];
+    [[maybe_unused]] unsigned first = 0, waiting = 0;
     Reference current = root;
     for (;;) {
         if ((current & kLeafBit) == 0) {
@@ -304,14 +333,26 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
                 if (shared::has(features, shared::kFeatureInstances)) {
                     const PlacedGeometry* placed = view.instances + leafFirst(current);
                     for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
-                        if (occludedTree<false>(features, view, placed->root, toObject(*placed, ray), tMax))
+                        if (occludedTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray), tMax))
                             return true;
                     }
                 }
             }
         }
-        if (size == 0) return false;
-        current = stack[--size];
+        if constexpr (Ahead) {
+            for (; waiting < kAhead && size > 0; ++waiting) {
+                const Reference next = stack[--size];
+                prefetchReference(features, view, next);
+                ahead[(first + waiting) % kAhead] = next;
+            }
+            if (waiting == 0) return false;
+            current = ahead[first];
+            first = (first + 1) % kAhead;
+            --waiting;
+        } else {
+            if (size == 0) return false;
+            current = stack[--size];
+        }
     }
 }
 
@@ -321,7 +362,11 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
 RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray, true), tMax);
     shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
-    traceTree<true>(features, view, view.root, ray, shared::kNone, best);
+    if (view.isLarge) {
+        traceTree<true, true>(features, view, view.root, ray, shared::kNone, best);
+    } else {
+        traceTree<true, false>(features, view, view.root, ray, shared::kNone, best);
+    }
     if (!(best.t < tMax)) best.t = -1.0f;
     return best;
 }
@@ -329,7 +374,8 @@ RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, con
 // Whether anything is hit with 0 < t < tMax.
 RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray, true), tMax);
-    return occludedTree<true>(features, view, view.root, ray, tMax);
+    return view.isLarge ? occludedTree<true, true>(features, view, view.root, ray, tMax)
+                        : occludedTree<true, false>(features, view, view.root, ray, tMax);
 }
 
 }  // namespace

@@ -9,12 +9,18 @@
 
 namespace rt::accel {
 
-// A leaf of the binary tree: a run of its items, which are of one kind.
+// What some blocks hold: a run of items, which are of one kind.
 struct WideLeaf {
     LeafKind kind;
-    std::uint32_t firstItem;  // into Bvh::items
+    std::uint32_t firstItem;  // into WideLeaves::items
     std::uint32_t count;
     std::uint32_t firstBlock;  // among the blocks of its kind
+};
+
+// Of one tree.
+struct WideLeaves {
+    std::vector<WideLeaf> leaves;
+    std::vector<std::uint32_t> items;  // those of Bvh::items, leaf by leaf and ascending in each
 };
 
 // Nodes and leaves of any number of trees.
@@ -22,10 +28,10 @@ struct WideBvh {
     std::vector<WideNode> nodes;
     std::uint32_t blocks[kLeafKinds] = {};  // of each kind, in all trees
 
-    // Appends a tree and returns the reference of its root; `leaves` receives what its blocks are to hold. The kind of
-    // a leaf is that of its first item: kinds[item], or kinds[0] where the span has only one element. Throws
+    // Appends a tree and returns the reference of its root; `leaves` receives what its blocks are to hold. Small leaves
+    // of one node share a block, each with its own box. The kind of a leaf is that of its first item: kinds[item], or kinds[0] where the span has only one element. Throws
     // RenderError when there are more than kMaxBlocks blocks of a kind.
-    Reference append(const Bvh& bvh, std::span<const std::uint8_t> kinds, std::vector<WideLeaf>& leaves);
+    Reference append(const Bvh& bvh, std::span<const std::uint8_t> kinds, WideLeaves& leaves);
 };
 
 }  // namespace rt::accel

@@ -45,7 +45,8 @@ struct CompiledScene {
     std::vector<shared::Light> lights;          // lights, then importance targets
     std::vector<shared::LightBound> lightBounds; // one for each light
     std::vector<shared::LightNode> lightNodes;   // the tree over more than kContributionLights lights
-    std::vector<std::uint32_t> lightPlaces;      // of each of those lights: node * kLightNodeChildren + child, or kNone
+    std::vector<std::uint32_t> lightPlaces;      // node * kLightNodeChildren + child, or kNone: of each of those lights,
+                                                 // then of each node, in its parent
     std::vector<float> skyCdf; // sky image: cdf of rows (height + 1), then of columns in each row (width + 1 each)
 
     shared::SceneGlobals globals{};

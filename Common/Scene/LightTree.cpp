@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "Common/Core/Interruption.h"
 #include "Common/Scene/Bounds.h"
@@ -19,6 +20,7 @@ using shared::kLightNodeChildren;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kBins = 12;
+constexpr std::size_t kFewItems = kLightNodeChildren * kLightNodeChildren; // that two levels of nodes can hold
 
 // The normals of some lights: all within an angle of `axis`.
 struct NormalCone {
@@ -116,13 +118,18 @@ int binOf(double x, double low, double scale) {
     return std::clamp(static_cast<int>((x - low) * scale), 0, kBins - 1);
 }
 
+// Of few items planes that leave less than a quarter on either side are passed over: nodes would not be filled.
 void tryAxis(std::span<const Item> items, const Bounds& centers, int axis, Plane& best) {
     const double low = centers.lower[axis], extent = centers.upper[axis] - low;
     if (!(extent > 0)) return;
     const double scale = kBins / extent;
     std::array<Cluster, kBins> bins;
-    for (const Item& item : items)
-        bins[static_cast<std::size_t>(binOf(item.center[axis], low, scale))].add(item.cluster);
+    std::array<std::size_t, kBins> counts{};
+    for (const Item& item : items) {
+        const auto bin = static_cast<std::size_t>(binOf(item.center[axis], low, scale));
+        bins[bin].add(item.cluster);
+        ++counts[bin];
+    }
     std::array<double, kBins> below{};
     Cluster sum;
     for (std::size_t i = 0; i + 1 < kBins; ++i) {
@@ -130,8 +137,11 @@ void tryAxis(std::span<const Item> items, const Bounds& centers, int axis, Plane
         below[i + 1] = spreadCost(sum);
     }
     sum = {};
+    std::size_t above = 0;
     for (std::size_t i = kBins - 1; i > 0; --i) {
         sum.add(bins[i]);
+        above += counts[i];
+        if (items.size() <= kFewItems && std::min(above, items.size() - above) < items.size() / 4) continue;
         const double cost = below[i] + spreadCost(sum);
         if (cost < best.cost) best = {axis, static_cast<int>(i), cost};
     }
@@ -183,24 +193,43 @@ class Builder {
             node.radius[i] = 1.0f; // keeps the arithmetic of children that do not exist finite
             node.child[i] = shared::kLightLeaf;
         }
-        node.parent = parent;
         out_.lightNodes.push_back(node);
+        out_.lightPlaces.push_back(parent);
         return static_cast<std::uint32_t>(out_.lightNodes.size() - 1);
     }
 
-    // Children from `slot` on: the group, divided where it spreads most until the node is full.
-    void fill(std::uint32_t node, std::uint32_t slot, const Group& whole) {
+    // The group divided into at most `slots`. What is more than two levels of nodes can hold is divided where it spreads
+    // most; the rest so that few nodes are needed: into groups that fit into a node, and then small groups dissolve where
+    // there is room for their lights.
+    static std::vector<Group> divide(const Group& whole, std::size_t slots) {
+        const auto smaller = [](const Group& a, const Group& b) { return a.items.size() < b.items.size(); };
+        const auto denser = [](const Group& a, const Group& b) {
+            return std::pair(a.items.size() > 1, a.cost) < std::pair(b.items.size() > 1, b.cost);
+        };
+        const bool isLarge = whole.items.size() > slots * kLightNodeChildren;
+        const std::size_t capacity = isLarge || whole.items.size() <= slots ? 1 : kLightNodeChildren;
         std::vector<Group> groups{whole};
-        while (groups.size() < kLightNodeChildren - slot) {
-            const auto widest = std::max_element(groups.begin(), groups.end(), [](const Group& a, const Group& b) {
-                return std::pair(a.items.size() > 1, a.cost) < std::pair(b.items.size() > 1, b.cost);
-            });
-            if (widest->items.size() < 2) break;
-            const auto parts = split(widest->items);
-            *widest = parts[0];
+        while (groups.size() < slots) {
+            const auto next = isLarge ? std::max_element(groups.begin(), groups.end(), denser)
+                                      : std::max_element(groups.begin(), groups.end(), smaller);
+            if (next->items.size() <= capacity) break;
+            const auto parts = split(next->items);
+            *next = parts[0];
             groups.push_back(parts[1]);
         }
-        for (const Group& group : groups) {
+        std::stable_sort(groups.begin(), groups.end(), smaller);
+        for (std::size_t i = 0; i < groups.size(); ++i) {
+            const std::span<Item> items = groups[i].items;
+            if (groups.size() + items.size() - 1 > slots) break;
+            groups[i] = makeGroup(items.first(1));
+            for (std::size_t k = 1; k < items.size(); ++k) groups.push_back(makeGroup(items.subspan(k, 1)));
+        }
+        return groups;
+    }
+
+    // Children from `slot` on: the group, divided.
+    void fill(std::uint32_t node, std::uint32_t slot, const Group& whole) {
+        for (const Group& group : divide(whole, kLightNodeChildren - slot)) {
             if (group.items.size() == 1) {
                 placeLight(node, slot, group.items[0].light);
             } else {
@@ -216,7 +245,7 @@ class Builder {
     void placeLight(std::uint32_t node, std::uint32_t slot, std::uint32_t light) {
         const shared::LightBound& bound = out_.lightBounds[light];
         shared::LightNode& n = out_.lightNodes[node];
-        placeSphere(n, slot, bound.center, bound.radius);
+        placeSphere(n, slot, bound.center, -bound.radius);
         placeCone(n, slot, bound.axis, 1.0f, 0.0);
         const bool isFlat = bound.axis != shared::vec3(0.0f);
         n.facing[slot] = !isFlat ? 0.0f : bound.twoSided > 0.0f ? -bound.intensity : bound.intensity;
@@ -267,8 +296,8 @@ class Builder {
         n.axisY[slot] = axis.y;
         n.axisZ[slot] = axis.z;
         n.alignment[slot] = alignment;
-        n.spreadCosine[slot] = static_cast<float>(std::cos(angle));
-        n.spreadSine[slot] = static_cast<float>(std::sin(angle));
+        // Rounding must not narrow the cone.
+        n.spreadCosine[slot] = angle > 0 ? std::nextafter(static_cast<float>(std::cos(angle)), -1.0f) : 1.0f;
     }
 
     CompiledScene& out_;

@@ -9,28 +9,27 @@ RT_SHARED_BEGIN
 // contribute: all below the horizon of `normal` (zero: in a medium), or all turned away from the point. Without a branch.
 RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 normal) {
     vec3 v = c.center - position;
+    float radius = abs(c.radius);
     float d2 = dot(v, v);
-    float r2 = c.radius * c.radius;
-    float inverse2 = 1.0f / max(d2, 0.25f * r2);
+    float inverse2 = 1.0f / max(d2, 0.25f * (radius * radius));
     float inverse = sqrt(inverse2);
-    float receiver = isSurface(normal) ? meanClamped(dot(normal, v), c.radius) * inverse : 1.0f;
+    float surface = isSurface(normal) ? 1.0f : 0.0f;
+    float receiver = surface * (meanClamped(dot(normal, v), radius) * inverse) + (1.0f - surface);
     // The cosines under which the flat lights emit: their mean, as seen from the middle, and their maximum, with the
-    // cone widened by the angle that the sphere fills.
-    float cosine = clamp(-dot(c.axis, v) / sqrt(max(d2, 1.0e-37f)), -1.0f, 1.0f);
-    float sine = sqrt((1.0f - cosine) * (1.0f + cosine));
-    bool leaf = (c.child & kLightLeaf) != 0u; // a plane is in front of a point or not, whatever the angle it fills
-    float fill2 = leaf ? 0.0f : min(r2 / max(d2, 1.0e-37f), 1.0f);
-    float fillSine = sqrt(fill2);
-    float fillCosine = sqrt(1.0f - fill2);
-    float wideCosine = c.spreadCosine * fillCosine - c.spreadSine * fillSine;
-    float wideSine = c.spreadSine * fillCosine + c.spreadCosine * fillSine;
-    // A hair wider than rounding.
-    float highest = cosine * wideCosine + sine * wideSine + 2.0e-6f;
-    highest = cosine >= wideCosine - 1.0e-6f ? 1.0f : highest;
-    highest = wideSine < 0.0f ? 1.0f : highest;
-    highest = fill2 >= 1.0f ? 1.0f : highest;
+    // cone widened by the angle that the sphere fills. A point in the sphere sees it all around. The plane of a single
+    // light, whose radius is negative, is in front of a point or not, whatever the angle it fills.
+    float along = -dot(c.axis, v);
+    float cosine = along * inverse;
+    float sine = sqrt(max(d2 * 1.000001f - along * along, 0.0f)) * inverse; // not below the exact one
+    float fillSine = clamp(c.radius * inverse, 0.0f, 1.0f);
+    float fillCosine = sqrt((1.0f - fillSine) * (1.0f + fillSine));
+    float spreadSine = sqrt((1.0f - c.spreadCosine) * (1.0f + c.spreadCosine));
+    float wideCosine = c.spreadCosine * fillCosine - spreadSine * fillSine;
+    float wideSine = spreadSine * fillCosine + c.spreadCosine * fillSine;
+    // A hair wider than rounding. Positive `within`: inside the cone, or the cone or the sphere is all around.
+    float within = max(cosine - wideCosine + 1.0e-6f, max(-wideSine, fillSine - 0.999999940395355f));
+    float highest = within > 0.0f ? 1.0f : cosine * wideCosine + sine * wideSine + 2.0e-6f;
     float mean = cosine * c.alignment;
-    highest = leaf ? mean : highest;
     mean = c.facing < 0.0f ? abs(mean) : mean;
     float emitter = meanClamped(mean, max(highest - mean, 0.0f));
     return (c.around + abs(c.facing) * emitter) * receiver * inverse2;

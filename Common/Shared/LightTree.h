@@ -3,7 +3,8 @@
 // means where they use upper bounds.
 // The includer provides SceneRef and
 //   LightCluster loadLightCluster(scene, node, i)   child i of a node
-//   uint loadLightNodeParent(scene, node)           LightNode::parent
+//   void expectLights(scene, node)                  a hint: lights among the node's children may be loaded soon
+//   uint loadLightNodeParent(scene, node)           place of the node in its parent, kNone: the root
 //   uint loadLightPlace(scene, light)               node * kLightNodeChildren + child, kNone: not in the tree
 #ifndef RT_SHARED_LIGHT_TREE_H
 #define RT_SHARED_LIGHT_TREE_H
@@ -20,10 +21,29 @@ RT_FN ClusterWeights loadClusterWeights(SceneRef scene, uint node, vec3 position
     return w;
 }
 
-RT_FN float sumOf(RT_IN(ClusterWeights) w) {
-    float total = 0.0f;
-    for (uint i = 0u; i < kLightNodeChildren; i++) total += w.weight[i];
-    return total;
+// [i]: of the weights before child i; [kLightNodeChildren]: of all. Added up in such an order that the sums never fall,
+// that a child without weight adds nothing, and that the last does not wait for all others.
+struct ClusterSums {
+    float before[kLightNodeChildren + 1u];
+};
+
+RT_FN ClusterSums sumsOf(RT_IN(ClusterWeights) w) {
+    ClusterSums s;
+    float pair0 = w.weight[0] + w.weight[1];
+    float pair1 = w.weight[2] + w.weight[3];
+    float pair2 = w.weight[4] + w.weight[5];
+    float pair3 = w.weight[6] + w.weight[7];
+    float low = pair0 + pair1;
+    s.before[0] = 0.0f;
+    s.before[1] = w.weight[0];
+    s.before[2] = pair0;
+    s.before[3] = pair0 + w.weight[2];
+    s.before[4] = low;
+    s.before[5] = low + w.weight[4];
+    s.before[6] = low + pair2;
+    s.before[7] = low + (pair2 + w.weight[6]);
+    s.before[8] = low + (pair2 + pair3);
+    return s;
 }
 
 // A light drawn from the tree.
@@ -45,24 +65,20 @@ RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, v
     float u = numbers.x;
     float left = 1.0f;
     for (;;) {
+        expectLights(scene, node);
         ClusterWeights w = loadClusterWeights(scene, node, position, normal);
-        ClusterWeights before;
-        float total = 0.0f;
-        for (uint i = 0u; i < kLightNodeChildren; i++) {
-            before.weight[i] = total;
-            total += w.weight[i];
-        }
+        ClusterSums sums = sumsOf(w);
+        float total = sums.before[kLightNodeChildren];
         if (used == 0u && node == 0u) choice.total = total;
         if (!(total > 0.0f)) return choice;
+        // The last child whose sum is not above the target: one of some weight, since the target is below the total.
         float target = u * total;
         uint chosen = 0u;
-        for (uint i = 1u; i < kLightNodeChildren; i++) chosen += before.weight[i] <= target ? 1u : 0u;
-        // As in a short table: only children without weight at the end can be met here.
-        while (w.weight[chosen] == 0.0f) chosen--;
+        for (uint i = 1u; i < kLightNodeChildren; i++) chosen += sums.before[i] <= target ? 1u : 0u;
+        uint child = loadLightCluster(scene, node, chosen).child;
         float share = w.weight[chosen] / total;
         choice.probability *= share;
-        u = clamp((target - before.weight[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);
-        uint child = loadLightCluster(scene, node, chosen).child;
+        u = clamp((target - sums.before[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);
         if ((child & kLightLeaf) != 0u) {
             choice.light = child & ~kLightLeaf;
             return choice;
@@ -88,7 +104,7 @@ RT_CALL float treeProbability(SceneRef scene, uint light, vec3 position, vec3 no
         ClusterWeights w = loadClusterWeights(scene, node, position, normal);
         float own = w.weight[place % kLightNodeChildren];
         if (!(own > 0.0f)) return 0.0f;
-        probability *= own / sumOf(w);
+        probability *= own / sumsOf(w).before[kLightNodeChildren];
         place = loadLightNodeParent(scene, node);
     }
     return probability;

@@ -445,9 +445,10 @@ RT_FN vec3 lightPointError(RT_IN(Light) light) {
 // Mean of max(x, 0) over x uniform in [middle - spread, middle + spread], spread >= 0: `middle` where the interval is
 // positive, a parabola that reaches 0 with slope 0 where it sinks below 0.
 RT_FN float meanClamped(float middle, float spread) {
-    float above = max(middle + spread, 0.0f);
-    float clipped = above * above / (4.0f * max(spread, 1.0e-30f));
-    return middle >= spread ? middle : clipped;
+    // Where the interval is positive the parabola of a wider one, as wide as it can be, has the same value.
+    float wide = max(max(spread, middle), 1.0e-30f);
+    float above = max(middle + wide, 0.0f);
+    return above * (above / (4.0f * wide));
 }
 
 // Estimate of the irradiance that the light behind `bound` causes without occluders, for the choice of a light: exact

@@ -176,22 +176,20 @@ const uint kLightNodeChildren = 8u;
 const uint kLightLeaf = 0x80000000u; // in LightNode::child: the rest is a light, not a node
 
 // Bounds of up to eight children, each a light or a node, field by field so that they are weighed side by side. A child
-// that does not exist has no intensity.
+// that does not exist has no intensity. Six cache lines.
 struct LightNode {
     float centerX[8]; // of a sphere around the child's lights
     float centerY[8];
     float centerZ[8];
-    float radius[8];
+    float radius[8];  // negative: the child is a single light
     float axisX[8]; // unit axis of a cone that holds the normals of the lights counted in `facing`
     float axisY[8];
     float axisZ[8];
     float alignment[8]; // length of the mean of those normals, weighed by intensity
     float spreadCosine[8]; // of the cone's half angle
-    float spreadSine[8];
     float facing[8]; // intensity of flat lights along their normals; negative: a single light that emits to both sides
     float around[8]; // mean intensity of the lights that emit to all sides
     uint child[8];
-    uint parent; // node * kLightNodeChildren + child; kNone for the root
 };
 
 // One child of a LightNode.
@@ -201,7 +199,6 @@ struct LightCluster {
     vec3 axis;
     float alignment;
     float spreadCosine;
-    float spreadSine;
     float facing;
     float around;
     uint child;

@@ -29,6 +29,7 @@ Medium loadMedium(SceneRef scene, uint i);
 Light loadLight(SceneRef scene, uint i);
 LightBound loadLightBound(SceneRef scene, uint i);
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i);
+void expectLights(SceneRef scene, uint node);
 uint loadLightNodeParent(SceneRef scene, uint node);
 uint loadLightPlace(SceneRef scene, uint light);
 LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal);
