@@ -41,6 +41,7 @@ endif()
 if(RT_SANITIZE)
     add_compile_options(-fsanitize=${RT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     add_link_options(-fsanitize=${RT_SANITIZE})
+    add_compile_definitions(RT_SANITIZED)
 endif()
 
 # The instruction sets that kernels are compiled for on this architecture; the program chooses among them at run time.

@@ -29,6 +29,9 @@
 #if defined(_MSC_VER) && !defined(__clang__)
 #define RT_FN static __forceinline
 #define RT_CALL static __declspec(noinline)
+#elif defined(RT_SANITIZED) // in one piece a kernel with the sanitizers' checks takes compilers a quarter of an hour
+#define RT_FN [[maybe_unused]] static
+#define RT_CALL [[maybe_unused]] static
 #else
 #define RT_FN [[maybe_unused, gnu::always_inline]] static inline
 #define RT_CALL [[maybe_unused, gnu::noinline]] static
