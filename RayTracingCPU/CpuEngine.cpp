@@ -34,11 +34,15 @@ std::span<const Kernel> kernelTable(InstructionSet set) {
 #if defined(__x86_64__) || defined(_M_X64)
     switch (set) {
         case InstructionSet::X86_64_v4:
-        case InstructionSet::X86_64_v3: return {kernels_x86_64_v3(), kKernelCount};
-        case InstructionSet::X86_64_v2: return {kernels_x86_64_v2(), kKernelCount};
-        case InstructionSet::Generic: break;
+        case InstructionSet::X86_64_v3:
+            return {kernels_x86_64_v3(), kKernelCount};
+        case InstructionSet::X86_64_v2:
+            return {kernels_x86_64_v2(), kKernelCount};
+        case InstructionSet::Generic:
+            break;
     }
-    throw UsageError("this processor lacks the instruction set x86-64-v2 (SSE4.2), the least that kernels are made for");
+    throw UsageError(
+        "this processor lacks the instruction set x86-64-v2 (SSE4.2), the least that kernels are made for");
 #else
     return {kernels_generic(), kKernelCount};
 #endif
@@ -360,7 +364,7 @@ class CpuEngine final : public app::Engine {
     KernelContext context_;
 
     Film film_;
-    std::uint64_t passEnd_ = 0;   // samples per pixel that the pass in progress leads to
+    std::uint64_t passEnd_ = 0;        // samples per pixel that the pass in progress leads to
     std::uint32_t nextTile_ = kNoTile; // first tile that the pass has not handed out
 
     std::mutex countersMutex_;
@@ -368,10 +372,10 @@ class CpuEngine final : public app::Engine {
     app::EngineReport report_;
 };
 
-}  // namespace
+} // namespace
 
 std::unique_ptr<app::Engine> makeCpuEngine(const CpuEngineOptions& options) {
     return std::make_unique<CpuEngine>(options);
 }
 
-}  // namespace rt::cpu
+} // namespace rt::cpu

@@ -21,4 +21,4 @@ struct CpuEngineOptions {
 // kernel.
 std::unique_ptr<app::Engine> makeCpuEngine(const CpuEngineOptions& options);
 
-}  // namespace rt::cpu
+} // namespace rt::cpu

@@ -70,7 +70,7 @@ struct TileTask {
     std::uint32_t replicate = 0;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    float* sum = nullptr;     // RGB a pixel: continued, not cleared
+    float* sum = nullptr; // RGB a pixel: continued, not cleared
     const std::atomic<bool>* cancel = nullptr;
 };
 
@@ -80,7 +80,7 @@ struct AovTask {
     std::uint32_t count = 0;
     float* albedo = nullptr; // RGB a pixel of the row
     float* normal = nullptr;
-    float* depth = nullptr;  // one a pixel
+    float* depth = nullptr; // one a pixel
 };
 
 struct KernelContext {
@@ -106,4 +106,4 @@ const Kernel* kernels_x86_64_v2();
 const Kernel* kernels_x86_64_v3();
 const Kernel* kernels_generic();
 
-}  // namespace rt::cpu
+} // namespace rt::cpu

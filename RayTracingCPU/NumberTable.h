@@ -73,12 +73,12 @@ class NumberTable {
 
     const Sampler first_;
     const bool tabulated_;
-    const bool needsLight_;  // whether kPairLight is read at all
-    const bool needsSelect_; // whether kPairSelect is
+    const bool needsLight_;    // whether kPairLight is read at all
+    const bool needsSelect_;   // whether kPairSelect is
     std::uint32_t filled_ = 0; // vertices
     PairTable pixel_;
     Vertex vertices_[kVertices];
 };
 
-}  // namespace
-}  // namespace rt::cpu
+} // namespace
+} // namespace rt::cpu

@@ -18,8 +18,8 @@ RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTabl
     const CpuScene& scene = *context.scene;
     const Hit hit = traceRay(scene, path.ray);
     DirectLight direct = noDirectLight();
-    const bool goesOn = pathVertex(kFeatures, scene, context.params, smp, numbers.vertexNumbers(smp, path.vertex), hit,
-                                   path, direct);
+    const bool goesOn =
+        pathVertex(kFeatures, scene, context.params, smp, numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
     if (direct.distance > 0.0f) {
         ++counters.shadow;
         if (!isOccluded(scene, shadowRay(path, direct), direct.distance))
@@ -29,13 +29,13 @@ RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTabl
 }
 
 template <std::uint32_t kFeatures>
-void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum, KernelCounters& counters) {
+void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum,
+                 KernelCounters& counters) {
     vec3 total(sum[0], sum[1], sum[2]);
     Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
     NumberTable numbers(smp, task.count, kFeatures);
     for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
-        PathState path =
-            startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
+        PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
         while (pathStep<kFeatures>(context, smp, numbers, path, counters)) {
         }
         counters.scattered += path.vertex - 1u;
@@ -71,8 +71,9 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         float depth = 0.0f;
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
-            const Ray ray = startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y),
-                                      randomPair(smp, kPairPixel)).ray;
+            const Ray ray =
+                startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y), randomPair(smp, kPairPixel))
+                    .ray;
             const Hit hit = traceRay(scene, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);
@@ -113,5 +114,5 @@ constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kFeatureAll>("all"),
 };
 
-}  // namespace
-}  // namespace rt::cpu
+} // namespace
+} // namespace rt::cpu

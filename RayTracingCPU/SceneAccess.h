@@ -11,27 +11,63 @@ using SceneRef = const cpu::CpuScene&;
 
 const uint kFarLights = 4096u; // more than a core's own cache holds
 
-RT_FN const SceneGlobals& loadGlobals(SceneRef scene) { return scene.globals; }
-RT_FN const Sphere& loadSphere(SceneRef scene, uint i) { return scene.spheres[i]; }
+RT_FN const SceneGlobals& loadGlobals(SceneRef scene) {
+    return scene.globals;
+}
+RT_FN const Sphere& loadSphere(SceneRef scene, uint i) {
+    return scene.spheres[i];
+}
 RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
     return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
 }
-RT_FN const Quad& loadQuad(SceneRef scene, uint i) { return scene.quads[i]; }
-RT_FN vec3 loadPosition(SceneRef scene, uint i) { return scene.positions[i]; }
-RT_FN vec3 loadNormal(SceneRef scene, uint i) { return scene.normals[i]; }
-RT_FN vec2 loadUv(SceneRef scene, uint i) { return scene.uvs[i]; }
-RT_FN uvec3 loadTriangle(SceneRef scene, uint i) { return scene.triangles[i]; }
-RT_FN const Mesh& loadMesh(SceneRef scene, uint i) { return scene.meshes[i]; }
-RT_FN uint loadTriangleMesh(SceneRef scene, uint i) { return scene.triangleMesh[i]; }
-RT_FN const Instance& loadInstance(SceneRef scene, uint i) { return scene.instances[i]; }
-RT_FN const Material& loadMaterial(SceneRef scene, uint i) { return scene.materials[i]; }
-RT_FN const Texture& loadTexture(SceneRef scene, uint i) { return scene.textures[i]; }
-RT_FN const Image& loadImage(SceneRef scene, uint i) { return scene.images[i]; }
-RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) { return scene.perlinGradients[i]; }
-RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) { return scene.perlinPermutations[i]; }
-RT_FN const Medium& loadMedium(SceneRef scene, uint i) { return scene.media[i]; }
-RT_FN const Light& loadLight(SceneRef scene, uint i) { return scene.lights[i]; }
-RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) { return scene.lightBounds[i]; }
+RT_FN const Quad& loadQuad(SceneRef scene, uint i) {
+    return scene.quads[i];
+}
+RT_FN vec3 loadPosition(SceneRef scene, uint i) {
+    return scene.positions[i];
+}
+RT_FN vec3 loadNormal(SceneRef scene, uint i) {
+    return scene.normals[i];
+}
+RT_FN vec2 loadUv(SceneRef scene, uint i) {
+    return scene.uvs[i];
+}
+RT_FN uvec3 loadTriangle(SceneRef scene, uint i) {
+    return scene.triangles[i];
+}
+RT_FN const Mesh& loadMesh(SceneRef scene, uint i) {
+    return scene.meshes[i];
+}
+RT_FN uint loadTriangleMesh(SceneRef scene, uint i) {
+    return scene.triangleMesh[i];
+}
+RT_FN const Instance& loadInstance(SceneRef scene, uint i) {
+    return scene.instances[i];
+}
+RT_FN const Material& loadMaterial(SceneRef scene, uint i) {
+    return scene.materials[i];
+}
+RT_FN const Texture& loadTexture(SceneRef scene, uint i) {
+    return scene.textures[i];
+}
+RT_FN const Image& loadImage(SceneRef scene, uint i) {
+    return scene.images[i];
+}
+RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) {
+    return scene.perlinGradients[i];
+}
+RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) {
+    return scene.perlinPermutations[i];
+}
+RT_FN const Medium& loadMedium(SceneRef scene, uint i) {
+    return scene.media[i];
+}
+RT_FN const Light& loadLight(SceneRef scene, uint i) {
+    return scene.lights[i];
+}
+RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) {
+    return scene.lightBounds[i];
+}
 RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     const LightNode& n = scene.lightNodes[node];
     LightCluster c;
@@ -57,8 +93,12 @@ RT_FN void expectLights(SceneRef scene, uint node) {
 RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
     return scene.lightPlaces[scene.globals.lightCount + node];
 }
-RT_FN uint loadLightPlace(SceneRef scene, uint light) { return scene.lightPlaces[light]; }
-RT_FN float loadSkyCdf(SceneRef scene, uint i) { return scene.skyCdf[i]; }
+RT_FN uint loadLightPlace(SceneRef scene, uint light) {
+    return scene.lightPlaces[light];
+}
+RT_FN float loadSkyCdf(SceneRef scene, uint i) {
+    return scene.skyCdf[i];
+}
 
 RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
     const uint texel = y * image.width + x;

@@ -38,4 +38,4 @@ void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
 #endif
 }
 
-}  // namespace rt::cpu
+} // namespace rt::cpu

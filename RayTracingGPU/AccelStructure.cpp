@@ -84,7 +84,7 @@ VkTransformMatrixKHR toMatrix(const shared::vec4 (&rows)[3]) {
     return matrix;
 }
 
-}  // namespace
+} // namespace
 
 AccelStructure::AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene,
                                const shared::SceneArrays& arrays)
@@ -104,7 +104,8 @@ void AccelStructure::addSurfaces(const scene::CompiledScene& scene, const shared
     if (g.triangleCount > 0) {
         input.geometries.push_back(
             triangleGeometry(arrays.positions, static_cast<std::uint32_t>(scene.positions.size()), arrays.triangles));
-        input.ranges.push_back({g.triangleCount, g.firstTriangle * static_cast<std::uint32_t>(sizeof(shared::uvec3)), 0, 0});
+        input.ranges.push_back(
+            {g.triangleCount, g.firstTriangle * static_cast<std::uint32_t>(sizeof(shared::uvec3)), 0, 0});
     }
     const std::vector<vec3> vertices = quadVertices(scene, g);
     const vulkan::Buffer buffer = vulkan::deviceArray<vec3>(context_, vertices, "quads", kBuildInput);
@@ -183,7 +184,8 @@ AccelStructure::Structure AccelStructure::allocate(VkAccelerationStructureTypeKH
     vulkan::check(f.createAccelerationStructure(context_.device(), &info, nullptr, &structure),
                   "Creating the acceleration structure");
     result.structure = {context_.device(), structure, f.destroyAccelerationStructure};
-    VkAccelerationStructureDeviceAddressInfoKHR address{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
+    VkAccelerationStructureDeviceAddressInfoKHR address{
+        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
     address.accelerationStructure = structure;
     result.address = f.getAccelerationStructureAddress(context_.device(), &address);
     return result;
@@ -259,4 +261,4 @@ AccelStructure::Structure AccelStructure::compact(Structure original) {
     return result;
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -13,7 +13,8 @@ namespace rt::gpu {
 class AccelStructure {
   public:
     // Reads positions and triangles from the scene's buffers on the device. Throws RenderError.
-    AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene, const shared::SceneArrays& arrays);
+    AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene,
+                   const shared::SceneArrays& arrays);
 
     VkAccelerationStructureKHR topLevel() const { return topLevel_.structure.get(); }
     double buildSeconds() const { return buildSeconds_; } // on the device, compaction included
@@ -50,4 +51,4 @@ class AccelStructure {
     double buildSeconds_ = 0;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -6,7 +6,7 @@
 namespace rt::gpu {
 
 // Averages over the first `samples` samples of each pixel.
-app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width, std::uint32_t height,
-                             const app::AovRequest& request, std::uint32_t samples);
+app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width,
+                             std::uint32_t height, const app::AovRequest& request, std::uint32_t samples);
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -23,7 +23,7 @@ std::string describe(std::uint32_t features, bool isFlat) {
     return name;
 }
 
-}  // namespace
+} // namespace
 
 TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
@@ -67,4 +67,4 @@ void ComputePipeline::record(VkCommandBuffer commands, const void* launch, std::
     vkCmdDispatch(commands, (invocations + kGroupSize - 1) / kGroupSize, 1, 1);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

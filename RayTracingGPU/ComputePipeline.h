@@ -43,4 +43,4 @@ class ComputePipeline final : public Kernel {
     vulkan::Handle<VkPipeline> pipeline_;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -28,37 +28,60 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <RayTracing.rgen.h>
 #include <RayTracing.rmiss.h>
 
-}  // namespace
+} // namespace
 
 namespace rt::gpu {
 
 std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
-        case Shader::PathCompute: return PathTrace_comp;
-        case Shader::ProjectedPathCompute: return PathTrace_Projected_comp;
-        case Shader::AovCompute: return Aov_comp;
-        case Shader::CostCompute: return Cost_comp;
-        case Shader::ProjectedCostCompute: return Cost_Projected_comp;
-        case Shader::TimeCompute: return Cost_Time_comp;
-        case Shader::ProjectedTimeCompute: return Cost_Projected_Time_comp;
-        case Shader::RayGeneration: return RayTracing_rgen;
-        case Shader::ProjectedRayGeneration: return RayTracing_Projected_rgen;
-        case Shader::AovGeneration: return Aov_rgen;
-        case Shader::CostGeneration: return Cost_rgen;
-        case Shader::ProjectedCostGeneration: return Cost_Projected_rgen;
-        case Shader::TimeGeneration: return Cost_Time_rgen;
-        case Shader::ProjectedTimeGeneration: return Cost_Projected_Time_rgen;
-        case Shader::Miss: return RayTracing_rmiss;
-        case Shader::TriangleHit: return RayTracing_rchit;
-        case Shader::QuadHit: return RayTracing_Quad_rchit;
-        case Shader::SphereHit: return RayTracing_Procedural_rchit;
-        case Shader::SphereIntersection: return RayTracing_Procedural_rint;
-        case Shader::FilmReduce: return FilmReduce_comp;
-        case Shader::PreviewVertex: return Preview_vert;
-        case Shader::PreviewFragment: return Preview_frag;
-        case Shader::PreviewFinish: return Preview_comp;
+        case Shader::PathCompute:
+            return PathTrace_comp;
+        case Shader::ProjectedPathCompute:
+            return PathTrace_Projected_comp;
+        case Shader::AovCompute:
+            return Aov_comp;
+        case Shader::CostCompute:
+            return Cost_comp;
+        case Shader::ProjectedCostCompute:
+            return Cost_Projected_comp;
+        case Shader::TimeCompute:
+            return Cost_Time_comp;
+        case Shader::ProjectedTimeCompute:
+            return Cost_Projected_Time_comp;
+        case Shader::RayGeneration:
+            return RayTracing_rgen;
+        case Shader::ProjectedRayGeneration:
+            return RayTracing_Projected_rgen;
+        case Shader::AovGeneration:
+            return Aov_rgen;
+        case Shader::CostGeneration:
+            return Cost_rgen;
+        case Shader::ProjectedCostGeneration:
+            return Cost_Projected_rgen;
+        case Shader::TimeGeneration:
+            return Cost_Time_rgen;
+        case Shader::ProjectedTimeGeneration:
+            return Cost_Projected_Time_rgen;
+        case Shader::Miss:
+            return RayTracing_rmiss;
+        case Shader::TriangleHit:
+            return RayTracing_rchit;
+        case Shader::QuadHit:
+            return RayTracing_Quad_rchit;
+        case Shader::SphereHit:
+            return RayTracing_Procedural_rchit;
+        case Shader::SphereIntersection:
+            return RayTracing_Procedural_rint;
+        case Shader::FilmReduce:
+            return FilmReduce_comp;
+        case Shader::PreviewVertex:
+            return Preview_vert;
+        case Shader::PreviewFragment:
+            return Preview_frag;
+        case Shader::PreviewFinish:
+            return Preview_comp;
     }
     return {};
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -34,4 +34,4 @@ enum class Shader {
 // SPIR-V words, living as long as the program.
 std::span<const std::uint32_t> shaderCode(Shader shader);
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -14,4 +14,4 @@ bool computeIsFaster(const vulkan::DeviceInfo& device);
 // `wish`, or for Auto what is there and faster. Throws NoDeviceError when the device has no pipeline and one is wished for.
 app::GpuEngineKind chooseEngine(app::GpuEngineKind wish, const vulkan::DeviceInfo& device);
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -301,8 +301,9 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
     // Drivers have been seen that end long loops early.
     if (finished != added.items) {
         failed_ = true; // what is on the device is not a film
-        throw RenderError(context_.info().name + " ended a shader before its work was done (" + std::to_string(finished) +
-                          " of " + std::to_string(added.items) + " items); a newer driver may help");
+        throw RenderError(context_.info().name + " ended a shader before its work was done (" +
+                          std::to_string(finished) + " of " + std::to_string(added.items) +
+                          " items); a newer driver may help");
     }
 }
 
@@ -353,7 +354,8 @@ image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
     const int projected = shared::has(features_, shared::kFeatureProjected) ? 1 : 0;
     const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time][projected]);
     cache_.save();
-    return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth, std::max(samples, 1u));
+    return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth,
+                          std::max(samples, 1u));
 }
 
 app::Preview GpuEngine::renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {

@@ -56,7 +56,8 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
 void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>* cancel) {
     const app::Stopwatch watch;
     const scene::CompiledScene& s = *compiled_;
-    const accel::AccelInput input{s.spheres, s.sphereMotions, s.quads, s.positions, s.triangles, s.geometries, s.instances};
+    const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
+                                  s.triangles, s.geometries,    s.instances};
     const std::optional<accel::GpuBvh> bvh = accel::buildGpuBvh(input, {}, cancel);
     if (!bvh) return;
     buildSeconds_ = watch.seconds();
@@ -84,4 +85,4 @@ void GpuScene::provideMotion(vulkan::VulkanContext& context) {
     tree_.sphereMotions = add(context, std::vector<shared::vec4>(rest.size(), shared::vec4(0.0f)), "the tree's motion");
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -50,4 +50,4 @@ class GpuScene {
     double buildSeconds_ = 0;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

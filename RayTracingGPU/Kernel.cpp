@@ -16,4 +16,4 @@ vulkan::Handle<VkShaderModule> makeShaderModule(VkDevice device, Shader shader) 
     return {device, module, vkDestroyShaderModule};
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -47,4 +47,4 @@ class Kernel {
 
 vulkan::Handle<VkShaderModule> makeShaderModule(VkDevice device, Shader shader);
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -56,9 +56,7 @@ class OwningEngine final : public rt::app::Engine {
         engine_->reset(camera, settings);
     }
     void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
-    rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override {
-        return engine_->renderSome(budget);
-    }
+    rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override { return engine_->renderSome(budget); }
     const rt::image::Film& film() override { return engine_->film(); }
     rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
         return engine_->renderAovs(request, samples);
@@ -68,7 +66,8 @@ class OwningEngine final : public rt::app::Engine {
         return engine_->renderCost(cost, samples);
     }
     bool canPreview() const override { return engine_->canPreview(); }
-    rt::app::Preview renderPreview(const rt::scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) override {
+    rt::app::Preview renderPreview(const rt::scene::CameraDesc& camera, std::uint32_t width,
+                                   std::uint32_t height) override {
         return engine_->renderPreview(camera, width, height);
     }
     rt::app::EngineReport report() const override { return engine_->report(); }
@@ -111,7 +110,7 @@ rt::ExitCode showWindow(const rt::app::Options&) {
 
 int run(const std::vector<std::string>& arguments) {
     const auto options = rt::app::parseOptions(kGpuProgram, arguments, std::cout);
-    if (!options) return 0;  // --help, --version
+    if (!options) return 0; // --help, --version
     rt::setUpLog({kGpuProgram, options->quiet, options->verbose, options->logFile});
     if (options->command == rt::app::Command::ListDevices) {
         const rt::vulkan::Instance instance(options->validation);
@@ -121,7 +120,7 @@ int run(const std::vector<std::string>& arguments) {
     return static_cast<int>(options->window ? showWindow(*options) : render(*options));
 }
 
-}  // namespace
+} // namespace
 
 int main(int argc, char** argv) {
     return rt::runMain(kGpuProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });

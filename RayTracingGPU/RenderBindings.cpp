@@ -17,7 +17,7 @@ constexpr VkShaderStageFlags kRayGenerationStage = VK_SHADER_STAGE_RAYGEN_BIT_KH
 constexpr VkShaderStageFlags kPipelineStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR |
                                                VK_SHADER_STAGE_MISS_BIT_KHR | VK_SHADER_STAGE_INTERSECTION_BIT_KHR;
 
-}  // namespace
+} // namespace
 
 RenderBindings::RenderBindings(vulkan::VulkanContext& context, app::GpuEngineKind engine, std::uint32_t pushBytes)
     : device_(context.device()) {
@@ -99,4 +99,4 @@ void RenderBindings::bind(VkCommandBuffer commands, const void* push, std::uint3
     vkCmdPushConstants(commands, layout(), pushStages_, 0, pushBytes, push);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -34,4 +34,4 @@ class RenderBindings {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -22,12 +22,14 @@ class GroupList {
         return add(group);
     }
     std::uint32_t addTriangles(Shader closestHit) {
-        VkRayTracingShaderGroupCreateInfoKHR group = emptyGroup(VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR);
+        VkRayTracingShaderGroupCreateInfoKHR group =
+            emptyGroup(VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR);
         group.closestHitShader = addStage(VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, closestHit);
         return add(group);
     }
     std::uint32_t addProcedural(Shader closestHit, Shader intersection) {
-        VkRayTracingShaderGroupCreateInfoKHR group = emptyGroup(VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR);
+        VkRayTracingShaderGroupCreateInfoKHR group =
+            emptyGroup(VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR);
         group.closestHitShader = addStage(VK_SHADER_STAGE_CLOSEST_HIT_BIT_KHR, closestHit);
         group.intersectionShader = addStage(VK_SHADER_STAGE_INTERSECTION_BIT_KHR, intersection);
         return add(group);
@@ -91,10 +93,10 @@ ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shad
     return groups;
 }
 
-}  // namespace
+} // namespace
 
-RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const RenderBindings& bindings,
-                       const PipelineDecisions& decisions, Shader rayGeneration)
+RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
+                       const RenderBindings& bindings, const PipelineDecisions& decisions, Shader rayGeneration)
     : bindings_(bindings) {
     constexpr std::uint32_t kConstants = sizeof(PipelineDecisions) / sizeof(std::uint32_t);
     std::array<VkSpecializationMapEntry, kConstants> entries;
@@ -118,10 +120,11 @@ RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCac
     table_ = std::make_unique<ShaderTable>(context, pipeline, groups);
 }
 
-void RtPipeline::record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes, std::uint32_t invocations) const {
+void RtPipeline::record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,
+                        std::uint32_t invocations) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR, pipeline_.get());
     bindings_.bind(commands, launch, bytes);
     table_->trace(commands, invocations);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

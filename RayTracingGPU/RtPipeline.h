@@ -29,4 +29,4 @@ class RtPipeline final : public Kernel {
     std::unique_ptr<ShaderTable> table_;
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

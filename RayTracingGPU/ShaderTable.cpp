@@ -12,7 +12,7 @@ VkDeviceSize roundUp(VkDeviceSize value, VkDeviceSize alignment) {
     return (value + alignment - 1) / alignment * alignment;
 }
 
-}  // namespace
+} // namespace
 
 ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, const ShaderGroups& groups)
     : cmdTraceRays_(context.rayTracing().cmdTraceRays) {
@@ -53,4 +53,4 @@ void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t invocations) con
     cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &callable, invocations, 1, 1);
 }
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

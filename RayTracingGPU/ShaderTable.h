@@ -31,4 +31,4 @@ class ShaderTable {
     VkStridedDeviceAddressRegionKHR hit_{};
 };
 
-}  // namespace rt::gpu
+} // namespace rt::gpu

@@ -338,7 +338,8 @@ RT_FN uint familyOf(uint which) {
     if (which <= kProbeOffset) return kFamilyNumbers;
     if (which <= kProbeDielectric) return kFamilySurfaces;
     if (which <= kProbeContribution || which == kProbeCluster) return kFamilyLights;
-    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected) return kFamilyProjected + which - kProbeSphereProjected;
+    if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected)
+        return kFamilyProjected + which - kProbeSphereProjected;
     return kFamilyScene;
 }
 

@@ -11,18 +11,18 @@
 #define RT_VECTOR_ARRAY(Name, Type) using Name = std::uint64_t;
 #define RT_MUTABLE_ARRAY(Name, Type) using Name = std::uint64_t;
 #else
-#define RT_ARRAY(Name, Type)                                                    \
+#define RT_ARRAY(Name, Type)                                                            \
     layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Name { \
-        Type at[];                                                              \
+        Type at[];                                                                      \
     };
 // Of records made of vectors of four, each of which is one load.
-#define RT_VECTOR_ARRAY(Name, Type)                                              \
+#define RT_VECTOR_ARRAY(Name, Type)                                                      \
     layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Name { \
-        Type at[];                                                               \
+        Type at[];                                                                       \
     };
-#define RT_MUTABLE_ARRAY(Name, Type)                                   \
+#define RT_MUTABLE_ARRAY(Name, Type)                                           \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Name { \
-        Type at[];                                                     \
+        Type at[];                                                             \
     };
 #endif
 
@@ -129,13 +129,13 @@ struct FilmLaunch {
     MutableVectorArray open;      // sums of open blocks; needed only where a block is or stays open
     MutableVectorArray blockSums; // one per item of work
     MutableWordArray counters;    // kCounters per line, see below
-    uint firstTile;  // of the image: the film's first
-    uint tilesX;     // of the image
+    uint firstTile;               // of the image: the film's first
+    uint tilesX;                  // of the image
     uint replicates;
     uint firstSlot;
     uint slotCount;
-    uint blocks;     // that the launch may take each slot further
-    uint spp;        // per pixel, all replicates, at which the launch stops
+    uint blocks; // that the launch may take each slot further
+    uint spp;    // per pixel, all replicates, at which the launch stops
     uint keepSquares;
 };
 
@@ -205,7 +205,7 @@ struct PreviewLaunch {
     MutableFourArray pixels; // radiance, and the distance along the pixel's ray, 0 where nothing is drawn
     vec4 clipX;
     vec4 clipY;
-    vec4 clipW; // 1 in the plane of focus, 0 at the camera
+    vec4 clipW;   // 1 in the plane of focus, 0 at the camera
     vec3 ambient; // radiance from all around
     float near;
     uint lightCount;

@@ -18,4 +18,4 @@ struct AccelStorage {
     LargeArray<TriangleBlock> flatTriangles;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

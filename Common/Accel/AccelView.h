@@ -7,7 +7,7 @@
 
 namespace rt::accel {
 
-inline constexpr std::uint32_t kWidth = 8;       // children of a node and lanes of a leaf block
+inline constexpr std::uint32_t kWidth = 8; // children of a node and lanes of a leaf block
 
 // Bounds of the depth of a tree, and so of the stack of a traversal.
 inline constexpr std::uint32_t kMaxTreeDepth = 64;
@@ -25,7 +25,7 @@ inline constexpr Reference kLeafBit = 1u << 31;
 inline constexpr std::uint32_t kKindShift = 28;
 inline constexpr std::uint32_t kCountShift = 25;
 inline constexpr std::uint32_t kMaxLeafBlocks = 8;
-inline constexpr std::uint32_t kMaxBlocks = 1u << kCountShift;  // of one kind
+inline constexpr std::uint32_t kMaxBlocks = 1u << kCountShift; // of one kind
 
 // ---- records --------------------------------------------------------------------------------------------------------
 
@@ -40,11 +40,11 @@ struct alignas(64) WideNode {
 struct alignas(32) SphereBlock {
     float center[3][kWidth];
     float radius[kWidth];
-    std::uint32_t primitive[kWidth];  // index into the scene's array, kNone for an empty lane
+    std::uint32_t primitive[kWidth]; // index into the scene's array, kNone for an empty lane
 };
 
 struct alignas(32) MovingSphereBlock {
-    float center[3][kWidth];  // at time 0
+    float center[3][kWidth]; // at time 0
     float motion[3][kWidth];
     float radius[kWidth];
     std::uint32_t primitive[kWidth];
@@ -61,12 +61,12 @@ struct alignas(32) QuadBlock {
 };
 
 struct alignas(32) TriangleBlock {
-    float vertex[3][3][kWidth];  // vertex, axis
+    float vertex[3][3][kWidth]; // vertex, axis
     std::uint32_t primitive[kWidth];
 };
 
 struct PlacedGeometry {
-    shared::vec4 toObject[3];  // rows, as in shared::Instance
+    shared::vec4 toObject[3]; // rows, as in shared::Instance
     Reference root;
     std::uint32_t instance;
 };
@@ -76,7 +76,7 @@ struct PlacedGeometry {
 template <class Block>
 struct FlatList {
     const Block* blocks = nullptr;
-    std::uint32_t count = 0;  // of blocks; the last may have empty lanes
+    std::uint32_t count = 0; // of blocks; the last may have empty lanes
 };
 
 inline constexpr std::uint32_t kFlatKindShift = 30;
@@ -88,16 +88,16 @@ constexpr std::uint32_t flatName(std::uint32_t kind, std::uint32_t primitive) {
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
 struct AccelView {
-    std::uint32_t kinds = 0;  // feature bits of the primitives that exist
-    bool flat = false;        // the lists below hold everything; otherwise the tree does
-    bool isLarge = false;     // does not fit into a core's own cache: worth fetching ahead
+    std::uint32_t kinds = 0; // feature bits of the primitives that exist
+    bool flat = false;       // the lists below hold everything; otherwise the tree does
+    bool isLarge = false;    // does not fit into a core's own cache: worth fetching ahead
 
     FlatList<SphereBlock> flatSpheres;
     FlatList<MovingSphereBlock> flatMovingSpheres;
     FlatList<QuadBlock> flatQuads;
     FlatList<TriangleBlock> flatTriangles;
 
-    Reference root = 0;  // of the world: its own primitives and the instances
+    Reference root = 0; // of the world: its own primitives and the instances
     const WideNode* nodes = nullptr;
     const SphereBlock* spheres = nullptr;
     const MovingSphereBlock* movingSpheres = nullptr;
@@ -106,4 +106,4 @@ struct AccelView {
     const PlacedGeometry* instances = nullptr;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

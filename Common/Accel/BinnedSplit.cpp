@@ -49,7 +49,7 @@ Split BinSums::best(std::uint32_t blockSize) const {
     Split best;
     best.cost = std::numeric_limits<float>::infinity();
     for (int a = 0; a < 3; ++a) {
-        float rightCost[kMaxBins];  // of all items in bins i and up
+        float rightCost[kMaxBins]; // of all items in bins i and up
         std::uint32_t items = 0;
         Bounds right = Bounds::empty();
         for (std::uint32_t i = count_ - 1; i > 0; --i) {
@@ -87,4 +87,4 @@ Bounds BinSums::bounds(int axis, std::int32_t begin, std::int32_t end) const {
     return result;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

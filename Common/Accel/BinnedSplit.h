@@ -41,10 +41,10 @@ class Binning {
 };
 
 struct Split {
-    float cost = 0;          // sum over both sides of half area times blocks
-    int axis = -1;           // -1: no plane has items on both sides
-    std::int32_t bin = 0;    // items in lower bins go to the left
-    std::uint32_t left = 0;  // items on the left
+    float cost = 0;         // sum over both sides of half area times blocks
+    int axis = -1;          // -1: no plane has items on both sides
+    std::int32_t bin = 0;   // items in lower bins go to the left
+    std::uint32_t left = 0; // items on the left
 };
 
 // What the bins of a range hold.
@@ -63,4 +63,4 @@ class BinSums {
     std::array<std::array<std::uint32_t, kMaxBins>, 3> items_;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -59,4 +59,4 @@ void fillLane(TriangleBlock& block, std::uint32_t lane, const AccelInput& input,
     block.primitive[lane] = index;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

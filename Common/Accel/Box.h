@@ -7,7 +7,7 @@
 namespace rt::accel {
 
 struct Box {
-    shared::vec3 lower{std::numeric_limits<float>::infinity()};  // empty until something is added
+    shared::vec3 lower{std::numeric_limits<float>::infinity()}; // empty until something is added
     shared::vec3 upper{-std::numeric_limits<float>::infinity()};
 
     void add(shared::vec3 point) {
@@ -26,4 +26,4 @@ struct Box {
     }
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -20,9 +20,9 @@ struct Range {
     std::uint32_t end = 0;
     std::uint32_t node = 0;
     std::uint32_t depth = 0;
-    int buffer = 0;  // where its items are
+    int buffer = 0; // where its items are
     Bounds box = Bounds::empty();
-    Bounds centers = Bounds::empty();  // of ItemBox::center()
+    Bounds centers = Bounds::empty(); // of ItemBox::center()
 
     std::uint32_t size() const { return end - begin; }
 };
@@ -68,7 +68,7 @@ class Builder {
     std::atomic<std::uint64_t>* itemsDone_;
     const bool grouped_;
     const std::uint32_t firstGroup_;
-    std::vector<ItemBox> buffers_[2];  // a range lies in one of them and uses the same part of the other as scratch
+    std::vector<ItemBox> buffers_[2]; // a range lies in one of them and uses the same part of the other as scratch
     std::vector<std::uint32_t> items_;
 };
 
@@ -252,7 +252,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
         partition(range, division.value_or(Division{Division::By::Count, {}, 0}), binning, left, right);
     } else {
         const Split& split = division->split;
-        std::vector<std::array<std::uint32_t, 2>> starts(chunks.count);  // where a chunk's items go on either side
+        std::vector<std::array<std::uint32_t, 2>> starts(chunks.count); // where a chunk's items go on either side
         std::uint32_t lefts = 0;
         for (std::size_t chunk = 0; chunk < chunks.count; ++chunk) {
             const std::uint32_t before = static_cast<std::uint32_t>(chunks.begin(chunk));
@@ -315,7 +315,7 @@ std::optional<Bvh> Builder::build() {
     });
     if (cancelled()) return std::nullopt;
 
-    std::vector<std::size_t> offsets(tasks.size());  // of a tree's second node; its root replaces the node of its task
+    std::vector<std::size_t> offsets(tasks.size()); // of a tree's second node; its root replaces the node of its task
     std::size_t total = bvh.nodes.size();
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         offsets[i] = total;
@@ -333,11 +333,11 @@ std::optional<Bvh> Builder::build() {
     return bvh;
 }
 
-}  // namespace
+} // namespace
 
 std::optional<Bvh> buildBvh(const BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                             std::atomic<std::uint64_t>* itemsDone) {
     return Builder(input, settings, cancel, itemsDone).build();
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

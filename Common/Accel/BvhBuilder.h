@@ -11,20 +11,20 @@
 namespace rt::accel {
 
 struct BvhSettings {
-    std::uint32_t bins = 16;  // most planes tried along an axis; 2 to 32
+    std::uint32_t bins = 16; // most planes tried along an axis; 2 to 32
     std::uint32_t blockSize =
-        8;  // items that a traversal tests together: a leaf of n items costs ceil(n / blockSize) blocks
-    std::uint32_t maxLeafSize = 64;          // items, at least blockSize
-    std::uint32_t singleGroup = 0xffffffff;  // items of this group are alone in their leaf
-    float nodeCost = 0.5f;                   // of visiting a binary node, in units of a block's test
-    std::uint32_t maxDepth = 60;  // of the tree; beyond half of it ranges are halved by count. At least 2 log2(items)
-    std::size_t threads = 0;      // 0: as many as the machine has
+        8; // items that a traversal tests together: a leaf of n items costs ceil(n / blockSize) blocks
+    std::uint32_t maxLeafSize = 64;         // items, at least blockSize
+    std::uint32_t singleGroup = 0xffffffff; // items of this group are alone in their leaf
+    float nodeCost = 0.5f;                  // of visiting a binary node, in units of a block's test
+    std::uint32_t maxDepth = 60; // of the tree; beyond half of it ranges are halved by count. At least 2 log2(items)
+    std::size_t threads = 0;     // 0: as many as the machine has
 };
 
 // A box of each item. Items of different groups never share a leaf; `groups` has one element for each box, or one for
 // all alike, or none (group 0).
 struct BvhInput {
-    std::span<const Box> boxes;  // finite, lower <= upper
+    std::span<const Box> boxes; // finite, lower <= upper
     std::span<const std::uint8_t> groups;
 };
 
@@ -32,4 +32,4 @@ struct BvhInput {
 std::optional<Bvh> buildBvh(const BvhInput& input, const BvhSettings& settings,
                             const std::atomic<bool>* cancel = nullptr, std::atomic<std::uint64_t>* itemsDone = nullptr);
 
-}  // namespace rt::accel
+} // namespace rt::accel

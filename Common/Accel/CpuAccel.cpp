@@ -14,8 +14,8 @@
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kLeafChunk = 1u << 10;   // leaves whose blocks are filled at a time
-constexpr std::size_t kLargeBytes = 1u << 20;  // of a tree that traversal fetches ahead
+constexpr std::size_t kLeafChunk = 1u << 10;  // leaves whose blocks are filled at a time
+constexpr std::size_t kLargeBytes = 1u << 20; // of a tree that traversal fetches ahead
 
 // One geometry's tree between its construction and the filling of its leaf blocks.
 struct BuiltTree {
@@ -51,9 +51,9 @@ class Assembly {
              std::atomic<std::uint64_t>* primitivesDone)
         : input_(input), settings_(settings), cancel_(cancel), primitivesDone_(primitivesDone) {}
 
-    bool buildTrees();  // false: cancelled
+    bool buildTrees(); // false: cancelled
     void fill(AccelStorage& storage);
-    bool hasWorld() const { return hasWorld_; }  // instances may all be of empty geometries
+    bool hasWorld() const { return hasWorld_; } // instances may all be of empty geometries
     Reference root() const { return roots_[0]; }
 
   private:
@@ -65,7 +65,7 @@ class Assembly {
     std::atomic<std::uint64_t>* primitivesDone_;
     WideBvh wide_;
     std::vector<BuiltTree> trees_;
-    std::vector<Reference> roots_;  // of each geometry
+    std::vector<Reference> roots_; // of each geometry
     bool hasWorld_ = false;
 };
 
@@ -136,7 +136,7 @@ std::uint32_t featuresOf(const AccelInput& input) {
     return features;
 }
 
-}  // namespace
+} // namespace
 
 CpuAccel::CpuAccel() : storage_(std::make_unique<AccelStorage>()) {}
 CpuAccel::~CpuAccel() = default;
@@ -188,4 +188,4 @@ std::size_t CpuAccel::bytes() const {
            s.flatQuads.bytes() + s.flatTriangles.bytes();
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

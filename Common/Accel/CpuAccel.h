@@ -14,11 +14,11 @@ namespace rt::accel {
 // The geometry of a flat scene, as in scene::CompiledScene; read during the build only.
 struct AccelInput {
     std::span<const shared::Sphere> spheres;
-    std::span<const shared::vec3> motions;  // displacement of each sphere over the shutter; empty: nothing moves
+    std::span<const shared::vec3> motions; // displacement of each sphere over the shutter; empty: nothing moves
     std::span<const shared::Quad> quads;
     std::span<const shared::vec3> positions;
     std::span<const shared::uvec3> triangles;
-    std::span<const shared::Geometry> geometries;  // [0] is the world's own
+    std::span<const shared::Geometry> geometries; // [0] is the world's own
     std::span<const shared::Instance> instances;
 };
 
@@ -40,8 +40,8 @@ class CpuAccel {
                                            std::atomic<std::uint64_t>* primitivesDone = nullptr);
     ~CpuAccel();
 
-    const AccelView& view() const { return view_; }  // points into this object
-    std::size_t bytes() const;                       // of memory held
+    const AccelView& view() const { return view_; } // points into this object
+    std::size_t bytes() const;                      // of memory held
 
   private:
     CpuAccel();
@@ -50,4 +50,4 @@ class CpuAccel {
     AccelView view_;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -85,7 +85,7 @@ struct Float4 {
 
 // A box in two registers; the fourth lanes mean nothing and take part in nothing that is read.
 struct Bounds {
-    Float4 lower, upper;  // uninitialised
+    Float4 lower, upper; // uninitialised
 
     static Bounds empty() {
         return {Float4(std::numeric_limits<float>::infinity()), Float4(-std::numeric_limits<float>::infinity())};
@@ -115,4 +115,4 @@ struct Bounds {
     }
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -159,7 +159,8 @@ std::uint32_t Flattener::addNodes(const SceneTree& tree) {
 // A traversal remembers one child of every node on its way down, and where it came from when it enters an instance.
 std::uint32_t Flattener::depthOf(const SceneTree& tree) const {
     const std::vector<BvhNode>& nodes = tree.bvh.nodes;
-    std::vector<std::uint32_t> above(nodes.size(), 0); // inner nodes above each; a child's index is greater than its parent's
+    std::vector<std::uint32_t> above(nodes.size(),
+                                     0); // inner nodes above each; a child's index is greater than its parent's
     std::uint32_t deepest = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].isLeaf()) {
@@ -189,7 +190,7 @@ GpuTrees Flattener::finish() {
     return std::move(trees_);
 }
 
-}  // namespace
+} // namespace
 
 GpuBvhSettings::GpuBvhSettings() : flatPrimitives(48) {
     tree.blockSize = 1;
@@ -197,7 +198,8 @@ GpuBvhSettings::GpuBvhSettings() : flatPrimitives(48) {
     tree.nodeCost = 1.0f;
 }
 
-std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings, const std::atomic<bool>* cancel) {
+std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings,
+                                  const std::atomic<bool>* cancel) {
     GpuBvh bvh;
     const shared::Geometry& world = input.geometries[0];
     const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
@@ -221,4 +223,4 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
     return bvh;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -14,14 +14,14 @@ namespace rt::accel {
 // The trees of all geometries, appended to the same arrays.
 struct GpuTrees {
     std::vector<shared::TreeNode> nodes;
-    std::vector<shared::vec4> spheres;              // center, radius
-    std::vector<shared::vec4> sphereMotions;        // of each of them; empty: nothing moves
-    std::vector<std::uint32_t> sphereIndices;       // of each of them in the scene
+    std::vector<shared::vec4> spheres;        // center, radius
+    std::vector<shared::vec4> sphereMotions;  // of each of them; empty: nothing moves
+    std::vector<std::uint32_t> sphereIndices; // of each of them in the scene
     std::vector<shared::TreeQuad> quads;
     std::vector<shared::TreeTriangle> triangles;
-    std::vector<std::uint32_t> instanceRoots;       // of each instance's geometry; meaningless for an empty one
-    std::uint32_t root = 0;                         // the world's
-    std::uint32_t depth = 0;                        // most references that a traversal has to remember
+    std::vector<std::uint32_t> instanceRoots; // of each instance's geometry; meaningless for an empty one
+    std::uint32_t root = 0;                   // the world's
+    std::uint32_t depth = 0;                  // most references that a traversal has to remember
 };
 
 // The primitives of a scene without instances, not sorted at all.
@@ -48,4 +48,4 @@ struct GpuBvhSettings {
 std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings = {},
                                   const std::atomic<bool>* cancel = nullptr);
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -22,14 +22,14 @@ std::align_val_t alignment(std::size_t bytes) {
     return std::align_val_t{isLarge(bytes) ? kLargePage : kAlignment};
 }
 
-}  // namespace
+} // namespace
 
 void* allocateLarge(std::size_t bytes) {
     if (!isLarge(bytes)) return ::operator new(bytes, alignment(bytes));
     const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
     void* memory = ::operator new(whole, alignment(bytes));
 #if defined(__linux__)
-    madvise(memory, whole, MADV_HUGEPAGE);  // a wish: failure changes nothing
+    madvise(memory, whole, MADV_HUGEPAGE); // a wish: failure changes nothing
 #endif
     return memory;
 }
@@ -38,4 +38,4 @@ void freeLarge(void* memory, std::size_t bytes) noexcept {
     ::operator delete(memory, alignment(bytes));
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -35,4 +35,4 @@ class LargeArray {
     std::size_t size_ = 0;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -19,5 +19,5 @@ RT_FN unsigned lowestBit(unsigned bits) {
 #endif
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

@@ -60,4 +60,4 @@ struct Chunks {
     std::size_t items_;
 };
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -18,5 +18,5 @@ RT_FN void prefetch([[maybe_unused]] const void* at) {
 #endif
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

@@ -18,7 +18,7 @@ Box grown(Box box, float roundings) {
     return box;
 }
 
-}  // namespace
+} // namespace
 
 Box boxOf(const shared::Sphere& sphere) {
     return boxOf(sphere, vec3(0.0f));
@@ -39,7 +39,7 @@ Box boxOf(const shared::Quad& quad) {
     box.add(quad.corner + quad.edgeU);
     box.add(quad.corner + quad.edgeV);
     box.add(quad.corner + quad.edgeU + quad.edgeV);
-    return grown(box, 32.0f);  // the test of a quad is generous at its edges: shared::kQuadError
+    return grown(box, 32.0f); // the test of a quad is generous at its edges: shared::kQuadError
 }
 
 Box boxOf(vec3 vertex0, vec3 vertex1, vec3 vertex2) {
@@ -47,7 +47,7 @@ Box boxOf(vec3 vertex0, vec3 vertex1, vec3 vertex2) {
     box.add(vertex0);
     box.add(vertex1);
     box.add(vertex2);
-    const vec3 margin{4.0f * shared::kEpsilon * largest(box.size())};  // vertices themselves are exact
+    const vec3 margin{4.0f * shared::kEpsilon * largest(box.size())}; // vertices themselves are exact
     box.lower -= margin;
     box.upper += margin;
     return box;
@@ -55,7 +55,7 @@ Box boxOf(vec3 vertex0, vec3 vertex1, vec3 vertex2) {
 
 Box boxOf(const shared::Instance& instance, const Box& object) {
     Box box;
-    float reach = 0.0f;  // bounds the terms that the ray's transformation sums
+    float reach = 0.0f; // bounds the terms that the ray's transformation sums
     for (int row = 0; row < 3; ++row) {
         const shared::vec4 m = instance.toWorld[row];
         double lower = m.w, upper = m.w, terms = shared::abs(m.w);
@@ -76,4 +76,4 @@ Box boxOf(const shared::Instance& instance, const Box& object) {
     return box;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

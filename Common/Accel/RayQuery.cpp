@@ -24,7 +24,7 @@ const RayQuery* rayQuery(InstructionSet set) {
 
 const RayQuery& rayQuery() {
     const RayQuery* best = rayQuery(bestInstructionSet());
-    return best != nullptr ? *best : kRayQuery_x86_64_v2;  // the least that this project runs on
+    return best != nullptr ? *best : kRayQuery_x86_64_v2; // the least that this project runs on
 }
 
 #else
@@ -41,4 +41,4 @@ const RayQuery& rayQuery() {
 
 #endif
 
-}  // namespace rt::accel
+} // namespace rt::accel

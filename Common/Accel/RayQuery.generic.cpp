@@ -5,4 +5,4 @@ namespace rt::accel {
 extern const RayQuery kRayQuery_generic;
 const RayQuery kRayQuery_generic{tracer, closest, any};
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -36,4 +36,4 @@ const RayQuery* rayQuery(InstructionSet set);
 // The fastest one that the processor runs.
 const RayQuery& rayQuery();
 
-}  // namespace rt::accel
+} // namespace rt::accel

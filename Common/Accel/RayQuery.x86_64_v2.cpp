@@ -5,4 +5,4 @@ namespace rt::accel {
 extern const RayQuery kRayQuery_x86_64_v2;
 const RayQuery kRayQuery_x86_64_v2{tracer, closest, any};
 
-}  // namespace rt::accel
+} // namespace rt::accel

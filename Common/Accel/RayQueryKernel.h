@@ -45,5 +45,5 @@ void any(const AccelView& view, const shared::Ray* rays, const float* tMax, std:
     for (std::size_t i = 0; i < count; ++i) hits[i] = trace.occluded(view, rays[i], tMax[i]) ? 1 : 0;
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

@@ -8,19 +8,19 @@
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kBoxChunk = 1u << 13;  // items whose boxes are made at a time
+constexpr std::size_t kBoxChunk = 1u << 13; // items whose boxes are made at a time
 
 bool isEmpty(const Box& box) {
     return !(box.lower.x <= box.upper.x);
 }
 
-}  // namespace
+} // namespace
 
 bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                      std::atomic<std::uint64_t>* primitivesDone, const std::function<void(SceneTree)>& add) {
     BvhSettings treeSettings = settings;
     treeSettings.singleGroup = static_cast<std::uint32_t>(LeafKind::Instance);
-    std::vector<Box> geometryBoxes(input.geometries.size());  // empty for one that is not used or has nothing in it
+    std::vector<Box> geometryBoxes(input.geometries.size()); // empty for one that is not used or has nothing in it
     const auto buildTree = [&](std::uint32_t geometry, std::vector<std::uint32_t> instances) {
         SceneTree tree{geometry, TreeItems(input, input.geometries[geometry], std::move(instances)), {}, {}};
         if (tree.items.size() == 0) return true;
@@ -54,4 +54,4 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
     return buildTree(0, std::move(placed));
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

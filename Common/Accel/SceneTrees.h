@@ -24,4 +24,4 @@ struct SceneTree {
 bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                      std::atomic<std::uint64_t>* primitivesDone, const std::function<void(SceneTree)>& add);
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -96,8 +96,7 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const SphereBlock& block) {
 }
 
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const MovingSphereBlock& block) {
-    const Vector center =
-        multiplyAdd(load3(block.motion), broadcast(ray.time), load3(block.center));
+    const Vector center = multiplyAdd(load3(block.motion), broadcast(ray.time), load3(block.center));
     return intersectSpheres(ray, center, load(block.radius));
 }
 

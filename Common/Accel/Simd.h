@@ -30,4 +30,3 @@
 #else
 #include "Common/Accel/SimdGeneric.h"
 #endif
-

@@ -1,7 +1,7 @@
 // Simd.h over AVX-512 (F, VL, DQ): masks in mask registers.
 #pragma once
 #if defined(__GNUC__) && \
-    !defined(__clang__)  // g++ 12 takes the register that its own intrinsics leave undefined for an error
+    !defined(__clang__) // g++ 12 takes the register that its own intrinsics leave undefined for an error
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
@@ -120,6 +120,5 @@ RT_FN float least(Float8 a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
 }
 
-
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

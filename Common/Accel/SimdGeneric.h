@@ -144,5 +144,5 @@ RT_FN float least(Float8 a) {
 
 #undef RT_EACH_LANE
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

@@ -124,5 +124,5 @@ RT_FN float least(Float8 a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

@@ -22,7 +22,7 @@ constexpr float kLargest = 3.402823466e+38f;
 // ---- nearest of the lanes that were hit -----------------------------------------------------------------------------
 
 RT_FN bool comesBefore(shared::uint instance, shared::uint kind, shared::uint primitive, const shared::Hit& hit) {
-    if (instance != hit.instance) return instance + 1 < hit.instance + 1;  // kNone, the world, is the first
+    if (instance != hit.instance) return instance + 1 < hit.instance + 1; // kNone, the world, is the first
     return kind != hit.kind ? kind < hit.kind : primitive < hit.primitive;
 }
 
@@ -92,7 +92,7 @@ RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const 
     hit.u = firstOf(nearest, best.u);
     hit.v = firstOf(nearest, best.v);
     const unsigned lanes = bits(nearest);
-    for (unsigned others = lanes & (lanes - 1); others != 0; others &= others - 1) {  // a tie
+    for (unsigned others = lanes & (lanes - 1); others != 0; others &= others - 1) { // a tie
         const unsigned i = lowestBit(others);
         const std::uint32_t other = lane(best.name, i);
         if (other > name) continue;
@@ -123,7 +123,7 @@ struct BoxRay {
     float origin[3];
     float inverseNear[3];
     float inverseFar[3];
-    unsigned nearPlane[3];  // index into WideNode::planes; the far one differs in the last bit
+    unsigned nearPlane[3]; // index into WideNode::planes; the far one differs in the last bit
 };
 
 const float kSlabError = 8.0f * shared::kEpsilon;
@@ -131,7 +131,7 @@ const float kSlabError = 8.0f * shared::kEpsilon;
 RT_FN BoxRay makeBoxRay(const shared::Ray& ray) {
     BoxRay r;
     for (unsigned a = 0; a < 3; ++a) {
-        const float inverse = 1.0f / ray.direction[static_cast<int>(a)];  // infinite along a slab
+        const float inverse = 1.0f / ray.direction[static_cast<int>(a)]; // infinite along a slab
         r.origin[a] = ray.origin[static_cast<int>(a)];
         r.inverseNear[a] = inverse * (1.0f - kSlabError);
         r.inverseFar[a] = inverse * (1.0f + kSlabError);
@@ -157,7 +157,7 @@ RT_FN unsigned enterChildren(const WideNode& node, const BoxRay& ray, float tMax
 }
 
 struct StackEntry {
-    float t;  // where the ray enters
+    float t; // where the ray enters
     Reference reference;
 };
 
@@ -378,5 +378,5 @@ RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::
                         : occludedTree<true, false>(features, view, view.root, ray, tMax);
 }
 
-}  // namespace
-}  // namespace rt::accel
+} // namespace
+} // namespace rt::accel

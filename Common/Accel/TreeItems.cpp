@@ -55,4 +55,4 @@ std::vector<std::uint8_t> TreeItems::kinds() const {
     return result;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

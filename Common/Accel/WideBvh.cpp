@@ -161,7 +161,7 @@ class LeafMaker {
     WideLeaves& leaves_;
 };
 
-}  // namespace
+} // namespace
 
 Reference WideBvh::append(const Bvh& bvh, std::span<const std::uint8_t> kinds, WideLeaves& leaves) {
     LeafMaker leafMaker(bvh, kinds, blocks, leaves);
@@ -201,4 +201,4 @@ Reference WideBvh::append(const Bvh& bvh, std::span<const std::uint8_t> kinds, W
     return root;
 }
 
-}  // namespace rt::accel
+} // namespace rt::accel

@@ -21,8 +21,8 @@ struct Budget {
 };
 
 struct RenderStatus {
-    bool finished = false;          // every pixel has all its samples
-    std::uint64_t samplesDone = 0;  // over all pixels
+    bool finished = false;         // every pixel has all its samples
+    std::uint64_t samplesDone = 0; // over all pixels
     std::uint64_t samplesTotal = 0;
 };
 
@@ -33,10 +33,10 @@ struct RayCounts {
 };
 
 struct EngineReport {
-    std::string engine;  // "multi", "single", "pipeline", "compute"
-    std::string device;  // processor or Vulkan device
-    std::string kernel;  // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
-    std::uint32_t threads = 0; // CPU only
+    std::string engine;         // "multi", "single", "pipeline", "compute"
+    std::string device;         // processor or Vulkan device
+    std::string kernel;         // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
+    std::uint32_t threads = 0;  // CPU only
     std::uint32_t features = 0; // in force, after any forced superset
     double accelBuildSeconds = 0;
     double pipelineSeconds = 0;
@@ -44,7 +44,7 @@ struct EngineReport {
     RayCounts rays;
     std::uint64_t nonfiniteSamples = 0;
     std::uint64_t deviceBytes = 0; // acceleration structure, scene and film held by the engine
-    std::string lightSampling; // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+    std::string lightSampling;     // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
 };
 
 // First-hit features averaged over some samples of each pixel; empty unless asked for.
@@ -103,4 +103,4 @@ struct Engine {
     virtual EngineReport report() const = 0;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -19,8 +19,8 @@ constexpr double kEarlyInterval = 0.04;
 constexpr double kLateInterval = 0.15;
 constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
 constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while it is being rendered
-constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
-constexpr double kRestSeconds = 0.3;     // after which a camera rests
+constexpr double kFeatureSeconds = 0.15;   // that a view of albedo, depth, cost may take
+constexpr double kRestSeconds = 0.3;       // after which a camera rests
 
 // Quiet, and independent of what it will be compared with.
 RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
@@ -161,8 +161,7 @@ bool InteractiveSession::isFrameDue() const {
     if (!request_.accumulate) return seconds > kLongFrameSeconds;
     if (sinceStart_.seconds() < kEarlySeconds) return seconds > kEarlyInterval;
     if (request_.samplesPerFrame == 0) return seconds > kLateInterval;
-    const std::uint64_t frame =
-        std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
+    const std::uint64_t frame = std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
     return status_.samplesDone - publishedSamples_ >= frame || seconds > kLongFrameSeconds;
 }
 

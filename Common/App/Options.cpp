@@ -21,11 +21,27 @@ constexpr std::uint32_t kDefaultWidth = 600;
 constexpr double kMaxAspect = image::kMaxImageSide;
 
 // Flags that a window keeps in its settings.
-constexpr const char* kStoredFlags[] = {
-    "--scene",       "--width",      "--height",         "--aspect",         "--spp",     "--max-depth",
-    "--seed",        "--replicates", "--light-sampling", "--light-selection", "--sampler", "--sphere-light",
-    "--quad-light",  "--triangle-light", "--one-sided-lights", "--russian-roulette", "--exposure", "--tonemap",
-    "--threads",     "--policy",         "--engine"};
+constexpr const char* kStoredFlags[] = {"--scene",
+                                        "--width",
+                                        "--height",
+                                        "--aspect",
+                                        "--spp",
+                                        "--max-depth",
+                                        "--seed",
+                                        "--replicates",
+                                        "--light-sampling",
+                                        "--light-selection",
+                                        "--sampler",
+                                        "--sphere-light",
+                                        "--quad-light",
+                                        "--triangle-light",
+                                        "--one-sided-lights",
+                                        "--russian-roulette",
+                                        "--exposure",
+                                        "--tonemap",
+                                        "--threads",
+                                        "--policy",
+                                        "--engine"};
 
 // What the flags say before it is made consistent.
 struct Parsed {
@@ -166,9 +182,10 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
 void addProgram(FlagSet& flags, Parsed& parsed) {
     flags.group("Program");
     flags.addSwitch("--headless", parsed.headless, "no window; implied by --output, --stats and --time-limit");
-    flags.addSwitch("--window", parsed.window,
-                    "a window, which is the default, even with --output, --stats, --time-limit: files are written when the "
-                    "first render ends or the window closes, images again by F12");
+    flags.addSwitch(
+        "--window", parsed.window,
+        "a window, which is the default, even with --output, --stats, --time-limit: files are written when the "
+        "first render ends or the window closes, images again by F12");
     flags.addSwitch("--quiet,-q", parsed.options.quiet, "no progress");
     flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
     flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");

@@ -18,4 +18,4 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
 // How each shape of light that exists is sampled, regimes of `auto` named: "sphere: cone, quad: auto (area, columns, ...)".
 std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features);
 
-}  // namespace rt::app
+} // namespace rt::app

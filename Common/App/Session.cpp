@@ -86,7 +86,8 @@ void HeadlessRender::load() {
     for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
     settleImageSize(options_, scene_->defaults.aspect);
     checkFeatures(options_.settings, *scene_);
-    if (!options_.reference.empty()) reference_ = readReference(options_.reference, options_.settings.width, options_.settings.height);
+    if (!options_.reference.empty())
+        reference_ = readReference(options_.reference, options_.settings.width, options_.settings.height);
     statistics_.seconds.load = watch.seconds();
 }
 
@@ -139,9 +140,7 @@ void HeadlessRender::write() {
     statistics_.seconds.write = watch.seconds();
     statistics_.outputs = outputs.written;
     if (!options_.stats.empty())
-        attempt([&] {
-            writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film));
-        });
+        attempt([&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });
     if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
         logWarning(std::to_string(bad) + " samples were not finite and count as black");
     if (outputs.failures.empty()) return;

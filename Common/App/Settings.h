@@ -31,10 +31,10 @@ enum class SamplerKind : std::uint32_t {
 };
 
 struct RenderSettings {
-    std::uint32_t width = 600;  // pixels
+    std::uint32_t width = 600; // pixels
     std::uint32_t height = 600;
-    std::uint32_t spp = 100;    // 1 to 2^31 - 1
-    bool sppIsKnown = true;     // false: a time or error limit may end the render earlier (strata come in rounds of 256)
+    std::uint32_t spp = 100; // 1 to 2^31 - 1
+    bool sppIsKnown = true;  // false: a time or error limit may end the render earlier (strata come in rounds of 256)
     std::uint32_t maxDepth = 50; // path vertices after the camera, 1 to 4096
     LightSampling lightSampling = LightSampling::Mis;
     LightSelection lightSelection = LightSelection::Contribution;
@@ -45,10 +45,10 @@ struct RenderSettings {
     bool russianRoulette = true;
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
-    bool secondMoments = false; // keep what error estimates need
+    bool secondMoments = false;            // keep what error estimates need
     std::optional<std::uint32_t> features; // forced feature mask, a superset of the scene's
 
     bool operator==(const RenderSettings&) const = default;
 };
 
-}  // namespace rt::app
+} // namespace rt::app

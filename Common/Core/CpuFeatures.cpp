@@ -62,8 +62,8 @@ InstructionSet detect() {
     const bool saved = all(basic.ecx, {27});                                     // OSXSAVE
     const std::uint64_t states = saved ? enabledStates() : 0;
     const CpuidRegisters extended = cpuid(7);
-    const bool v3 = (states & 0x6) == 0x6 && all(basic.ecx, {12, 22, 28, 29})    // FMA MOVBE AVX F16C
-                    && all(extended.ebx, {3, 5, 8});                             // BMI1 AVX2 BMI2
+    const bool v3 = (states & 0x6) == 0x6 && all(basic.ecx, {12, 22, 28, 29}) // FMA MOVBE AVX F16C
+                    && all(extended.ebx, {3, 5, 8});                          // BMI1 AVX2 BMI2
     if (!v3) return InstructionSet::X86_64_v2;
     const bool v4 = (states & 0xe6) == 0xe6 && all(extended.ebx, {16, 17, 28, 30, 31}); // AVX512 F DQ CD BW VL
     return v4 ? InstructionSet::X86_64_v4 : InstructionSet::X86_64_v3;
@@ -96,7 +96,7 @@ std::string detectName() {
 
 #endif
 
-}  // namespace
+} // namespace
 
 InstructionSet bestInstructionSet() {
     static const InstructionSet best = detect();
@@ -105,10 +105,14 @@ InstructionSet bestInstructionSet() {
 
 const char* name(InstructionSet set) {
     switch (set) {
-        case InstructionSet::X86_64_v2: return "x86-64-v2";
-        case InstructionSet::X86_64_v3: return "x86-64-v3";
-        case InstructionSet::X86_64_v4: return "x86-64-v4";
-        case InstructionSet::Generic: break;
+        case InstructionSet::X86_64_v2:
+            return "x86-64-v2";
+        case InstructionSet::X86_64_v3:
+            return "x86-64-v3";
+        case InstructionSet::X86_64_v4:
+            return "x86-64-v4";
+        case InstructionSet::Generic:
+            break;
     }
     return "generic";
 }
@@ -118,4 +122,4 @@ const char* processorName() {
     return text.c_str();
 }
 
-}  // namespace rt
+} // namespace rt

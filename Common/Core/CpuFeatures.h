@@ -13,4 +13,4 @@ const char* name(InstructionSet set); // "x86-64-v3"
 // The processor's marketing name, or its architecture where that is unknown.
 const char* processorName();
 
-}  // namespace rt
+} // namespace rt

@@ -8,11 +8,11 @@ namespace rt {
 // Exit codes of every program of this project; others script against them.
 enum class ExitCode : int {
     Done = 0,
-    Failure = 1,     // render, device or output failure
-    Usage = 2,       // flags and their values
-    Input = 3,       // missing or invalid input: scene, asset, reference, checkpoint
-    NoDevice = 4,    // no suitable device
-    Different = 5,   // images differ more than asked
+    Failure = 1,   // render, device or output failure
+    Usage = 2,     // flags and their values
+    Input = 3,     // missing or invalid input: scene, asset, reference, checkpoint
+    NoDevice = 4,  // no suitable device
+    Different = 5, // images differ more than asked
     Interrupted = 130
 };
 
@@ -36,4 +36,4 @@ struct RenderError : Error {
     explicit RenderError(const std::string& message) : Error(ExitCode::Failure, message) {}
 };
 
-}  // namespace rt
+} // namespace rt

@@ -89,9 +89,10 @@ void drawEnginePanel(Gui& gui) {
     EngineChoice& engine = gui.settings.engine;
     if (!gui.isGpu) return drawProcessor(engine);
     if (gui.state.canPreview) {
-        checkbox("Enable ray tracing",
-                 "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
-                 gui.settings.rayTracing);
+        checkbox(
+            "Enable ray tracing",
+            "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
+            gui.settings.rayTracing);
     }
     drawKind(engine, gui.state, gui.devices);
     drawDevice(engine, gui.devices);

@@ -79,7 +79,8 @@ void drawRenderControl(Gui& gui) {
                                         ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
     std::string line = isPreview ? "preview: ray tracing is off" : activityText(state.activity);
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
-    if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview) line += ", " + left;
+    if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview)
+        line += ", " + left;
     ImGui::TextDisabled("%s", line.c_str());
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;

@@ -18,7 +18,9 @@ struct Image {
         : width(w), height(h), channels(c), data(std::size_t{w} * h * c) {}
 
     float* pixel(std::uint32_t x, std::uint32_t y) { return &data[(std::size_t{y} * width + x) * channels]; }
-    const float* pixel(std::uint32_t x, std::uint32_t y) const { return &data[(std::size_t{y} * width + x) * channels]; }
+    const float* pixel(std::uint32_t x, std::uint32_t y) const {
+        return &data[(std::size_t{y} * width + x) * channels];
+    }
 };
 
-}  // namespace rt::image
+} // namespace rt::image

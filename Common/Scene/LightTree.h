@@ -8,4 +8,4 @@ namespace rt::scene {
 // one. Lights without intensity are left out. Deterministic.
 void buildLightTree(CompiledScene& out);
 
-}  // namespace rt::scene
+} // namespace rt::scene

@@ -23,7 +23,7 @@ RT_FN LightCrossing crossSphereLight(RT_IN(Light) light, vec3 position, float ti
     float squared = light.radius * light.radius - dot(foot, foot);
     if (!(squared >= 0.0f)) return c;
     float halfChord = sqrt(squared);
-    float sign = along > halfChord ? -1.0f : 1.0f;  // from inside, the far side
+    float sign = along > halfChord ? -1.0f : 1.0f; // from inside, the far side
     float t = along + sign * halfChord;
     if (!(t > 0.0f)) return c;
     c.distance = t;

@@ -32,24 +32,24 @@ struct PathState {
     Ray ray;
     vec3 throughput;
     vec3 radiance;
-    float pdf;    // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;  // surfaces and collisions met so far
-    LightContext last;  // where ray starts, for the weights of multiple importance sampling
+    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;       // surfaces and collisions met so far
+    LightContext last; // where ray starts, for the weights of multiple importance sampling
 };
 
 // A place where light scatters: a surface point or a collision in a medium.
 struct Vertex {
-    uint index;     // position along the path, 0 is what the camera sees
-    uint inMedium;  // 1: isotropic scattering, the fields up to albedo are unused
-    uint front;     // 1: wo is on the front side
+    uint index;    // position along the path, 0 is what the camera sees
+    uint inMedium; // 1: isotropic scattering, the fields up to albedo are unused
+    uint front;    // 1: wo is on the front side
     Material material;
-    vec3 normal;   // geometric, facing wo; zero in a medium
-    vec3 shading;  // of the bsdf frame, facing wo; zero in a medium
+    vec3 normal;  // geometric, facing wo; zero in a medium
+    vec3 shading; // of the bsdf frame, facing wo; zero in a medium
     vec3 wo;
     vec3 albedo;
     vec3 position;
-    vec3 error;   // of position, per axis
-    vec3 origin;  // where rays on wo's side start
+    vec3 error;  // of position, per axis
+    vec3 origin; // where rays on wo's side start
     VertexNumbers numbers;
 };
 

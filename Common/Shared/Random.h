@@ -9,15 +9,15 @@ RT_SHARED_BEGIN
 
 // ---- dimensions -----------------------------------------------------------------------------------------------------
 // A dimension names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
-const uint kPairPixel = 0u;  // position in the pixel
-const uint kPairLens = 1u;   // position on the lens
-const uint kPairTime = 2u;   // x: time in the shutter interval
+const uint kPairPixel = 0u; // position in the pixel
+const uint kPairLens = 1u;  // position on the lens
+const uint kPairTime = 2u;  // x: time in the shutter interval
 const uint kPairsCamera = 4u;
-const uint kPairLight = 0u;   // choice of the light, stretched, and position on it
-const uint kPairBsdf = 1u;    // lobe or direction of the scattered ray
-const uint kPairChoice = 2u;  // x: survival of the roulette, y: technique of the mixture
-const uint kPairSelect = 3u;  // choice of the light where there are too many to stretch kPairLight
-const uint kPairMedium = 4u;  // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
+const uint kPairLight = 0u;  // choice of the light, stretched, and position on it
+const uint kPairBsdf = 1u;   // lobe or direction of the scattered ray
+const uint kPairChoice = 2u; // x: survival of the roulette, y: technique of the mixture
+const uint kPairSelect = 3u; // choice of the light where there are too many to stretch kPairLight
+const uint kPairMedium = 4u; // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
 const uint kPairsPerVertex = 8u;
 
 RT_FN uint vertexPair(uint vertex, uint pair) {
@@ -134,9 +134,9 @@ const uint kSobolKey = 0x50b01u; // keeps the scrambling apart from independent 
 // ---- the sampler ----------------------------------------------------------------------------------------------------
 
 struct Sampler {
-    uint kind;   // kSamplerIndependent, kSamplerStratified, kSamplerSobol
-    uint key;    // of the pixel, the seed and the replicate
-    uint index;  // of the sample in the pixel
+    uint kind;  // kSamplerIndependent, kSamplerStratified, kSamplerSobol
+    uint key;   // of the pixel, the seed and the replicate
+    uint index; // of the sample in the pixel
     uint strataX;
     uint strataY;
 };

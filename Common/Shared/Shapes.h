@@ -174,7 +174,8 @@ RT_FN TriangleRay makeTriangleRay(vec3 direction) {
 
 // Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along
 // an axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
-RT_FN ShapeHit intersectTriangle(vec3 origin, RT_IN(TriangleRay) ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
+RT_FN ShapeHit intersectTriangle(vec3 origin, RT_IN(TriangleRay) ray, vec3 vertex0, vec3 vertex1, vec3 vertex2,
+                                 float tMax) {
     ShapeHit hit = missedShape();
     vec3 a = axisLast(vertex0 - origin, ray.axis);
     vec3 b = axisLast(vertex1 - origin, ray.axis);

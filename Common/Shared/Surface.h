@@ -14,12 +14,12 @@ RT_SHARED_BEGIN
 
 struct Surface {
     vec3 position;
-    vec3 error;    // bound on the rounding error of position, per axis
-    vec3 normal;   // geometric, unit, on the front side
-    vec3 shading;  // unit, on the front side; differs from normal only on smooth meshes
+    vec3 error;   // bound on the rounding error of position, per axis
+    vec3 normal;  // geometric, unit, on the front side
+    vec3 shading; // unit, on the front side; differs from normal only on smooth meshes
     vec2 uv;
     uint material;
-    uint light;  // kNone: not in the light table
+    uint light; // kNone: not in the light table
 };
 
 // gamma_n of Higham, "Accuracy and Stability of Numerical Algorithms", ch. 3, for float.

@@ -15,9 +15,9 @@ const uint kInstanceLeaf = 3u; // beside kSphere, kQuad, kTriangle
 const uint kTreeLeaf = 0x80000000u;
 const uint kTreeKindShift = 29u;
 const uint kTreeCountShift = 26u;
-const uint kTreeLeafSize = 8u;               // most primitives of a leaf
-const uint kTreeItems = (1u << 26u) - 1u;    // most primitives of a kind; the last index stays free for kTreeReturn
-const uint kTreeReturn = 0xffffffffu;        // on a traversal's stack: the instance ends here
+const uint kTreeLeafSize = 8u;            // most primitives of a leaf
+const uint kTreeItems = (1u << 26u) - 1u; // most primitives of a kind; the last index stays free for kTreeReturn
+const uint kTreeReturn = 0xffffffffu;     // on a traversal's stack: the instance ends here
 
 RT_FN uint treeLeaf(uint kind, uint first, uint count) {
     return kTreeLeaf | kind << kTreeKindShift | (count - 1u) << kTreeCountShift | first;

@@ -8,9 +8,9 @@ RT_SHARED_BEGIN
 
 const float kPi = 3.14159265358979f;
 const float kInvPi = 0.318309886183791f;
-const float kInfinity = 3.0e38f;       // farther than any hit; finite, because GLSL may not honour infinities
-const float kEpsilon = 5.9604645e-8f;  // 2^-24, the unit roundoff of a float
-const uint kNone = 0xffffffffu;        // "no such index"
+const float kInfinity = 3.0e38f;      // farther than any hit; finite, because GLSL may not honour infinities
+const float kEpsilon = 5.9604645e-8f; // 2^-24, the unit roundoff of a float
+const uint kNone = 0xffffffffu;       // "no such index"
 
 // Kinds of primitive, also the kinds of hit.
 const uint kSphere = 0u;
@@ -23,7 +23,7 @@ struct Sphere {
     vec3 center;  // at time 0
     float radius; // > 0
     uint material;
-    uint light;   // index into lights, or kNone
+    uint light; // index into lights, or kNone
 };
 
 // Parallelogram corner + a edgeU + b edgeV, a and b in [0,1]; the front is the side that edgeU x edgeV points to.
@@ -80,20 +80,20 @@ const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
 
 struct Material {
     uint kind;
-    vec3 albedo;    // reflectance of lambertian and metal, tint of dielectric; the texture replaces it
-    uint texture;   // kNone: constant
-    float fuzz;     // metal, [0,1]
-    float ior;      // dielectric, inside over outside, > 0
-    vec3 emission;  // emitted radiance; zero for most. Any material may emit as well as scatter
+    vec3 albedo;          // reflectance of lambertian and metal, tint of dielectric; the texture replaces it
+    uint texture;         // kNone: constant
+    float fuzz;           // metal, [0,1]
+    float ior;            // dielectric, inside over outside, > 0
+    vec3 emission;        // emitted radiance; zero for most. Any material may emit as well as scatter
     uint emissionTexture; // multiplies emission; kNone: constant
     uint emissionSides;   // kSidesFront or kSidesBoth
 };
 
 const uint kTextureSolid = 0u;
-const uint kTextureChecker = 1u; // solid checker in world space
-const uint kTextureMarble = 2u;  // 0.5 (1 + sin(frequency z + 10 turbulence(scale p)))
+const uint kTextureChecker = 1u;    // solid checker in world space
+const uint kTextureMarble = 2u;     // 0.5 (1 + sin(frequency z + 10 turbulence(scale p)))
 const uint kTextureTurbulence = 3u; // turbulence(scale p)
-const uint kTextureNoise = 4u;   // 0.5 (1 + noise(scale p))
+const uint kTextureNoise = 4u;      // 0.5 (1 + noise(scale p))
 const uint kTextureImage = 5u;
 
 struct Texture {
@@ -105,7 +105,7 @@ struct Texture {
     uint second;     // checker: texture of odd cells
 };
 
-const uint kTexelSrgb8 = 0u;   // one word a texel, R in the low byte, sRGB-encoded
+const uint kTexelSrgb8 = 0u;     // one word a texel, R in the low byte, sRGB-encoded
 const uint kTexelLinearF32 = 1u; // three words a texel, floats
 
 struct Image {
@@ -158,9 +158,9 @@ struct Light {
 struct LightBound {
     vec3 center;
     float radius;
-    vec3 axis;        // unit normal of a flat light; zero for a light that emits in all directions
-    float twoSided;   // 1: emits to both sides of axis
-    float intensity;  // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
+    vec3 axis;       // unit normal of a flat light; zero for a light that emits in all directions
+    float twoSided;  // 1: emits to both sides of axis
+    float intensity; // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
 };
 
 const uint kContributionLights = 32u; // up to here `contribution` weighs every light at the shading point
@@ -181,11 +181,11 @@ struct LightNode {
     float centerX[8]; // of a sphere around the child's lights
     float centerY[8];
     float centerZ[8];
-    float radius[8];  // negative: the child is a single light
-    float axisX[8]; // unit axis of a cone that holds the normals of the lights counted in `facing`
+    float radius[8]; // negative: the child is a single light
+    float axisX[8];  // unit axis of a cone that holds the normals of the lights counted in `facing`
     float axisY[8];
     float axisZ[8];
-    float alignment[8]; // length of the mean of those normals, weighed by intensity
+    float alignment[8];    // length of the mean of those normals, weighed by intensity
     float spreadCosine[8]; // of the cone's half angle
     float facing[8]; // intensity of flat lights along their normals; negative: a single light that emits to both sides
     float around[8]; // mean intensity of the lights that emit to all sides
@@ -220,9 +220,9 @@ struct SceneGlobals {
     uint skyKind;
     vec3 skyTop;
     vec3 skyBottom;
-    uint skyImage;   // into images
-    uint skyLight;   // into lights, kNone unless the sky is sampled
-    uint lightCount; // lights proper
+    uint skyImage;    // into images
+    uint skyLight;    // into lights, kNone unless the sky is sampled
+    uint lightCount;  // lights proper
     uint targetCount; // importance targets, stored behind the lights
     uint mediumCount;
     uint instanceCount;
@@ -231,10 +231,10 @@ struct SceneGlobals {
 
 struct Camera {
     vec3 origin;
-    vec3 corner;  // from origin to the image's upper left corner on the plane of focus
-    vec3 across;  // upper left to upper right corner
-    vec3 down;    // upper left to lower left corner
-    vec3 lensU;   // half axes of the lens disk; zero for a pinhole
+    vec3 corner; // from origin to the image's upper left corner on the plane of focus
+    vec3 across; // upper left to upper right corner
+    vec3 down;   // upper left to lower left corner
+    vec3 lensU;  // half axes of the lens disk; zero for a pinhole
     vec3 lensV;
 };
 
@@ -257,7 +257,7 @@ const uint kSamplerStratified = 1u;
 const uint kSamplerSobol = 2u;
 
 struct RenderParams {
-    uint width;  // pixels
+    uint width; // pixels
     uint height;
     uint maxDepth; // path vertices after the camera
     uint seed;

@@ -120,7 +120,8 @@ int run(int argc, char** argv) {
     diffs->add_option("--max", arguments.max, "Exit with 5 when the metric (default mse) is worse than this");
     diffs->add_option("--output", arguments.output, "Write a heat map of the differences");
 
-    CLI::App* const infos = app.add_subcommand("info", "Print size, channels, range and mean of an image, and how it was rendered where the file tells");
+    CLI::App* const infos = app.add_subcommand(
+        "info", "Print size, channels, range and mean of an image, and how it was rendered where the file tells");
     infos->add_option("F", arguments.a)->required();
 
     CLI::App* const converts = app.add_subcommand("convert", "Write image A in the format of B's extension");

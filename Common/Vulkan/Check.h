@@ -22,4 +22,4 @@ std::string resultName(VkResult result);
 // Throws unless `result` is a success: DeviceLostError or RenderError, naming what could not be done.
 void check(VkResult result, const std::string& what);
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -238,8 +238,9 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     if (chosen == nullptr) {
         std::string found = devices.empty() ? "there is no Vulkan device" : "";
         for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + lacks(device));
-        throw NoDeviceError("no Vulkan device " + std::string(rayTracing ? "has a ray tracing pipeline: " : "can render: ") +
-                            found + (rayTracing ? "; --engine compute does without" : "; a newer driver may help"));
+        throw NoDeviceError("no Vulkan device " +
+                            std::string(rayTracing ? "has a ray tracing pipeline: " : "can render: ") + found +
+                            (rayTracing ? "; --engine compute does without" : "; a newer driver may help"));
     }
     return *chosen;
 }

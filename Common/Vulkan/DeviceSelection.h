@@ -41,4 +41,4 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices);
 // there is.
 DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing);
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -38,4 +38,4 @@ class Handle {
     Destroy destroy_ = nullptr;
 };
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

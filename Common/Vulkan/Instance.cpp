@@ -39,14 +39,13 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<std::uint64_t>& cou
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    info.messageType =
-        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = onMessage;
     info.pUserData = &counter;
     return info;
 }
 
-}  // namespace
+} // namespace
 
 std::uint64_t Instance::allValidationMessages() {
     return allMessages.load(std::memory_order_relaxed);
@@ -79,8 +78,9 @@ Instance::Instance(bool validation, std::vector<const char*> extensions) {
     info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-        throw NoDeviceError("no Vulkan driver is installed; Mesa's software driver needs version 25.0 or newer "
-                            "(./build.sh run provides it)");
+        throw NoDeviceError(
+            "no Vulkan driver is installed; Mesa's software driver needs version 25.0 or newer "
+            "(./build.sh run provides it)");
     }
     check(result, "Starting Vulkan");
     if (!validation) return;
@@ -101,4 +101,4 @@ Instance::~Instance() {
     vkDestroyInstance(instance_, nullptr);
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -31,4 +31,4 @@ class Instance {
     std::atomic<std::uint64_t> messages_{0};
 };
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -24,4 +24,4 @@ class PipelineCache {
 // The place for this device's cache in the user's cache folder; empty where there is none.
 std::filesystem::path pipelineCacheFile(const VulkanContext& context);
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

@@ -66,4 +66,4 @@ Buffer deviceArray(VulkanContext& context, std::span<const T> data, const char* 
     return buffer;
 }
 
-}  // namespace rt::vulkan
+} // namespace rt::vulkan

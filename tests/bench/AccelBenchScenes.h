@@ -25,7 +25,7 @@ struct BenchScene {
     std::vector<shared::Geometry> geometries;
     vec3 eye;
     vec3 target;
-    float fieldOfView;  // vertical, degrees
+    float fieldOfView; // vertical, degrees
 
     accel::AccelInput input() const { return {spheres, {}, {}, positions, triangles, geometries, {}}; }
     std::size_t primitives() const { return spheres.size() + triangles.size(); }
@@ -177,4 +177,4 @@ inline double median(std::vector<double> values) {
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-}  // namespace rt::bench
+} // namespace rt::bench

@@ -144,7 +144,8 @@ std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest,
-                         ::testing::Combine(::testing::Range(std::size_t{0}, scene::builtinScenes().size()), kBothEngines),
+                         ::testing::Combine(::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
+                                            kBothEngines),
                          sceneName);
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.

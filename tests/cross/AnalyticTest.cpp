@@ -28,8 +28,8 @@ class GpuRenders {
 
   private:
     std::shared_ptr<const CompiledScene> scene_;
-    std::unique_ptr<app::Engine> engine_ = gpu::makeGpuEngine(
-        device(), {.pipelineCache = false, .engine = AnalyticTest::GetParam()});
+    std::unique_ptr<app::Engine> engine_ =
+        gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = AnalyticTest::GetParam()});
 };
 
 TEST_P(AnalyticTest, EnclosureHasItsClosedFormRadiance) {

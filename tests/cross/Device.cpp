@@ -10,14 +10,12 @@ namespace {
 // Whatever the tests did, the validation layers have nothing to say about it.
 class NoValidationMessages : public ::testing::Environment {
   public:
-    void TearDown() override {
-        EXPECT_EQ(device().validationMessages(), 0u);
-    }
+    void TearDown() override { EXPECT_EQ(device().validationMessages(), 0u); }
 };
 
 const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new NoValidationMessages);
 
-}  // namespace
+} // namespace
 
 vulkan::VulkanContext& device() {
     const char* chosen = std::getenv("RT_DEVICE");
@@ -25,4 +23,4 @@ vulkan::VulkanContext& device() {
     return context;
 }
 
-}  // namespace rt::test
+} // namespace rt::test

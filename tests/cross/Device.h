@@ -19,4 +19,4 @@ inline std::string engineName(const ::testing::TestParamInfo<app::GpuEngineKind>
     return app::nameOf(app::kGpuEngines, info.param);
 }
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -31,15 +31,13 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     scene::CompileOptions options;
     options.generatedAssets = true;
     const auto compiled = scene::compileScene(scene::findBuiltinScene(id), options);
-    const auto gpu = gpu::makeGpuEngine(
-        device(), {.pipelineCache = false, .engine = app::GpuEngineKind::Pipeline});
+    const auto gpu = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = app::GpuEngineKind::Pipeline});
     const auto cpu = cpu::makeCpuEngine({});
     gpu->setScene(compiled, nullptr);
     cpu->setScene(compiled, nullptr);
     for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
-        const auto result =
-            image::testImages(independentImages(*gpu, *compiled, sampling, kSide, kSpp, 5000),
-                              independentImages(*cpu, *compiled, sampling, kSide, kSpp, 6000));
+        const auto result = image::testImages(independentImages(*gpu, *compiled, sampling, kSide, kSpp, 5000),
+                                              independentImages(*cpu, *compiled, sampling, kSide, kSpp, 6000));
         SCOPED_TRACE(static_cast<int>(sampling));
         EXPECT_GT(result.globalP, 1e-4) << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << result.summary();

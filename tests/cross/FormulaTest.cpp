@@ -92,14 +92,15 @@ struct Bound {
 constexpr Bound kBounds[] = {
     {shared::kProbeSinCos, "sine and cosine", 5e-7, 0},
     {shared::kProbeArcTan, "arc tangent", 1e-6, 0},
-    {shared::kProbeExponential, "exponential", 4e-6, 0}, // Vulkan allows 3 + 2 |x| units in the last place, and x goes to 20
+    {shared::kProbeExponential, "exponential", 4e-6,
+     0}, // Vulkan allows 3 + 2 |x| units in the last place, and x goes to 20
     {shared::kProbeLogarithm, "logarithm", 1e-6, 0},
     {shared::kProbeSrgb, "sRGB", 2e-6, 0},
     {shared::kProbeFrame, "frame", 1e-6, 0},
     {shared::kProbeHemisphere, "cosine hemisphere", 1e-6, 0},
     {shared::kProbeSphere, "sphere", 1e-6, 0},
     {shared::kProbeOffset, "offset", 1e-6, 0},
-    {shared::kProbeFresnel, "Fresnel", 1e-4, 20},       // its slope is infinite at the critical angle
+    {shared::kProbeFresnel, "Fresnel", 1e-4, 20},        // its slope is infinite at the critical angle
     {shared::kProbeMetal, "metal, sampled", 1e-3, 1000}, // its density is unbounded at the edge of the lobe
     {shared::kProbeMetalPdf, "metal, evaluated", 1e-4, 50},
     {shared::kProbeDielectric, "dielectric", 1e-5, 20},

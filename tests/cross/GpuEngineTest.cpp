@@ -47,8 +47,7 @@ struct Render {
     std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
     std::unique_ptr<app::Engine> engine;
 
-    explicit Render(const app::RenderSettings& settings,
-                    const gpu::GpuEngineOptions& options = testedEngine(),
+    explicit Render(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = testedEngine(),
                     vulkan::VulkanContext& context = device())
         : engine(gpu::makeGpuEngine(context, options)) {
         engine->setScene(scene, nullptr);

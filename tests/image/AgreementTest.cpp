@@ -26,7 +26,8 @@ TEST_P(Agreement, OfAllWaysToSampleLights) {
     const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 1000);
     std::uint32_t seed = 2000;
     for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
-        const auto result = image::testImages(independentImages(*engine, *scene, sampling, kSide, kSpp, seed), reference);
+        const auto result =
+            image::testImages(independentImages(*engine, *scene, sampling, kSide, kSpp, seed), reference);
         const std::string what = sampling == app::LightSampling::Bsdf ? "bsdf, " : "mixture, ";
         EXPECT_GT(result.globalP, 1e-4) << what << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << what << result.summary();
@@ -50,5 +51,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, ::testing::ValuesIn(sceneIds()), [](
     return name;
 });
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -75,5 +75,5 @@ TEST(Convergence, SobolIsSteeperThanIndependentAndNeverWorse) {
     }
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -54,7 +54,8 @@ TEST(CpuEngine, TheImageDependsOnNeitherThreadsNorPolicy) {
         const auto expected = renderBits(*scene, settings, {cpu::Policy::Seq, 1});
         for (auto policy : {cpu::Policy::Par, cpu::Policy::ParUnseq}) {
             for (std::uint32_t threads : {1u, 2u, 7u}) {
-                EXPECT_TRUE(sameBits(expected, renderBits(*scene, settings, {policy, threads}))) << id << " " << threads;
+                EXPECT_TRUE(sameBits(expected, renderBits(*scene, settings, {policy, threads})))
+                    << id << " " << threads;
             }
         }
     }
@@ -172,5 +173,5 @@ TEST(CpuEngine, EveryNumberOfSamplesIsExact) {
     }
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

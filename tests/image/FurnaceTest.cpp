@@ -29,7 +29,8 @@ TEST(Furnace, RouletteChangesNothingButVariance) {
     settings.lightSampling = app::LightSampling::Bsdf;
     for (bool roulette : {false, true}) {
         settings.russianRoulette = roulette;
-        EXPECT_TRUE(isMean(render(shell(false, 0.5, 1), settings), glm::dvec3(enclosureRadiance(0.5, 1, 64)))) << roulette;
+        EXPECT_TRUE(isMean(render(shell(false, 0.5, 1), settings), glm::dvec3(enclosureRadiance(0.5, 1, 64))))
+            << roulette;
     }
 }
 
@@ -76,5 +77,5 @@ TEST(Furnace, RoughMetalLosesWhatLeavesItsHemisphere) {
     }
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -56,7 +56,8 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings) {
 }
 
 ::testing::AssertionResult isMean(const Estimate& estimate, const glm::dvec3& truth) {
-    if (estimate.nonfinite != 0) return ::testing::AssertionFailure() << estimate.nonfinite << " samples are not finite";
+    if (estimate.nonfinite != 0)
+        return ::testing::AssertionFailure() << estimate.nonfinite << " samples are not finite";
     for (int c = 0; c < 3; ++c) {
         const double allowed = 4 * estimate.standardError[c] + 1e-5 * std::abs(truth[c]);
         if (!(std::abs(estimate.mean[c] - truth[c]) <= allowed)) {
@@ -75,8 +76,8 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) 
         settings.lightSampling = app::LightSampling::Bsdf;
         all.push_back(settings);
         for (auto sampling : {app::LightSampling::Mixture, app::LightSampling::Mis}) {
-            for (auto selection : {app::LightSelection::Uniform, app::LightSelection::Power,
-                                   app::LightSelection::Contribution}) {
+            for (auto selection :
+                 {app::LightSelection::Uniform, app::LightSelection::Power, app::LightSelection::Contribution}) {
                 settings.lightSampling = sampling;
                 settings.lightSelection = selection;
                 all.push_back(settings);
@@ -107,4 +108,4 @@ std::vector<image::Image> independentImages(app::Engine& engine, const scene::Co
     return images;
 }
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -46,4 +46,4 @@ std::vector<image::Image> independentImages(app::Engine& engine, const scene::Co
                                             app::LightSampling sampling, std::uint32_t side, std::uint32_t spp,
                                             std::uint32_t firstSeed);
 
-}  // namespace rt::test
+} // namespace rt::test

@@ -81,8 +81,9 @@ TEST(Irradiance, OfAWallFarAway) {
         desc.objects.push_back({QuadDesc{corner, edgeU, edgeV, "light"}});
         const dvec3 middle = corner + 0.5 * (edgeU + edgeV) - at;
         const dvec3 way = glm::normalize(middle);
-        const double formFactor = std::abs(glm::dot(glm::cross(edgeU, edgeV), way) * glm::dot(toWall, way)) /
-                                  glm::dot(middle, middle); // but for the square of the light's extent over the distance
+        const double formFactor =
+            std::abs(glm::dot(glm::cross(edgeU, edgeV), way) * glm::dot(toWall, way)) /
+            glm::dot(middle, middle); // but for the square of the light's extent over the distance
         app::RenderSettings settings = smallSettings(8, 4096);
         settings.maxDepth = 2;
         const dvec3 truth = dvec3(3, 2, 1) * (distance * distance * formFactor * kFloorAlbedo / std::numbers::pi);
@@ -105,7 +106,8 @@ TEST(Transmittance, OfAnAbsorbingSlab) {
         SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 1e-3);
         desc.background = ConstantBackground{dvec3(1)};
         desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, -3, -1), dvec3(3, 3, 1)}, depth / 2, dvec3(0)}});
-        EXPECT_TRUE(isMean(render(desc, smallSettings(8, 16384)), dvec3(std::exp(-depth)))) << "optical depth " << depth;
+        EXPECT_TRUE(isMean(render(desc, smallSettings(8, 16384)), dvec3(std::exp(-depth))))
+            << "optical depth " << depth;
     }
 }
 
@@ -121,5 +123,5 @@ TEST(Transmittance, OfALayerBetweenLightAndFloor) {
     EXPECT_TRUE(isMean(render(desc, settings), dvec3(3, 2, 1) * (e * kFloorAlbedo / std::numbers::pi)));
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

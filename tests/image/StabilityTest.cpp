@@ -15,5 +15,5 @@ TEST(Stability, EveryRowPasses) {
         EXPECT_TRUE(row.pass) << row.name << ", " << row.engine << ": " << row.value << ", must be " << row.criterion;
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -16,10 +16,30 @@ class RenderNote : public ProgramTest {
 };
 
 TEST_F(RenderNote, ArgumentsGiveTheSameFilesBitForBit) {
-    const Outcome first = render({"--scene", "white-spheres:9", "--spp", "20", "--seed", "4", "--sampler", "stratified",
-                                  "--light-sampling", "mixture", "--one-sided-lights", "off", "--exposure", "0.3",
-                                  "--tonemap", "aces", "--camera", R"({"look_from": [300.25, 270, -750]})", "-o",
-                                  path("a.exr"), "-o", path("a.png"), "--threads", "1"});
+    const Outcome first = render({"--scene",
+                                  "white-spheres:9",
+                                  "--spp",
+                                  "20",
+                                  "--seed",
+                                  "4",
+                                  "--sampler",
+                                  "stratified",
+                                  "--light-sampling",
+                                  "mixture",
+                                  "--one-sided-lights",
+                                  "off",
+                                  "--exposure",
+                                  "0.3",
+                                  "--tonemap",
+                                  "aces",
+                                  "--camera",
+                                  R"({"look_from": [300.25, 270, -750]})",
+                                  "-o",
+                                  path("a.exr"),
+                                  "-o",
+                                  path("a.png"),
+                                  "--threads",
+                                  "1"});
     ASSERT_EQ(first.exitCode, 0) << first.err;
     const nlohmann::json note = noteOf("a.exr");
     ASSERT_TRUE(note.is_object());
@@ -42,7 +62,8 @@ TEST_F(RenderNote, TheCameraIsThePoseOrThatOfTheScene) {
 
     ASSERT_EQ(cpu({"--camera", R"({"look_from":[1,2,3]})", "--export-scene", path("a.json")}).exitCode, 0);
     EXPECT_EQ(jsonOf("a.json")["camera"]["look_from"], nlohmann::json({1, 2, 3}));
-    for (const char* bad : {"", "x", "[]", R"({"look_from":[1,2]})", R"({"vertical_fov":200})", R"({"look_form":[1,2,3]})"})
+    for (const char* bad :
+         {"", "x", "[]", R"({"look_from":[1,2]})", R"({"vertical_fov":200})", R"({"look_form":[1,2,3]})"})
         EXPECT_TRUE(failsWith(render({"--camera", bad}), 2, "--camera")) << bad;
     EXPECT_TRUE(failsWith(render({"--camera", R"({"look_from":[278,278,0],"look_at":[278,278,0]})"}), 2, "--camera"));
 }

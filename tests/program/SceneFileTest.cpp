@@ -99,5 +99,5 @@ TEST_F(SceneFile, ObjFiles) {
     EXPECT_TRUE(failsWith(renderFile("word.obj", "v 0 0 0\r\nv 1 0 0\r\nv 0 one 0\r\nf 1 2 3\r\n"), 3, "word.obj:3"));
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test

@@ -23,7 +23,7 @@ class FakeEngine : public Engine {
     }
 
     std::function<void(std::uint32_t)>
-        onSample;  // is told the number of samples per pixel after each call of renderSome
+        onSample; // is told the number of samples per pixel after each call of renderSome
     std::uint32_t calls = 0;
     bool filmFails = false; // once
     bool aovsFail = false;
@@ -100,4 +100,4 @@ class FakeEngine : public Engine {
     EngineReport report_ = makeReport();
 };
 
-}  // namespace rt::app
+} // namespace rt::app

@@ -74,7 +74,8 @@ class Walk {
     void visitItem(std::uint32_t kind, std::uint32_t i, const Box& box, std::uint32_t above, bool world) {
         if (kind == shared::kSphere) {
             const std::uint32_t index = trees_.sphereIndices.at(i);
-            const shared::vec3 motion = trees_.sphereMotions.empty() ? shared::vec3(0.0f) : shared::vec3(trees_.sphereMotions[i]);
+            const shared::vec3 motion =
+                trees_.sphereMotions.empty() ? shared::vec3(0.0f) : shared::vec3(trees_.sphereMotions[i]);
             const shared::vec4 sphere = trees_.spheres.at(i);
             EXPECT_EQ(shared::vec3(sphere), input_.spheres[index].center);
             EXPECT_EQ(sphere.w, input_.spheres[index].radius);
@@ -92,7 +93,8 @@ class Walk {
             const shared::TreeTriangle& t = trees_.triangles.at(i);
             const std::uint32_t index = std::bit_cast<std::uint32_t>(t.vertex0.w);
             EXPECT_EQ(shared::vec3(t.vertex2), input_.positions[input_.triangles[index].z]);
-            EXPECT_TRUE(contains(box, boxOf(shared::vec3(t.vertex0), shared::vec3(t.vertex1), shared::vec3(t.vertex2))));
+            EXPECT_TRUE(
+                contains(box, boxOf(shared::vec3(t.vertex0), shared::vec3(t.vertex1), shared::vec3(t.vertex2))));
             ++triangles[index];
         } else {
             ASSERT_TRUE(world) << "instances are one level deep";
@@ -166,7 +168,8 @@ TEST(GpuBvh, SmallScenesAreLists) {
     EXPECT_EQ(bvh.flat.spheres, geometry.spheres.size());
     EXPECT_EQ(bvh.flat.quads, geometry.quads.size());
     EXPECT_EQ(bvh.flat.triangles, geometry.triangles.size());
-    ASSERT_EQ(bvh.flat.vectors.size(), 2 * geometry.spheres.size() + 4 * geometry.quads.size() + 3 * geometry.triangles.size());
+    ASSERT_EQ(bvh.flat.vectors.size(),
+              2 * geometry.spheres.size() + 4 * geometry.quads.size() + 3 * geometry.triangles.size());
     const std::size_t quad = 2 * geometry.spheres.size() + 4; // the second one
     EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.flat.vectors[quad + 1].w), 1u);
     EXPECT_EQ(shared::vec3(bvh.flat.vectors[quad]), geometry.quads[1].corner);
@@ -197,7 +200,8 @@ TEST(GpuBvh, FollowsInstances) {
     Geometry geometry = mixture(90, 13);
     // The world has the first of each kind; an object the others; one object is empty.
     geometry.geometries = {{0, 1, 0, 1, 0, 1}, {1, 29, 1, 29, 1, 29}, {0, 0, 0, 0, 0, 0}};
-    for (int i = 0; i < 7; ++i) geometry.instances.push_back(placedAt(i == 3 ? 2 : 1, shared::vec3(30.0f * static_cast<float>(i))));
+    for (int i = 0; i < 7; ++i)
+        geometry.instances.push_back(placedAt(i == 3 ? 2 : 1, shared::vec3(30.0f * static_cast<float>(i))));
     const AccelInput input = geometry.input();
     const GpuBvh bvh = *buildGpuBvh(input);
     ASSERT_FALSE(bvh.isFlat); // however few primitives there are

@@ -183,7 +183,7 @@ TEST_F(OptionsTest, EveryFlagReachesItsSetting) {
 
 TEST_F(OptionsTest, AliasesAndRepetition) {
     const Options options = render({"--samples=3", "--outfile", "a.png", "--spp", "4", "-oc.hdr"});
-    EXPECT_EQ(options.settings.spp, 4u);  // the last one wins
+    EXPECT_EQ(options.settings.spp, 4u); // the last one wins
     EXPECT_EQ(options.outputs, (std::vector<std::string>{"a.png", "c.hdr"}));
 }
 
@@ -209,7 +209,7 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
         EXPECT_EQ(error({"--time-limit", bad}).rfind("--time-limit ", 0), 0u) << bad;
     for (const char* bad : {"nan", "inf", "1e9", "one"})
         EXPECT_EQ(error({"--exposure", bad}).rfind("--exposure ", 0), 0u) << bad;
-    EXPECT_NE(error({"--spp"}), "no error");  // the value is missing: --headless is taken for it
+    EXPECT_NE(error({"--spp"}), "no error"); // the value is missing: --headless is taken for it
 }
 
 TEST_F(OptionsTest, AWindowIsTheDefaultUnlessAFileOrALimitIsAskedFor) {
@@ -233,7 +233,8 @@ TEST_F(OptionsTest, AWindowIsTheDefaultUnlessAFileOrALimitIsAskedFor) {
 }
 
 TEST_F(OptionsTest, TellsWhichSettingsWereGiven) {
-    const Options options = parseOptions("ray-tracing-cpu", {"--spp", "100", "--scene", "veach-mis"}, std::cout).value();
+    const Options options =
+        parseOptions("ray-tracing-cpu", {"--spp", "100", "--scene", "veach-mis"}, std::cout).value();
     EXPECT_EQ(options.given, (std::set<std::string>{"--spp", "--scene"}));
 }
 
@@ -372,5 +373,5 @@ TEST_F(OptionsTest, HelpAndVersion) {
     EXPECT_EQ(version.str().rfind("ray-tracing-cpu ", 0), 0u);
 }
 
-}  // namespace
-}  // namespace rt::app
+} // namespace
+} // namespace rt::app

@@ -49,8 +49,7 @@ TEST(Progress, RestoredSamplesTookNoTime) {
 TEST(Progress, TerminalLineIsRewrittenAtMostFiveTimesASecond) {
     std::ostringstream out;
     Progress progress(out, Progress::Style::Terminal);
-    for (int i = 1; i <= 1000; ++i)
-        progress.update(stateAt(i * 0.01));
+    for (int i = 1; i <= 1000; ++i) progress.update(stateAt(i * 0.01));
     const std::string text = out.str();
     EXPECT_GE(std::count(text.begin(), text.end(), '\r'), 45);
     EXPECT_LE(std::count(text.begin(), text.end(), '\r'), 51);
@@ -67,15 +66,14 @@ TEST(Progress, ShorterLinesCoverLongerOnes) {
     progress.update(stateAt(1));
     const std::size_t length = out.str().size();
     progress.finish(stateAt(1), "");
-    EXPECT_GE(out.str().size(), 2 * length);  // padded, and a line feed
+    EXPECT_GE(out.str().size(), 2 * length); // padded, and a line feed
 }
 
 TEST(Progress, ElsewhereALineEveryTenSeconds) {
     std::ostringstream out;
     Progress progress(out, Progress::Style::Lines);
-    for (int i = 1; i < 1000; ++i)
-        progress.update(stateAt(i * 0.05));
-    EXPECT_EQ(lines(out.str()), 4);  // at 10, 20, 30 and 40 seconds
+    for (int i = 1; i < 1000; ++i) progress.update(stateAt(i * 0.05));
+    EXPECT_EQ(lines(out.str()), 4); // at 10, 20, 30 and 40 seconds
     EXPECT_EQ(out.str().find('\r'), std::string::npos);
 }
 
@@ -87,5 +85,5 @@ TEST(Progress, SilentSaysNothing) {
     EXPECT_EQ(out.str(), "");
 }
 
-}  // namespace
-}  // namespace rt::app
+} // namespace
+} // namespace rt::app

@@ -68,7 +68,7 @@ class SessionTest : public testing::Test {
     Json statistics() const { return Json::parse(bytesOf(path("stats.json"))); }
 
     fs::path folder_;
-    FakeEngine* engine_ = nullptr;  // whether one was made; gone once run() returns
+    FakeEngine* engine_ = nullptr; // whether one was made; gone once run() returns
 };
 
 TEST_F(SessionTest, WritesEachFormat) {
@@ -79,19 +79,16 @@ TEST_F(SessionTest, WritesEachFormat) {
     ASSERT_EQ(pfm.height, 12u);
     const auto expected = [](std::uint32_t x, std::uint32_t y, std::uint32_t c) {
         float sum = 0;
-        for (std::uint32_t s = 0; s < 3; ++s)
-            sum += FakeEngine::value(x, y, c, s, 0);
+        for (std::uint32_t s = 0; s < 3; ++s) sum += FakeEngine::value(x, y, c, s, 0);
         return sum / 3;
     };
     for (std::uint32_t y = 0; y < 12; ++y)
         for (std::uint32_t x = 0; x < 20; ++x)
-            for (std::uint32_t c = 0; c < 3; ++c)
-                EXPECT_FLOAT_EQ(pfm.pixel(x, y)[c], expected(x, y, c));
+            for (std::uint32_t c = 0; c < 3; ++c) EXPECT_FLOAT_EQ(pfm.pixel(x, y)[c], expected(x, y, c));
     EXPECT_EQ(image::readImage(path("a.exr")).data, pfm.data);
     for (const char* name : {"a.hdr", "a.png"}) {
         const image::Image other = image::readImage(path(name));
-        for (std::size_t i = 0; i < pfm.data.size(); ++i)
-            EXPECT_NEAR(other.data[i], pfm.data[i], 0.01f) << name;
+        for (std::size_t i = 0; i < pfm.data.size(); ++i) EXPECT_NEAR(other.data[i], pfm.data[i], 0.01f) << name;
     }
 }
 
@@ -120,15 +117,13 @@ TEST_F(SessionTest, WritesImagesBesideThePicture) {
     // Of the mean of 40 uniform numbers, estimated from three blocks; averaged over the pixels.
     const image::Image variance = image::readImage(path("a.variance.pfm"));
     double mean = 0;
-    for (const float value : variance.data)
-        mean += value / static_cast<double>(variance.data.size());
+    for (const float value : variance.data) mean += value / static_cast<double>(variance.data.size());
     EXPECT_NEAR(mean, 1.0 / 12 / 40, 0.2 / 12 / 40);
     EXPECT_NEAR(image::readImage(path("b.albedo.png")).data[0], 0.25f, 0.01f);
     EXPECT_EQ(image::readImage(path("b.normal.png")).data[0], 0.0f);
     EXPECT_EQ(image::readImage(path("b.depth.png")).data[0], 1.0f);
     EXPECT_EQ(stats["outputs"].size(), 12u);
-    for (const Json& file : stats["outputs"])
-        EXPECT_TRUE(fs::exists(file.get<std::string>())) << file;
+    for (const Json& file : stats["outputs"]) EXPECT_TRUE(fs::exists(file.get<std::string>())) << file;
 }
 
 TEST_F(SessionTest, StatisticsHaveEveryKeyOfTheContract) {
@@ -150,8 +145,7 @@ TEST_F(SessionTest, StatisticsHaveEveryKeyOfTheContract) {
                            {"kernel", "fake/none"},
                            {"nonfinite_samples", 0},
                            {"error_is", "replicates"}};
-    for (const auto& [key, value] : expected.items())
-        EXPECT_EQ(stats[key], value) << key;
+    for (const auto& [key, value] : expected.items()) EXPECT_EQ(stats[key], value) << key;
     for (const char* key : {"light_sampling", "light_selection", "sphere_light", "quad_light", "triangle_light",
                             "sampler", "one_sided_lights", "russian_roulette", "replicates"})
         EXPECT_TRUE(stats["settings"].contains(key)) << key;
@@ -194,7 +188,7 @@ TEST_F(SessionTest, ReferenceAddsErrorFigures) {
     run({"--spp", "8", "-o", path("reference.exr")});
     run({"--spp", "8", "--reference", path("reference.exr"), "--stats", path("stats.json")});
     EXPECT_EQ(statistics()["error"]["mse"], 0.0);
-    EXPECT_TRUE(statistics()["error"]["psnr"].is_null());  // infinite
+    EXPECT_TRUE(statistics()["error"]["psnr"].is_null()); // infinite
     run({"--spp", "8", "--seed", "1", "--reference", path("reference.exr"), "--stats", path("stats.json")});
     EXPECT_NEAR(statistics()["error"]["mse"].get<double>(), 2.0 / 12 / 8, 0.2 / 12 / 8);
 }
@@ -341,7 +335,7 @@ TEST_F(SessionTest, PlacesThatCannotBeWrittenAreFoundBeforeRendering) {
     EXPECT_NE(error<UsageError>({"-o", path("a.gif")}).find("a.gif"), std::string::npos);
     EXPECT_NE(error<UsageError>({"-o", path("png")}).find("png"), std::string::npos);
     EXPECT_EQ(engine_, nullptr);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);  // nothing was left behind
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1); // nothing was left behind
 }
 
 TEST_F(SessionTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {
@@ -412,5 +406,5 @@ TEST_F(SessionTest, ListsScenes) {
     EXPECT_EQ(engine_, nullptr);
 }
 
-}  // namespace
-}  // namespace rt::app
+} // namespace
+} // namespace rt::app

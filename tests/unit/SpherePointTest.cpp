@@ -101,5 +101,5 @@ TEST(SpherePointTest, NearAHugeSphereItIsAsExactAsTheRay) {
     EXPECT_LE(worst, 1e-5); // reprojected from the sphere's coordinates: 1e-4 and more
 }
 
-}  // namespace
-}  // namespace rt::test
+} // namespace
+} // namespace rt::test
