@@ -4,7 +4,8 @@
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Features.h"
-#include "ProjectedShapes.h"
+#include "ProjectedPolygon.h"
+#include "ProjectedSphere.h"
 
 RT_SHARED_BEGIN
 
