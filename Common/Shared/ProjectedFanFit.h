@@ -148,17 +148,23 @@ RT_FN void addSlices(RT_INOUT(ProjectedFan) fan, uint j, vec2 left, vec2 right, 
     }
 }
 
-// How near to an end of sector j, in fractions of it, its first slice must be so that what lies beyond it hardly matters.
+// How near to its beginning or its end, in fractions of sector j, the first slice must be so that what lies beyond it
+// hardly matters.
 RT_FN float fanInset(RT_IN(ProjectedFan) fan, uint j, bool atEnd, float tolerance) {
     float inset = kFanInset;
-    for (uint i = 0u; i < 6u; i++) {
-        float sign = atEnd ? -1.0f : 1.0f;
-        float from = atEnd ? fan.angle[j] : 0.0f;
-        float width = inset * fan.angle[j];
-        float mass = fanSlice(fan, j, from + sign * width).mass;
-        float half2 = misfit(mass, fanSlice(fan, j, from + 0.5f * sign * width).mass, width);
-        if (max(half2, misfit(mass, fanSlice(fan, j, from + 0.125f * sign * width).mass, width)) <= tolerance) break;
-        inset *= 0.125f;
+    float first = 0.0f;
+    // By turns at the inset, at half and at an eighth of it.
+    for (uint i = 0u; i < 18u; i++) {
+        float place = inset * (i % 3u == 0u ? 1.0f : (i % 3u == 1u ? 0.5f : 0.125f)) * fan.angle[j];
+        float mass = fanSlice(fan, j, atEnd ? fan.angle[j] - place : place).mass;
+        if (i % 3u == 0u) {
+            first = mass;
+        } else if (misfit(first, mass, inset * fan.angle[j]) > tolerance) {
+            inset *= 0.125f;
+            i += 2u - i % 3u;
+        } else if (i % 3u == 2u) {
+            break;
+        }
     }
     return inset;
 }
@@ -168,10 +174,18 @@ RT_FN float fanInset(RT_IN(ProjectedFan) fan, uint j, bool atEnd, float toleranc
 RT_FN void fillSector(RT_INOUT(ProjectedFan) fan, uint j, uint first, uint limit, bool around, float tolerance) {
     fan.first[j] = first;
     fan.count[j] = 0u;
-    float begin = fanInset(fan, j, false, tolerance) * fan.angle[j];
-    float end = fan.angle[j] - fanInset(fan, j, true, tolerance) * fan.angle[j];
-    FanSlice a = fanSlice(fan, j, begin);
-    FanSlice b = fanSlice(fan, j, end);
+    // Loops keep the calls few: GPU compilers copy the code into each.
+    float at[2];
+    FanSlice ends[2];
+    for (uint e = 0u; e < 2u; e++) {
+        float inset = fanInset(fan, j, e == 1u, tolerance) * fan.angle[j];
+        at[e] = e == 1u ? fan.angle[j] - inset : inset;
+        ends[e] = fanSlice(fan, j, at[e]);
+    }
+    float begin = at[0];
+    float end = at[1];
+    FanSlice a = ends[0];
+    FanSlice b = ends[1];
     FanArc low = fanArc(a.p, begin, b.p, end);
     FanArc high = fanArc(a.p + a.span, begin, b.p + b.span, end);
     // From the horizon up, a slice's mass is half the squared sine of its upper end's elevation. Up to the zenith, the
@@ -188,7 +202,8 @@ RT_FN void fillSector(RT_INOUT(ProjectedFan) fan, uint j, uint first, uint limit
     uint h = 1u;
     uint i = 1u;
     uint k = 1u;
-    while (h <= evens || i <= lows || k <= highs) {
+    uint all = evens + lows + highs + 1u;
+    for (uint n = 0u; n < all; n++) {
         float x = h <= evens ? mix(begin, end, float(h) / float(evens + 1u)) : kInfinity;
         float y = i <= lows ? fanArcTurn(low, float(i) / float(lows + 1u)) : kInfinity;
         float z = k <= highs ? fanArcTurn(high, float(k) / float(highs + 1u)) : kInfinity;
@@ -200,13 +215,14 @@ RT_FN void fillSector(RT_INOUT(ProjectedFan) fan, uint j, uint first, uint limit
         } else {
             k++;
         }
-        turn = clamp(turn, previous.x, end);
-        vec2 next = vec2(turn, fanSlice(fan, j, turn).mass);
-        uint left = (evens + 1u - h) + (lows + 1u - i) + (highs + 1u - k) + 1u;
-        addSlices(fan, j, previous, next, tolerance, limit - left);
+        vec2 next = vec2(end, b.mass);
+        if (n + 1u < all) {
+            next.x = clamp(turn, previous.x, end);
+            next.y = fanSlice(fan, j, next.x).mass;
+        }
+        addSlices(fan, j, previous, next, tolerance, limit - (all - 1u - n));
         previous = next;
     }
-    addSlices(fan, j, previous, vec2(end, b.mass), tolerance, limit);
     // The ends are short; only inverse roots, which may nearly vanish there, go on as they came.
     uint last = first + fan.count[j] - 1u;
     fan.low[j] = fan.mass[first];
