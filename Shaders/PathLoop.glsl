@@ -79,7 +79,8 @@ void tracePaths(uint invocation) {
         if (++work.smp.index == work.end) {
             launch.blockSums.at[work.item] = work.sum;
             atomicAdd(launch.counters.at[line + kCounterItems], 1u);
-            working = takeWork(work);
+            // Without work the sampler is undefined: permuting an undefined number of strata need never end.
+            if (!takeWork(work)) break;
         }
         path = beginPath(params, work);
     }
