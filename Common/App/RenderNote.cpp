@@ -20,46 +20,29 @@ std::string exactly(float value) {
 
 Json argumentList(const Options& options, const scene::CameraDesc& camera, const EngineReport& report) {
     const RenderSettings& s = options.settings;
-    Json list{"--scene",
-              options.scene,
-              "--camera",
-              CameraController::toText(camera),
-              "--width",
-              std::to_string(s.width),
-              "--height",
-              std::to_string(s.height),
-              "--spp",
-              std::to_string(s.spp),
-              "--max-depth",
-              std::to_string(s.maxDepth),
-              "--seed",
-              std::to_string(s.seed),
-              "--replicates",
-              std::to_string(s.replicates),
-              "--light-sampling",
-              nameOf(kLightSamplings, s.lightSampling),
-              "--light-selection",
-              nameOf(kLightSelections, s.lightSelection),
-              "--sphere-light",
-              nameOf(kSphereLights, s.sphereLight),
-              "--quad-light",
-              nameOf(kFlatLights, s.quadLight),
-              "--triangle-light",
-              nameOf(kFlatLights, s.triangleLight),
-              "--sampler",
-              nameOf(kSamplers, s.sampler),
-              "--one-sided-lights",
-              nameOf(kOnOff, options.oneSidedLights),
-              "--russian-roulette",
-              nameOf(kOnOff, s.russianRoulette),
-              "--exposure",
-              exactly(options.exposure),
-              "--tonemap",
-              nameOf(kTonemaps, options.tonemap)};
-    const auto add = [&list](const std::string& flag, const std::string& value) {
+    Json list = Json::array();
+    const auto add = [&list](const char* flag, const std::string& value) {
         list.push_back(flag);
         list.push_back(value);
     };
+    add("--scene", options.scene);
+    add("--camera", CameraController::toText(camera));
+    add("--width", std::to_string(s.width));
+    add("--height", std::to_string(s.height));
+    add("--spp", std::to_string(s.spp));
+    add("--max-depth", std::to_string(s.maxDepth));
+    add("--seed", std::to_string(s.seed));
+    add("--replicates", std::to_string(s.replicates));
+    add("--light-sampling", nameOf(kLightSamplings, s.lightSampling));
+    add("--light-selection", nameOf(kLightSelections, s.lightSelection));
+    add("--sphere-light", nameOf(kSphereLights, s.sphereLight));
+    add("--quad-light", nameOf(kFlatLights, s.quadLight));
+    add("--triangle-light", nameOf(kFlatLights, s.triangleLight));
+    add("--sampler", nameOf(kSamplers, s.sampler));
+    add("--one-sided-lights", nameOf(kOnOff, options.oneSidedLights));
+    add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
+    add("--exposure", exactly(options.exposure));
+    add("--tonemap", nameOf(kTonemaps, options.tonemap));
     if (options.program == kGpuProgram) add("--engine", report.engine); // policies and threads make no difference
     if (s.features) {
         std::string names;

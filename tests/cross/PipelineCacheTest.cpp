@@ -11,6 +11,7 @@
 #include "Common/Core/Hash.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/DeviceFilm.h"
+#include "tests/TempFolder.h"
 #include "tests/cross/Device.h"
 
 namespace rt::test {
@@ -20,14 +21,6 @@ namespace fs = std::filesystem;
 
 class PipelineCacheTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        const std::string test = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = fs::path(::testing::TempDir()) / ("pipeline-cache-" + test);
-        fs::remove_all(folder_);
-        file_ = folder_ / "sub" / "cache.bin";
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     // A pipeline through the cache, which is saved.
     void use() const {
         vulkan::PipelineCache cache(device(), file_);
@@ -40,8 +33,8 @@ class PipelineCacheTest : public ::testing::Test {
     }
     void write(const std::string& content) const { std::ofstream(file_, std::ios::binary) << content; }
 
-    fs::path folder_;
-    fs::path file_;
+    TempFolder folder_;
+    fs::path file_ = folder_ / "sub" / "cache.bin";
 };
 
 std::string withHash(const std::string& payload) {
@@ -85,7 +78,6 @@ TEST_F(PipelineCacheTest, DamageIsIgnored) {
 }
 
 TEST_F(PipelineCacheTest, APlaceThatCannotBeWrittenIsNoError) {
-    fs::create_directories(folder_);
     std::ofstream(folder_ / "sub") << "a file where a folder should be";
     EXPECT_NO_THROW(use());
 }

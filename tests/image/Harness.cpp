@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "Common/Bench/Stability.h"
+
 namespace rt::test {
 
 app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
@@ -106,6 +108,13 @@ std::vector<image::Image> independentImages(app::Engine& engine, const scene::Co
     }
     EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
     return images;
+}
+
+void expectStability(app::Engine& engine) {
+    const auto rows = bench::measureStability(engine);
+    EXPECT_GE(rows.size(), 40u);
+    for (const bench::StabilityRow& row : rows)
+        EXPECT_TRUE(row.pass) << row.name << ", " << row.engine << ": " << row.value << ", must be " << row.criterion;
 }
 
 } // namespace rt::test

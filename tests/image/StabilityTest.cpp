@@ -1,18 +1,15 @@
-// The stability suite that ray-tracing-bench prints, asserted on the CPU. What it can detect is in its criteria.
+// The stability suite that ray-tracing-bench prints, asserted on the CPU.
 #include <gtest/gtest.h>
 
-#include "Common/Bench/Stability.h"
 #include "RayTracingCPU/CpuEngine.h"
+#include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
 
 TEST(Stability, EveryRowPasses) {
     const auto engine = cpu::makeCpuEngine({});
-    const auto rows = bench::measureStability(*engine);
-    EXPECT_GE(rows.size(), 40u);
-    for (const bench::StabilityRow& row : rows)
-        EXPECT_TRUE(row.pass) << row.name << ", " << row.engine << ": " << row.value << ", must be " << row.criterion;
+    expectStability(*engine);
 }
 
 } // namespace

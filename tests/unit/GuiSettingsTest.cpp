@@ -6,21 +6,20 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/GuiSettings.h"
+#include "tests/TempFolder.h"
 
 namespace rt::app {
 namespace {
 
 class GuiSettingsTest : public ::testing::Test {
   protected:
-    void SetUp() override { std::filesystem::remove_all(folder_); }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
     GuiSettings loadText(const std::string& text) const {
-        std::filesystem::create_directories(folder_);
+        std::filesystem::create_directories(file_.parent_path());
         std::ofstream(file_) << text;
         return loadGuiSettings(file_);
     }
-    std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "gui-settings";
-    std::filesystem::path file_ = folder_ / "settings.json";
+    test::TempFolder folder_;
+    std::filesystem::path file_ = folder_ / "sub" / "settings.json"; // saving makes the folder
 };
 
 TEST_F(GuiSettingsTest, SurviveTheFile) {

@@ -13,6 +13,7 @@
 #include "Common/App/InteractiveSession.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
+#include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
 namespace rt::app {
@@ -54,14 +55,6 @@ class FailingEngine : public FakeEngine {
 
 class InteractiveSessionTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) /
-                  ("interactive-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     static InteractiveSession::Setup setup(std::uint32_t spp) {
         InteractiveSession::Setup setup;
         setup.options.program = "ray-tracing-cpu";
@@ -82,7 +75,7 @@ class InteractiveSessionTest : public ::testing::Test {
     }
     static bool isFinished(const SessionState& state) { return state.activity == Activity::Finished; }
 
-    std::filesystem::path folder_;
+    test::TempFolder folder_;
 };
 
 TEST_F(InteractiveSessionTest, RendersToTheEndAndShowsTheFilm) {

@@ -5,19 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/RunHistory.h"
+#include "tests/TempFolder.h"
 
 namespace rt::app {
 namespace {
 
 class RunHistoryTest : public ::testing::Test {
   protected:
-    void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) /
-                  ("history-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::remove_all(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     static RunRecord record(const std::string& scene) {
         RunRecord r;
         r.time = utcNow();
@@ -44,7 +38,7 @@ class RunHistoryTest : public ::testing::Test {
     }
     std::filesystem::path file() const { return folder_ / "deep" / "history.jsonl"; }
 
-    std::filesystem::path folder_;
+    test::TempFolder folder_;
 };
 
 TEST_F(RunHistoryTest, GivesBackWhatWasAppended) {

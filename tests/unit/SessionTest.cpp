@@ -10,6 +10,7 @@
 
 #include "Common/App/Session.h"
 #include "Common/Image/ImageIo.h"
+#include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
 namespace rt::app {
@@ -27,14 +28,6 @@ std::string bytesOf(const fs::path& path) {
 
 class SessionTest : public testing::Test {
   protected:
-    void SetUp() override {
-        const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-        folder_ = fs::path(testing::TempDir()) / ("session-" + test);
-        fs::remove_all(folder_);
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     // Of a 20x12 image.
@@ -67,7 +60,7 @@ class SessionTest : public testing::Test {
     }
     Json statistics() const { return Json::parse(bytesOf(path("stats.json"))); }
 
-    fs::path folder_;
+    test::TempFolder folder_;
     FakeEngine* engine_ = nullptr; // whether one was made; gone once run() returns
 };
 
@@ -335,7 +328,7 @@ TEST_F(SessionTest, PlacesThatCannotBeWrittenAreFoundBeforeRendering) {
     EXPECT_NE(error<UsageError>({"-o", path("a.gif")}).find("a.gif"), std::string::npos);
     EXPECT_NE(error<UsageError>({"-o", path("png")}).find("png"), std::string::npos);
     EXPECT_EQ(engine_, nullptr);
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1); // nothing was left behind
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1); // nothing was left behind
 }
 
 TEST_F(SessionTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {

@@ -11,6 +11,7 @@
 
 #include "Common/App/InteractiveSession.h"
 #include "Common/Image/ImageIo.h"
+#include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
 namespace rt::app {
@@ -21,15 +22,10 @@ using namespace std::chrono_literals;
 class WindowFilesTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_ = std::filesystem::path(::testing::TempDir()) /
-                  ("window-files-" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-        std::filesystem::remove_all(folder_);
-        std::filesystem::create_directories(folder_);
         request_.files = {path("a.exr")};
         request_.aovs = {Aov::Samples};
         request_.stats = path("a.json");
     }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
 
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
     std::unique_ptr<InteractiveSession> start(std::uint32_t spp) const {
@@ -56,7 +52,7 @@ class WindowFilesTest : public ::testing::Test {
         return nlohmann::json::parse(in, nullptr, false);
     }
 
-    std::filesystem::path folder_;
+    test::TempFolder folder_;
     SaveRequest request_;
 };
 
