@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/MemoryType.h"
 
 namespace rt::gui {
 namespace {
@@ -125,9 +126,7 @@ void GraphicsDevice::renewSurface(const Window& window) {
 }
 
 std::uint32_t GraphicsDevice::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const {
-    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-        if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-    }
+    if (const auto type = vulkan::findMemoryType(memory_, allowed, wanted)) return *type;
     throw RenderError(name_ + " has no memory of the kind that is needed");
 }
 

@@ -24,6 +24,11 @@ class Instance {
     std::uint64_t validationMessages() const { return messages_.load(std::memory_order_relaxed); }
     // Of all instances of the process, also those that are gone with what they had to say of their end.
     static std::uint64_t allValidationMessages();
+    // Leaves the instance to the operating system: to end it would wait for a device that does not answer.
+    void abandon() {
+        instance_ = VK_NULL_HANDLE;
+        messenger_ = VK_NULL_HANDLE;
+    }
 
   private:
     VkInstance instance_ = VK_NULL_HANDLE;

@@ -7,12 +7,15 @@
 #include <limits>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/MemoryType.h"
 
 namespace rt::vulkan {
 namespace {
 
 constexpr std::uint32_t kBegin = 0; // the two timestamps of runTimed
 constexpr std::uint32_t kEnd = 1;
+// All that is run takes far less: launches are cut to hundredths of a second.
+constexpr std::chrono::duration<std::uint64_t, std::nano> kPatience = std::chrono::seconds(60);
 
 template <class Function>
 void load(VkDevice device, const char* name, Function& function) {
@@ -62,6 +65,10 @@ VulkanContext::VulkanContext(const ContextOptions& options)
 }
 
 VulkanContext::~VulkanContext() {
+    if (hangs_) {
+        instance_.abandon();
+        return;
+    }
     vkDeviceWaitIdle(device_);
     timestamps_ = {};
     fence_ = {};
@@ -169,8 +176,14 @@ void VulkanContext::submit(VkCommandBuffer commands) {
     submit.pCommandBuffers = &commands;
     const VkFence fence = fence_.get();
     check(vkQueueSubmit(queue_, 1, &submit, fence), "Running on " + info_.name);
-    check(vkWaitForFences(device_, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
-          "Running on " + info_.name);
+    const bool patient = info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const VkResult result = vkWaitForFences(
+        device_, 1, &fence, VK_TRUE, patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
+    if (result == VK_TIMEOUT) {
+        hangs_ = true;
+        throw DeviceLostError("Running on " + info_.name + ": no answer for a minute; a newer driver may help");
+    }
+    check(result, "Running on " + info_.name);
     check(vkResetFences(device_, 1, &fence), "Running on " + info_.name);
 }
 
@@ -198,10 +211,7 @@ double VulkanContext::runTimed(const std::function<void(VkCommandBuffer)>& recor
 std::uint32_t VulkanContext::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
                                         VkMemoryPropertyFlags preferred) const {
     for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
-        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
-            const bool isAllowed = (allowed >> i & 1u) != 0;
-            if (isAllowed && (memory_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-        }
+        if (const auto type = findMemoryType(memory_, allowed, wanted)) return *type;
     }
     throw RenderError(info_.name + " has no memory of the kind that is needed");
 }

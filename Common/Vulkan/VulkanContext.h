@@ -79,7 +79,8 @@ class VulkanContext {
     std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
 
   protected:
-    // Hands recorded commands to the device and waits. Virtual for tests, whose devices can fail.
+    // Hands recorded commands to the device and waits, but for no more than a minute where it is not the CPU that works: not
+    // every system has a watchdog for that. Throws DeviceLostError then. Virtual for tests, whose devices can fail.
     virtual void submit(VkCommandBuffer commands);
 
   private:
@@ -94,6 +95,7 @@ class VulkanContext {
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     RayTracingFunctions rayTracing_;
+    bool hangs_ = false; // has not ended its work in time, and may never
     Handle<VkCommandPool> commandPool_;
     Handle<VkFence> fence_;
     Handle<VkQueryPool> timestamps_;
