@@ -3,7 +3,7 @@
 #include <array>
 
 #include "Common/Shared/Features.h"
-#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Pipelines.h"
 
 namespace rt::gpu {
 namespace {
@@ -46,18 +46,9 @@ ComputePipeline::ComputePipeline(vulkan::VulkanContext& context, const vulkan::P
     for (std::uint32_t i = 0; i < kCount; ++i) entries[i] = {i, i * 4, 4};
     const VkSpecializationInfo specialization{kCount, entries.data(), sizeof constants, &constants};
 
-    const vulkan::Handle<VkShaderModule> module = makeShaderModule(context.device(), shader);
-    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module.get();
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &specialization;
-    info.layout = bindings.layout();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    vulkan::check(vkCreateComputePipelines(context.device(), cache.get(), 1, &info, nullptr, &pipeline),
-                  "Creating the compute pipeline");
-    pipeline_ = {context.device(), pipeline, vkDestroyPipeline};
+    const auto module = vulkan::makeShaderModule(context.device(), shaderCode(shader));
+    pipeline_ = vulkan::makeComputePipeline(context.device(), cache.get(), bindings.layout(), module.get(),
+                                            &specialization, "Creating the compute pipeline");
 }
 
 void ComputePipeline::record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,

@@ -4,8 +4,8 @@
 #include <limits>
 #include <span>
 
-#include "Common/Vulkan/Check.h"
-#include "RayTracingGPU/Kernel.h"
+#include "Common/Vulkan/Pipelines.h"
+#include "RayTracingGPU/EmbeddedShaders.h"
 
 namespace rt::gpu {
 namespace {
@@ -190,25 +190,11 @@ DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
 
 FilmReducer::FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache) {
     const VkDevice device = context.device();
+    constexpr const char* kWhat = "Creating the film's pipeline";
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shared::FilmLaunch)};
-    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layoutInfo.pushConstantRangeCount = 1;
-    layoutInfo.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    vulkan::check(vkCreatePipelineLayout(device, &layoutInfo, nullptr, &layout), "Creating the film's pipeline");
-    layout_ = {device, layout, vkDestroyPipelineLayout};
-
-    const vulkan::Handle<VkShaderModule> module = makeShaderModule(device, Shader::FilmReduce);
-    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module.get();
-    info.stage.pName = "main";
-    info.layout = layout;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    vulkan::check(vkCreateComputePipelines(device, cache.get(), 1, &info, nullptr, &pipeline),
-                  "Creating the film's pipeline");
-    pipeline_ = {device, pipeline, vkDestroyPipeline};
+    layout_ = vulkan::makePipelineLayout(device, push, VK_NULL_HANDLE, kWhat);
+    const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::FilmReduce));
+    pipeline_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), nullptr, kWhat);
 }
 
 void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const {

@@ -45,6 +45,4 @@ class Kernel {
                         std::uint32_t invocations) const = 0;
 };
 
-vulkan::Handle<VkShaderModule> makeShaderModule(VkDevice device, Shader shader);
-
 } // namespace rt::gpu

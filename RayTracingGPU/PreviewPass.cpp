@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <numeric>
 #include <span>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "Common/Core/Error.h"
 #include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Features.h"
-#include "Common/Vulkan/Check.h"
-#include "RayTracingGPU/Kernel.h"
+#include "RayTracingGPU/EmbeddedShaders.h"
 
 namespace rt::gpu {
 namespace {
 
 using shared::vec3;
-using vulkan::check;
 
 constexpr const char* kWhat = "Preparing the preview";
 constexpr std::uint32_t kConstantsBinding = 1; // as in Bindings.glsl
@@ -60,18 +60,8 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
         const bool bothSides = light.kind != shared::kLightSphere && light.sides == shared::kSidesBoth;
         sum += glm::dvec3(light.emission) * static_cast<double>(light.area) * (bothSides ? 2.0 : 1.0);
     }
-    if (radius > 0) sum /= 0.5 * 4 * 3.14159265358979 * radius * radius;
+    if (radius > 0) sum /= 0.5 * 4 * std::numbers::pi * radius * radius;
     return glm::max(vec3(sum), vec3(kLeastAmbient));
-}
-
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
-                                          const VkSpecializationInfo& constants) {
-    VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-    info.stage = stage;
-    info.module = module;
-    info.pName = "main";
-    info.pSpecializationInfo = &constants;
-    return info;
 }
 
 // The specialisation constants of Preview.glsl.
@@ -92,7 +82,6 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
       renderPass_(makePreviewRenderPass(context.device())) {
     if (!context.info().draws) throw RenderError(context.info().name + " cannot draw: there is no preview");
     listDraws();
-    createBindings();
     createPipelines(cache);
 }
 
@@ -127,118 +116,40 @@ void PreviewPass::listDraws() {
     launch_.indices = indices_.address();
 }
 
-void PreviewPass::createBindings() {
+void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     const VkDevice device = context_.device();
     const VkDescriptorSetLayoutBinding binding{kConstantsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kStages,
                                                nullptr};
-    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    setInfo.bindingCount = 1;
-    setInfo.pBindings = &binding;
-    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device, &setInfo, nullptr, &setLayout), kWhat);
-    setLayout_ = {device, setLayout, vkDestroyDescriptorSetLayout};
+    bindings_ = vulkan::DescriptorSet(device, std::span(&binding, 1), kWhat);
+    bindings_.write(kConstantsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, constants_.get());
+    layout_ = vulkan::makePipelineLayout(device, {kStages, 0, sizeof launch_}, bindings_.layout(), kWhat);
 
-    const VkPushConstantRange push{kStages, 0, sizeof launch_};
-    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layoutInfo.setLayoutCount = 1;
-    layoutInfo.pSetLayouts = &setLayout;
-    layoutInfo.pushConstantRangeCount = 1;
-    layoutInfo.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device, &layoutInfo, nullptr, &layout), kWhat);
-    layout_ = {device, layout, vkDestroyPipelineLayout};
-
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1};
-    VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    poolInfo.maxSets = 1;
-    poolInfo.poolSizeCount = 1;
-    poolInfo.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device, &poolInfo, nullptr, &pool), kWhat);
-    pool_ = {device, pool, vkDestroyDescriptorPool};
-    VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocation.descriptorPool = pool;
-    allocation.descriptorSetCount = 1;
-    allocation.pSetLayouts = &setLayout;
-    check(vkAllocateDescriptorSets(device, &allocation, &set_), kWhat);
-
-    const VkDescriptorBufferInfo buffer{constants_.get(), 0, VK_WHOLE_SIZE};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set_;
-    write.dstBinding = kConstantsBinding;
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    write.pBufferInfo = &buffer;
-    vkUpdateDescriptorSets(device, 1, &write, 0, nullptr);
-}
-
-void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     for (const Draw& draw : draws_) {
         if (!drawing_[draw.shape]) drawing_[draw.shape] = createDrawing(cache, draw.shape);
     }
     const Specialization constants{{features_, 0}};
     const VkSpecializationInfo specialization = constants.info();
-    const vulkan::Handle<VkShaderModule> module = makeShaderModule(context_.device(), Shader::PreviewFinish);
-    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), specialization);
-    info.layout = layout_.get();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(context_.device(), cache.get(), 1, &info, nullptr, &pipeline), kWhat);
-    finishing_ = {context_.device(), pipeline, vkDestroyPipeline};
+    const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFinish));
+    finishing_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), &specialization, kWhat);
 }
 
 vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape) {
     const VkDevice device = context_.device();
     const Specialization constants{{features_, shape}};
     const VkSpecializationInfo specialization = constants.info();
-    const vulkan::Handle<VkShaderModule> vertex = makeShaderModule(device, Shader::PreviewVertex);
-    const vulkan::Handle<VkShaderModule> fragment = makeShaderModule(device, Shader::PreviewFragment);
-    const std::array<VkPipelineShaderStageCreateInfo, 2> stages{
-        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), specialization),
-        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), specialization)};
-
-    const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    // Of a cube around a sphere the far faces are drawn: they are there when the camera is in the cube, too.
-    raster.cullMode = shape == shared::kSphere ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
-    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-    raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const auto vertex = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewVertex));
+    const auto fragment = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFragment));
+    const std::array stages{vulkan::shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), &specialization),
+                            vulkan::shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), &specialization)};
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER; // near over distance: floats are fine where it is small
-    VkPipelineColorBlendAttachmentState all{};
-    all.colorWriteMask =
-        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = 1;
-    blend.pAttachments = &all;
-    const std::array<VkDynamicState, 2> states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamic.dynamicStateCount = static_cast<std::uint32_t>(states.size());
-    dynamic.pDynamicStates = states.data();
-
-    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-    info.stageCount = static_cast<std::uint32_t>(stages.size());
-    info.pStages = stages.data();
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamic;
-    info.layout = layout_.get();
-    info.renderPass = renderPass_.get();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device, cache.get(), 1, &info, nullptr, &pipeline), kWhat);
-    return {device, pipeline, vkDestroyPipeline};
+    vulkan::Rasterization rasterization;
+    // Of a cube around a sphere the far faces are drawn: they are there when the camera is in the cube, too.
+    rasterization.cull = shape == shared::kSphere ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
+    rasterization.depth = &depth;
+    return vulkan::makeGraphicsPipeline(device, cache.get(), layout_.get(), renderPass_.get(), stages, rasterization,
+                                        kWhat);
 }
 
 // ---- drawing ---------------------------------------------------------------------------------------------------------
@@ -265,7 +176,7 @@ void PreviewPass::uploadConstants(const scene::CameraDesc& camera, std::uint32_t
 void PreviewPass::record(VkCommandBuffer commands) {
     const auto bind = [&](VkPipelineBindPoint point, VkPipeline pipeline) {
         vkCmdBindPipeline(commands, point, pipeline);
-        vkCmdBindDescriptorSets(commands, point, layout_.get(), 0, 1, &set_, 0, nullptr);
+        vkCmdBindDescriptorSets(commands, point, layout_.get(), 0, 1, &bindings_.get(), 0, nullptr);
     };
     vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
     target_.begin(commands, renderPass_.get());

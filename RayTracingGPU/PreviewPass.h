@@ -6,6 +6,7 @@
 
 #include "Common/App/Engine.h"
 #include "Common/Vulkan/PipelineCache.h"
+#include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/PreviewTarget.h"
@@ -31,7 +32,6 @@ class PreviewPass {
     };
 
     void listDraws();
-    void createBindings();
     void createPipelines(const vulkan::PipelineCache& cache);
     vulkan::Handle<VkPipeline> createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape);
     void uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
@@ -45,9 +45,7 @@ class PreviewPass {
     vulkan::Buffer constants_;
     shared::PreviewLaunch launch_{};
 
-    vulkan::Handle<VkDescriptorSetLayout> setLayout_;
-    vulkan::Handle<VkDescriptorPool> pool_;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    vulkan::DescriptorSet bindings_;
     vulkan::Handle<VkPipelineLayout> layout_;
     vulkan::Handle<VkRenderPass> renderPass_;
     std::array<vulkan::Handle<VkPipeline>, 3> drawing_; // by shape: kSphere, kQuad, kTriangle

@@ -63,42 +63,6 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device) {
     return {device, renderPass, vkDestroyRenderPass};
 }
 
-PreviewTarget::Attachment PreviewTarget::attach(vulkan::VulkanContext& context, VkFormat format, VkExtent2D extent,
-                                                VkImageUsageFlags usage, VkImageAspectFlags aspect) {
-    const VkDevice device = context.device();
-    VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = format;
-    info.extent = {extent.width, extent.height, 1};
-    info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = usage;
-    Attachment result;
-    VkImage image = VK_NULL_HANDLE;
-    check(vkCreateImage(device, &info, nullptr, &image), kWhat);
-    result.image = {device, image, vkDestroyImage};
-
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device, image, &needs);
-    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex = context.memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device, &allocation, nullptr, &memory), "Memory for the preview");
-    result.memory = {device, memory, vkFreeMemory};
-    check(vkBindImageMemory(device, image, memory, 0), kWhat);
-
-    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    viewInfo.image = image;
-    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    viewInfo.format = format;
-    viewInfo.subresourceRange = {aspect, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device, &viewInfo, nullptr, &view), kWhat);
-    result.view = {device, view, vkDestroyImageView};
-    return result;
-}
-
 PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent)
     : extent_(extent) {
     const std::uint32_t most = context.limits().maxDrawnSide;
@@ -106,11 +70,19 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
         throw RenderError("the preview of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                           " pixels: " + context.info().name + " draws at most " + std::to_string(most) + " a side");
     }
-    color_ = attach(context, kPreviewColor, extent,
-                    VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
-    depth_ = attach(context, vulkan::kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                    VK_IMAGE_ASPECT_DEPTH_BIT);
-    const std::array<VkImageView, 2> views{color_.view.get(), depth_.view.get()};
+    const auto memoryType = [&](std::uint32_t allowed) {
+        return context.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0);
+    };
+    color_ = {context.device(),
+              {kPreviewColor, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+               VK_IMAGE_ASPECT_COLOR_BIT},
+              memoryType,
+              kWhat};
+    depth_ = {context.device(),
+              {vulkan::kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT},
+              memoryType,
+              kWhat};
+    const std::array<VkImageView, 2> views{color_.view(), depth_.view()};
     VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
     info.renderPass = renderPass;
     info.attachmentCount = static_cast<std::uint32_t>(views.size());
@@ -144,7 +116,7 @@ void PreviewTarget::end(VkCommandBuffer commands) const {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {extent_.width, extent_.height, 1};
-    vkCmdCopyImageToBuffer(commands, color_.image.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.get(), 1,
+    vkCmdCopyImageToBuffer(commands, color_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.get(), 1,
                            &region);
 }
 

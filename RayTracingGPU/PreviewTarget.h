@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "Common/Vulkan/Attachment.h"
 #include "Common/Vulkan/VulkanResources.h"
 
 namespace rt::gpu {
@@ -25,16 +26,8 @@ class PreviewTarget {
     void end(VkCommandBuffer commands) const;
 
   private:
-    struct Attachment {
-        vulkan::Handle<VkDeviceMemory> memory; // outlives the image
-        vulkan::Handle<VkImage> image;
-        vulkan::Handle<VkImageView> view;
-    };
-    static Attachment attach(vulkan::VulkanContext& context, VkFormat format, VkExtent2D extent,
-                             VkImageUsageFlags usage, VkImageAspectFlags aspect);
-
     VkExtent2D extent_{};
-    Attachment color_, depth_;
+    vulkan::Attachment color_, depth_;
     vulkan::Handle<VkFramebuffer> framebuffer_;
     vulkan::Buffer pixels_;
 };

@@ -6,6 +6,7 @@
 
 #include "Common/Shared/Features.h"
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Pipelines.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
@@ -49,13 +50,8 @@ class GroupList {
         return group;
     }
     std::uint32_t addStage(VkShaderStageFlagBits stage, Shader shader) {
-        modules_.push_back(makeShaderModule(device_, shader));
-        VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
-        info.stage = stage;
-        info.module = modules_.back().get();
-        info.pName = "main";
-        info.pSpecializationInfo = &constants_;
-        stages_.push_back(info);
+        modules_.push_back(vulkan::makeShaderModule(device_, shaderCode(shader)));
+        stages_.push_back(vulkan::shaderStage(stage, modules_.back().get(), &constants_));
         return static_cast<std::uint32_t>(stages_.size() - 1);
     }
     std::uint32_t add(const VkRayTracingShaderGroupCreateInfoKHR& group) {

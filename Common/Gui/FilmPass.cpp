@@ -12,68 +12,15 @@ namespace {
 using vulkan::check;
 using vulkan::Handle;
 
+constexpr const char* kWhat = "Preparing the picture";
 constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-template <std::size_t N>
-Handle<VkShaderModule> shaderModule(VkDevice device, const std::uint32_t (&words)[N]) {
-    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    info.codeSize = sizeof words;
-    info.pCode = words;
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device, &info, nullptr, &module), "Loading a shader");
-    return {device, module, vkDestroyShaderModule};
-}
-
 Handle<VkPipeline> createPipeline(VkDevice device, VkRenderPass renderPass, VkPipelineLayout layout) {
-    const auto vertex = shaderModule(device, Present_vert);
-    const auto fragment = shaderModule(device, Present_frag);
-    std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
-    for (VkPipelineShaderStageCreateInfo& stage : stages) {
-        stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-        stage.pName = "main";
-    }
-    stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = vertex.get();
-    stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    stages[1].module = fragment.get();
-
-    const VkPipelineVertexInputStateCreateInfo input{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-    VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
-    viewport.viewportCount = 1;
-    viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
-    VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask =
-        VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = 1;
-    blend.pAttachments = &attachment;
-    const std::array dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    VkPipelineDynamicStateCreateInfo dynamicState{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
-    dynamicState.dynamicStateCount = static_cast<std::uint32_t>(dynamic.size());
-    dynamicState.pDynamicStates = dynamic.data();
-
-    VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
-    info.stageCount = static_cast<std::uint32_t>(stages.size());
-    info.pStages = stages.data();
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
-    info.pColorBlendState = &blend;
-    info.pDynamicState = &dynamicState;
-    info.layout = layout;
-    info.renderPass = renderPass;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "Creating a pipeline");
-    return {device, pipeline, vkDestroyPipeline};
+    const auto vertex = vulkan::makeShaderModule(device, Present_vert);
+    const auto fragment = vulkan::makeShaderModule(device, Present_frag);
+    const std::array stages{vulkan::shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex.get()),
+                            vulkan::shaderStage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get())};
+    return vulkan::makeGraphicsPipeline(device, VK_NULL_HANDLE, layout, renderPass, stages, {}, kWhat);
 }
 
 // Every n-th pixel of every n-th row.
@@ -88,42 +35,12 @@ void copyReduced(const image::Image& image, std::uint32_t n, float* to) {
 FilmPass::FilmPass(GraphicsDevice& device, VkRenderPass renderPass) : device_(device) {
     std::array<VkDescriptorSetLayoutBinding, 2> bindings{};
     for (std::uint32_t i = 0; i < bindings.size(); ++i) {
-        bindings[i].binding = i;
-        bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_FRAGMENT_BIT;
+        bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
     }
-    VkDescriptorSetLayoutCreateInfo setInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    setInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    setInfo.pBindings = bindings.data();
-    VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device.device(), &setInfo, nullptr, &setLayout), "Creating a descriptor layout");
-    setLayout_ = {device.device(), setLayout, vkDestroyDescriptorSetLayout};
-
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2};
-    VkDescriptorPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    poolInfo.maxSets = 1;
-    poolInfo.poolSizeCount = 1;
-    poolInfo.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device.device(), &poolInfo, nullptr, &pool), "Creating a descriptor pool");
-    descriptorPool_ = {device.device(), pool, vkDestroyDescriptorPool};
-    VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocation.descriptorPool = pool;
-    allocation.descriptorSetCount = 1;
-    allocation.pSetLayouts = &setLayout;
-    check(vkAllocateDescriptorSets(device.device(), &allocation, &set_), "Creating a descriptor set");
-
-    const VkPushConstantRange range{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(PresentConstants)};
-    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layoutInfo.setLayoutCount = 1;
-    layoutInfo.pSetLayouts = &setLayout;
-    layoutInfo.pushConstantRangeCount = 1;
-    layoutInfo.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device.device(), &layoutInfo, nullptr, &layout), "Creating a pipeline layout");
-    layout_ = {device.device(), layout, vkDestroyPipelineLayout};
-    pipeline_ = createPipeline(device.device(), renderPass, layout);
+    bindings_ = vulkan::DescriptorSet(device.device(), bindings, kWhat);
+    const VkPushConstantRange push{VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(PresentConstants)};
+    layout_ = vulkan::makePipelineLayout(device.device(), push, bindings_.layout(), kWhat);
+    pipeline_ = createPipeline(device.device(), renderPass, layout_.get());
     for (std::size_t slot = 0; slot < images_.size(); ++slot) provide(slot, 12);
 }
 
@@ -135,14 +52,7 @@ void FilmPass::provide(std::size_t slot, VkDeviceSize bytes) {
     images_[slot] =
         GraphicsBuffer(device_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                        VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    const VkDescriptorBufferInfo buffer{images_[slot].get(), 0, VK_WHOLE_SIZE};
-    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set_;
-    write.dstBinding = static_cast<std::uint32_t>(slot);
-    write.descriptorCount = 1;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = &buffer;
-    vkUpdateDescriptorSets(device_.device(), 1, &write, 0, nullptr);
+    bindings_.write(static_cast<std::uint32_t>(slot), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, images_[slot].get());
 }
 
 void FilmPass::upload(VkCommandBuffer commands, std::uint32_t frame, Slot which, const image::Image& image) {
@@ -185,7 +95,8 @@ void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstant
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &part);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &bindings_.get(),
+                            0, nullptr);
     vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants, &constants);
     vkCmdDraw(commands, 3, 1, 0, 0);
 }

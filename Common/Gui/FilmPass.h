@@ -8,6 +8,7 @@
 
 #include "Common/Gui/GraphicsDevice.h"
 #include "Common/Image/Image.h"
+#include "Common/Vulkan/Pipelines.h"
 
 namespace rt::gui {
 
@@ -45,9 +46,7 @@ class FilmPass {
     void provide(std::size_t slot, VkDeviceSize bytes);
 
     GraphicsDevice& device_;
-    vulkan::Handle<VkDescriptorSetLayout> setLayout_;
-    vulkan::Handle<VkDescriptorPool> descriptorPool_;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
+    vulkan::DescriptorSet bindings_; // the images
     vulkan::Handle<VkPipelineLayout> layout_;
     vulkan::Handle<VkPipeline> pipeline_;
     std::array<GraphicsBuffer, 2> images_;                               // by slot

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "Common/Gui/WindowRenderPass.h"
 #include "Common/Vulkan/Check.h"
 
 namespace rt::gui {
@@ -24,7 +25,9 @@ Handle<VkSemaphore> createSemaphore(VkDevice device) {
 
 Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(device), window_(window) {
     chooseFormat();
-    createRenderPass();
+    renderPass_ = makeWindowRenderPass(device.device(), format_.format,
+                                       VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the picture and its surroundings cover everything
+                                       VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     createFrames();
     film_ = std::make_unique<FilmPass>(device, renderPass_.get());
     provideSwapchain();
@@ -49,38 +52,6 @@ void Presenter::chooseFormat() {
             if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) format_ = format;
         }
     }
-}
-
-void Presenter::createRenderPass() {
-    VkAttachmentDescription attachment{};
-    attachment.format = format_.format;
-    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE; // the picture and its surroundings cover everything
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    attachment.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
-    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass{};
-    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &reference;
-    // The layout changes only once the swapchain has given the image.
-    VkSubpassDependency dependency{};
-    dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
-    dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    dependency.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    dependency.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT;
-    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
-    info.attachmentCount = 1;
-    info.pAttachments = &attachment;
-    info.subpassCount = 1;
-    info.pSubpasses = &subpass;
-    info.dependencyCount = 1;
-    info.pDependencies = &dependency;
-    VkRenderPass renderPass = VK_NULL_HANDLE;
-    check(vkCreateRenderPass(device_.device(), &info, nullptr, &renderPass), "Creating a render pass");
-    renderPass_ = {device_.device(), renderPass, vkDestroyRenderPass};
 }
 
 void Presenter::createFrames() {

@@ -49,7 +49,6 @@ class Presenter {
     };
 
     void chooseFormat();
-    void createRenderPass();
     void createFrames();
     bool provideSwapchain();
     void dropSwapchain();

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "Common/Gui/WindowRenderPass.h"
 #include "Common/Shared/Tonemap.h"
+#include "Common/Vulkan/Attachment.h"
 #include "Common/Vulkan/Check.h"
 
 namespace rt::gui {
@@ -13,16 +15,25 @@ namespace {
 using vulkan::check;
 using vulkan::Handle;
 
+constexpr const char* kWhat = "Drawing a snapshot";
 constexpr VkMemoryPropertyFlags kReadable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 // An image to draw to, and to copy from afterwards.
 class Target {
   public:
-    Target(GraphicsDevice& device, VkFormat format, VkExtent2D extent) : extent_(extent) {
-        createImage(device, format);
-        createRenderPass(device.device(), format);
+    Target(GraphicsDevice& device, VkFormat format, VkExtent2D extent)
+        : extent_(extent),
+          color_(device.device(),
+                 {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                  VK_IMAGE_ASPECT_COLOR_BIT},
+                 [&](std::uint32_t allowed) {
+                     return device.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+                 },
+                 kWhat),
+          renderPass_(makeWindowRenderPass(device.device(), format, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                           VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL)) {
         VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
-        const VkImageView view = view_.get();
+        const VkImageView view = color_.view();
         info.renderPass = renderPass_.get();
         info.attachmentCount = 1;
         info.pAttachments = &view;
@@ -30,7 +41,7 @@ class Target {
         info.height = extent.height;
         info.layers = 1;
         VkFramebuffer framebuffer = VK_NULL_HANDLE;
-        check(vkCreateFramebuffer(device.device(), &info, nullptr, &framebuffer), "Drawing a snapshot");
+        check(vkCreateFramebuffer(device.device(), &info, nullptr, &framebuffer), kWhat);
         framebuffer_ = {device.device(), framebuffer, vkDestroyFramebuffer};
     }
 
@@ -52,7 +63,7 @@ class Target {
         drawn.oldLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
         drawn.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
         drawn.srcQueueFamilyIndex = drawn.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-        drawn.image = image_.get();
+        drawn.image = color_.image();
         drawn.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
                              0, nullptr, 0, nullptr, 1, &drawn);
@@ -60,7 +71,7 @@ class Target {
         copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         copy.imageOffset = {part.offset.x, part.offset.y, 0};
         copy.imageExtent = {part.extent.width, part.extent.height, 1};
-        vkCmdCopyImageToBuffer(commands, image_.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &copy);
+        vkCmdCopyImageToBuffer(commands, color_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &copy);
         VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
         written.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
         written.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
@@ -69,71 +80,8 @@ class Target {
     }
 
   private:
-    void createImage(GraphicsDevice& device, VkFormat format) {
-        VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
-        info.imageType = VK_IMAGE_TYPE_2D;
-        info.format = format;
-        info.extent = {extent_.width, extent_.height, 1};
-        info.mipLevels = info.arrayLayers = 1;
-        info.samples = VK_SAMPLE_COUNT_1_BIT;
-        info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-        VkImage image = VK_NULL_HANDLE;
-        check(vkCreateImage(device.device(), &info, nullptr, &image), "Drawing a snapshot");
-        image_ = {device.device(), image, vkDestroyImage};
-        VkMemoryRequirements needs{};
-        vkGetImageMemoryRequirements(device.device(), image, &needs);
-        VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-        allocation.allocationSize = needs.size;
-        allocation.memoryTypeIndex = device.memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        VkDeviceMemory memory = VK_NULL_HANDLE;
-        check(vkAllocateMemory(device.device(), &allocation, nullptr, &memory), "Drawing a snapshot");
-        memory_ = {device.device(), memory, vkFreeMemory};
-        check(vkBindImageMemory(device.device(), image, memory, 0), "Drawing a snapshot");
-        VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-        viewInfo.image = image;
-        viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        viewInfo.format = format;
-        viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-        VkImageView view = VK_NULL_HANDLE;
-        check(vkCreateImageView(device.device(), &viewInfo, nullptr, &view), "Drawing a snapshot");
-        view_ = {device.device(), view, vkDestroyImageView};
-    }
-
-    void createRenderPass(VkDevice device, VkFormat format) {
-        VkAttachmentDescription attachment{};
-        attachment.format = format;
-        attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-        attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-        attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-        attachment.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-        const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-        VkSubpassDescription subpass{};
-        subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-        subpass.colorAttachmentCount = 1;
-        subpass.pColorAttachments = &reference;
-        // As the presenter's: compatible render passes agree in that.
-        VkSubpassDependency dependency{};
-        dependency.srcSubpass = VK_SUBPASS_EXTERNAL;
-        dependency.srcStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-        dependency.dstStageMask = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-        dependency.dstAccessMask = VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT;
-        VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
-        info.attachmentCount = 1;
-        info.pAttachments = &attachment;
-        info.subpassCount = 1;
-        info.pSubpasses = &subpass;
-        info.dependencyCount = 1;
-        info.pDependencies = &dependency;
-        VkRenderPass renderPass = VK_NULL_HANDLE;
-        check(vkCreateRenderPass(device, &info, nullptr, &renderPass), "Drawing a snapshot");
-        renderPass_ = {device, renderPass, vkDestroyRenderPass};
-    }
-
     VkExtent2D extent_;
-    Handle<VkDeviceMemory> memory_;
-    Handle<VkImage> image_;
-    Handle<VkImageView> view_;
+    vulkan::Attachment color_;
     Handle<VkRenderPass> renderPass_;
     Handle<VkFramebuffer> framebuffer_;
 };
@@ -154,7 +102,7 @@ VkRect2D within(const Rect& part, VkExtent2D extent) {
 
 image::Image takeSnapshot(GraphicsDevice& device, VkFormat format, VkExtent2D extent, const Rect& part,
                           const std::function<void(VkCommandBuffer)>& draw) {
-    check(vkDeviceWaitIdle(device.device()), "Drawing a snapshot"); // what `draw` writes to may be in use
+    check(vkDeviceWaitIdle(device.device()), kWhat); // what `draw` writes to may be in use
     const VkRect2D area = within(part, extent);
     image::Image picture(area.extent.width, area.extent.height);
     const Target target(device, format, extent);

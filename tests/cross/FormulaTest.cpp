@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include <FormulaProbe.comp.h>
 #include "Shaders/FormulaProbe.h"
@@ -24,23 +25,6 @@ using Words = std::array<std::uint32_t, 4>;
 
 constexpr std::uint32_t kInputs = 100'000;
 
-vulkan::Handle<VkPipeline> makePipeline(VkDevice device, VkShaderModule module, VkPipelineLayout layout,
-                                        std::uint32_t family) {
-    const VkSpecializationMapEntry entry{0, 0, sizeof family};
-    const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
-    VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module;
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &constants;
-    info.layout = layout;
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    vulkan::check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
-                  "Compiling family " + std::to_string(family) + " of formulas");
-    return {device, pipeline, vkDestroyPipeline};
-}
-
 // Results of all formulas, kInputs of each.
 std::vector<Words> runOnDevice(vulkan::VulkanContext& context) {
     struct Launch {
@@ -48,29 +32,22 @@ std::vector<Words> runOnDevice(vulkan::VulkanContext& context) {
         std::uint32_t count;
     };
     const VkDevice device = context.device();
-    VkShaderModuleCreateInfo code{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    code.codeSize = sizeof FormulaProbe_comp;
-    code.pCode = FormulaProbe_comp;
-    VkShaderModule module = VK_NULL_HANDLE;
-    vulkan::check(vkCreateShaderModule(device, &code, nullptr, &module), "Loading the probe");
-    const vulkan::Handle<VkShaderModule> moduleOwner(device, module, vkDestroyShaderModule);
-
+    const auto module = vulkan::makeShaderModule(device, FormulaProbe_comp);
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Launch)};
-    VkPipelineLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layoutInfo.pushConstantRangeCount = 1;
-    layoutInfo.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    vulkan::check(vkCreatePipelineLayout(device, &layoutInfo, nullptr, &layout), "Loading the probe");
-    const vulkan::Handle<VkPipelineLayout> layoutOwner(device, layout, vkDestroyPipelineLayout);
+    const auto layout = vulkan::makePipelineLayout(device, push, VK_NULL_HANDLE, "Loading the probe");
 
     std::vector<Words> results(std::size_t{shared::kProbeCount} * kInputs);
     const vulkan::Buffer buffer(context, results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
     const Launch launch{buffer.address(), kInputs};
     for (std::uint32_t family = 0; family < shared::kFamilyCount; ++family) {
-        const vulkan::Handle<VkPipeline> pipeline = makePipeline(device, module, layout, family);
+        const VkSpecializationMapEntry entry{0, 0, sizeof family};
+        const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
+        const std::string what = "Compiling family " + std::to_string(family) + " of formulas";
+        const auto pipeline = vulkan::makeComputePipeline(device, VK_NULL_HANDLE, layout.get(), module.get(), &constants,
+                                                          what.c_str());
         context.run([&](VkCommandBuffer commands) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-            vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
+            vkCmdPushConstants(commands, layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
             vkCmdDispatch(commands, (kInputs + 63) / 64, shared::kProbeCount, 1);
             vulkan::barrier(commands);
         });
