@@ -54,8 +54,9 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
     }
     std::erase_if(items, [&](const CLI::ConfigItem& item) { return leftOut_.count("--" + item.name) > 0; });
     for (CLI::ConfigItem& item : items) {
-        const CLI::Option* option = app_.get_option_no_throw("--" + item.name);
-        if (option == nullptr) continue; // CLI11 will complain
+        if (!item.parents.empty()) throw CLI::ConfigError("[" + item.parents.front() + "]: there are no sections");
+        const CLI::Option* option = app_.get_option_no_throw((item.name.size() == 1 ? "-" : "--") + item.name);
+        if (option == nullptr) throw CLI::ConfigError("\"" + item.name + "\" is no flag; --help lists them all");
         if (option->count() == 0) supplied_.insert(option->get_name());
         const bool oneValue = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast;
         if (oneValue && item.inputs.size() > 1) item.inputs = {CLI::detail::join(item.inputs, ",")};

@@ -1,6 +1,7 @@
 #include "Common/Core/RunMain.h"
 
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <string>
@@ -20,6 +21,9 @@ int report(const char* program, std::string message, ExitCode code) {
 } // namespace
 
 int runMain(const char* program, const std::function<int()>& body) {
+#ifdef SIGXFSZ
+    std::signal(SIGXFSZ, SIG_IGN); // a limit of the size of files is a failing write like any other
+#endif
     try {
         const int code = body();
         std::cout.flush();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <sstream>
@@ -46,6 +47,26 @@ std::string listed(std::initializer_list<const char*> names) {
     return text;
 }
 
+// Walks over a text and leaves word of how far: what the library's parser has read when something but the syntax is wrong.
+struct Reader {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    const char* at;
+    const char** read;
+
+    reference operator*() const { return *at; }
+    Reader& operator++() {
+        *read = ++at;
+        return *this;
+    }
+    bool operator==(const Reader& other) const { return at == other.at; }
+    bool operator!=(const Reader& other) const { return at != other.at; }
+};
+
 std::string rangeText(double low, double high) {
     std::ostringstream text;
     text << "from " << low << " to " << high;
@@ -55,22 +76,28 @@ std::string rangeText(double low, double high) {
 } // namespace
 
 Json parseJson(const std::string& text, const std::string& file) {
+    const char* const end = text.data() + text.size();
+    const char* read = text.data();
+    const auto place = [&] {
+        const std::ptrdiff_t count = read - text.data();
+        return file + ":" + lineAndColumn(text, count > 0 ? static_cast<std::size_t>(count - 1) : 0) + ": ";
+    };
     std::vector<std::set<std::string>> keys; // of the objects being read
     const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > kMaxDepth) throw InputError(file + ": values are nested deeper than " + std::to_string(kMaxDepth));
+        if (depth > kMaxDepth) throw InputError(place() + "values are nested deeper than " + std::to_string(kMaxDepth));
         if (event == Json::parse_event_t::object_start) keys.emplace_back();
         if (event == Json::parse_event_t::object_end) keys.pop_back();
         if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-            throw InputError(file + ": key " + excerpt(parsed) + " appears twice in one object");
+            throw InputError(place() + "key " + excerpt(parsed) + " appears twice in one object");
         return true;
     };
     try {
-        return Json::parse(text, check);
+        return Json::parse(Reader{text.data(), &read}, Reader{end, &read}, check);
     } catch (const Json::parse_error& error) {
         throw InputError(file + ":" + lineAndColumn(text, error.byte > 0 ? error.byte - 1 : 0) + ": " +
                          reason(error.what()));
     } catch (const Json::exception& error) { // a number that no double can hold
-        throw InputError(file + ": " + reason(error.what()));
+        throw InputError(place() + reason(error.what()));
     }
 }
 

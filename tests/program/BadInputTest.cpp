@@ -1,6 +1,10 @@
 // Files that are missing, damaged or out of reach: one line, the documented exit code, nothing left behind.
 #include <fstream>
 
+#ifndef _WIN32
+#include <sys/resource.h>
+#endif
+
 #include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
 
@@ -104,6 +108,20 @@ TEST_F(BadInput, FullDisk) {
     EXPECT_TRUE(failsWith(render({"--stats", "s-full.json", "-o", "b.pfm"}), 1, "s-full.json"));
     EXPECT_TRUE(bytesOf("a.pfm") == bytesOf("b.pfm"));
 }
+
+#ifndef _WIN32
+TEST_F(BadInput, FilesLargerThanTheLimit) {
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit small = before;
+    small.rlim_cur = 4096;
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0); // of the program, too
+    const Outcome outcome = render({"--width", "64", "--height", "64", "-o", "a.pfm"});
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &before), 0);
+    EXPECT_TRUE(failsWith(outcome, 1, "a.pfm"));
+    EXPECT_FALSE(fs::exists(path("a.pfm")));
+}
+#endif
 
 TEST_F(BadInput, MoreThanTheMemory) {
 #ifdef RT_ADDRESS_SANITIZER

@@ -359,6 +359,10 @@ TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
         const std::string file = writeFile("bad", text);
         EXPECT_EQ(error({"--config", file}).rfind(file + ": ", 0), 0u) << text << " -> " << error({"--config", file});
     }
+    const std::string unknown = writeFile("unknown", "spp = 5\nframes = 3\n");
+    EXPECT_EQ(error({"--config", unknown}), unknown + ": \"frames\" is no flag; --help lists them all");
+    const std::string section = writeFile("section", "[image]\nspp = 5\n");
+    EXPECT_EQ(error({"--config", section}), section + ": [image]: there are no sections");
     const std::string file = writeFile("good.json", "{}");
     EXPECT_EQ(error({"--config", file}), "no error");
     EXPECT_EQ(error({"--config", file, "--no-config"}), "--no-config: contradicts --config");

@@ -216,8 +216,10 @@ TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
         << errorOf("{\n  \"objects\": [,]\n}");
     EXPECT_EQ(errorOf("").rfind("test.json:1:1: ", 0), 0u) << errorOf("");
     EXPECT_EQ(errorOf("{\"objects\": [NaN]}").rfind("test.json:1:14: ", 0), 0u) << errorOf("{\"objects\": [NaN]}");
-    EXPECT_NE(errorOf("{\"objects\": [1e999]}").find("1e999"), std::string::npos);
-    EXPECT_NE(errorOf("{\"objects\": [], \"objects\": []}").find("\"objects\" appears twice"), std::string::npos);
+    EXPECT_EQ(errorOf("{\n\"objects\": [1e999]}"), "test.json:2:18: number overflow parsing '1e999'");
+    EXPECT_EQ(errorOf("{\"objects\": [],\n\"objects\": []}"),
+              "test.json:2:9: key \"objects\" appears twice in one object");
+    EXPECT_EQ(errorOf(std::string(300, '[')), "test.json:1:258: values are nested deeper than 256");
     EXPECT_NE(errorOf(std::string("\0\0\0\0", 4)), "no error");
     EXPECT_NE(errorOf("{\"objects\": [], \"title\": \"\xff\xfe\"}"), "no error");
 }
