@@ -68,7 +68,7 @@ void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected.clear();
     const app::Picture& picture = gui_.state.picture;
     if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
-    const auto [x, y] = *pixel;
+    const std::uint32_t x = (*pixel)[0], y = (*pixel)[1]; // Clang 14 captures no structured bindings
     const auto has = [&](const std::shared_ptr<const image::Image>& image) {
         return image && x < image->width && y < image->height;
     };
