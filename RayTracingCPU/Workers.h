@@ -13,6 +13,7 @@
 #define RT_NO_STD_EXECUTION 1
 #endif
 
+#include "Common/Accel/Parallel.h"
 #include "RayTracingCPU/CpuEngine.h"
 
 namespace rt::cpu {
@@ -25,6 +26,9 @@ void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
         for (std::uint32_t i = 0; i < count; ++i) work(i);
         return;
     }
+#if defined(RT_THREADS_SANITIZED)
+    accel::onThreads(count, [&work](std::size_t i) { work(static_cast<std::uint32_t>(i)); });
+#else
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);
 #if defined(RT_NO_STD_EXECUTION)
@@ -35,6 +39,7 @@ void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
     } else {
         std::for_each(std::execution::par_unseq, indices.begin(), indices.end(), work);
     }
+#endif
 #endif
 }
 

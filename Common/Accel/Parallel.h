@@ -14,11 +14,31 @@
 #include <tbb/parallel_for.h>
 #endif
 
+#if defined(__SANITIZE_THREAD__)
+#define RT_THREADS_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define RT_THREADS_SANITIZED 1
+#endif
+#endif
+
 namespace rt::accel {
 
 inline std::size_t threadCount(std::size_t threads) {
     return threads != 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
 }
+
+#ifdef RT_THREADS_SANITIZED
+// Calls work(i) for each i in [0, count), each on a thread of its own. ThreadSanitizer cannot see how oneTBB's library, which
+// is not compiled with it, hands work from thread to thread and takes each hand-over for a race; it sees how these do.
+template <class Work>
+void onThreads(std::size_t count, const Work& work) {
+    std::vector<std::thread> threads;
+    threads.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back([&work, i] { work(i); });
+    for (std::thread& thread : threads) thread.join();
+}
+#endif
 
 // Calls f(i) once for each i in [0, count), on up to `threads` threads (0: as many as the machine has). Calls start in
 // order of i, so the largest pieces of work belong first. f must not throw.
@@ -37,7 +57,9 @@ void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
             f(i);
         }
     };
-#if defined(__cpp_lib_execution)
+#if defined(RT_THREADS_SANITIZED)
+    onThreads(workers, work);
+#elif defined(__cpp_lib_execution)
     std::vector<std::size_t> indices(workers);
     std::iota(indices.begin(), indices.end(), std::size_t{0});
     std::for_each(std::execution::par, indices.begin(), indices.end(), work);
