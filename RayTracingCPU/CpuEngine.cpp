@@ -172,7 +172,7 @@ class CpuEngine final : public app::Engine {
         features_ = app::renderFeatures(s, camera, settings);
         kernel_ = &chooseKernel(kernels_, features_);
         settings_ = settings;
-        context_ = {&scene_->view, app::makeRenderParams(settings),
+        context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
         film_ = Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
         passEnd_ = 0;

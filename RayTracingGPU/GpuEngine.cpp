@@ -135,7 +135,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (shared::has(features_, shared::kFeatureMovingSpheres)) scene_->provideMotion(context_);
     if (settings.maxDepth > settings_.maxDepth) launchSize_.reset();
     settings_ = settings;
-    params_ = app::makeRenderParams(settings);
+    params_ = app::makeRenderParams(scene_->compiled(), settings);
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
     uploadConstants(camera);
     if (isCompute()) {

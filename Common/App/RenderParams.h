@@ -8,8 +8,8 @@
 
 namespace rt::app {
 
-// The settings as kernels see them.
-shared::RenderParams makeRenderParams(const RenderSettings& settings);
+// The settings as kernels see them for this scene.
+shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings);
 
 // What a kernel needs for this scene, camera and settings, and whatever else the settings force on it.
 std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,

@@ -24,7 +24,6 @@ RT_SHARED_BEGIN
 
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
-const uint kRouletteStart = 1u; // vertices that scatter before the roulette begins: measured best in error for the time
 const float kRouletteMin = 0.05f;
 const float kRouletteMax = 0.95f;
 
@@ -346,7 +345,7 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     }
     s.ray.direction = b.wi;
     s.pdf = b.delta != 0u ? 0.0f : b.pdf;
-    if (params.russianRoulette != 0u && v.index >= kRouletteStart) {
+    if (params.russianRoulette != 0u && v.index >= params.russianRoulette) {
         float survival = clamp(strongest, kRouletteMin, kRouletteMax);
         if (v.numbers.choice.x >= survival) return false;
         s.throughput /= survival;

@@ -269,7 +269,7 @@ struct RenderParams {
     uint samplerKind;
     uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel
     uint strataY;
-    uint russianRoulette; // 0 or 1
+    uint russianRoulette; // vertices that scatter before it begins; 0: there is none
 };
 
 // ---- rays ------------------------------------------------------------------------------------------------------------
