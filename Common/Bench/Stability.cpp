@@ -236,7 +236,9 @@ class Suite {
         body.emission = dvec3(0.5), body.sides = Sides::Both;
         desc.materials["balanced"] = body;
         desc.objects.push_back({ball});
-        addMean("radius ratio 1e7", render(desc, 256), 1, 1e-4);
+        // Single precision knows the ground's surface to a unit only, as large as the ball: light sampling loses a thousandth
+        // (measured: 0.00103 +- 0.00001; scattering alone loses less than 0.00002).
+        addMean("radius ratio 1e7", render(desc, 256), 1, 2e-3);
     }
 
     // 0.1 has no finite binary fraction: sums of it go wrong first.

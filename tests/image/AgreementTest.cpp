@@ -23,8 +23,8 @@ TEST_P(Agreement, OfAllWaysToSampleLights) {
     const auto scene = scene::compileScene(scene::findBuiltinScene(GetParam()), options);
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
-    const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 1000);
-    std::uint32_t seed = 2000;
+    const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 3000);
+    std::uint32_t seed = 4000;
     for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
         const auto result =
             image::testImages(independentImages(*engine, *scene, sampling, kSide, kSpp, seed), reference);

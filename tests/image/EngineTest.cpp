@@ -126,10 +126,11 @@ TEST(CpuEngine, InterruptionsDoNotShow) {
     engine->reset(scene->camera, settings);
     std::atomic<bool> cancel{false};
     bool finished = false;
-    while (!finished) {
+    // In the end it is long enough for a tile, however slow.
+    for (std::chrono::microseconds wait = 3ms; !finished; wait += wait / 8) {
         cancel = false;
-        std::jthread interrupter([&cancel] {
-            std::this_thread::sleep_for(3ms);
+        std::jthread interrupter([&cancel, wait] {
+            std::this_thread::sleep_for(wait);
             cancel = true;
         });
         finished = engine->renderSome({10s, &cancel}).finished;
