@@ -7,6 +7,7 @@ namespace rt::accel {
 
 struct AccelStorage {
     LargeArray<WideNode> nodes;
+    LargeArray<SparseNode> sparseNodes;
     LargeArray<SphereBlock> spheres;
     LargeArray<MovingSphereBlock> movingSpheres;
     LargeArray<QuadBlock> quads;

@@ -36,6 +36,19 @@ struct alignas(64) WideNode {
     Reference child[kWidth];
 };
 
+// A node of a sparse tree, in which rays visit many nodes for each leaf that they enter, and no instances: half the
+// memory. Slabs as above, in steps of SparseGrid from its origin, rounded outwards. In place of a child that does not
+// exist there is some leaf of the tree.
+struct alignas(64) SparseNode {
+    std::uint16_t planes[6][kWidth];
+    Reference child[kWidth];
+};
+
+struct SparseGrid {
+    shared::vec3 origin{0.0f};
+    float stepsPerUnit = 1.0f; // a power of two
+};
+
 // Lanes without a primitive hold NaN, which no ray hits. Lanes are in order of primitive index.
 struct alignas(32) SphereBlock {
     float center[3][kWidth];
@@ -99,6 +112,8 @@ struct AccelView {
 
     Reference root = 0; // of the world: its own primitives and the instances
     const WideNode* nodes = nullptr;
+    const SparseNode* sparseNodes = nullptr; // if not null, those of the world, the root first
+    SparseGrid sparseGrid;
     const SphereBlock* spheres = nullptr;
     const MovingSphereBlock* movingSpheres = nullptr;
     const QuadBlock* quads = nullptr;

@@ -8,6 +8,7 @@
 #include "Common/Accel/BlockFill.h"
 #include "Common/Accel/Parallel.h"
 #include "Common/Accel/SceneTrees.h"
+#include "Common/Accel/SparseBvh.h"
 #include "Common/Accel/WideBvh.h"
 #include "Common/Shared/Features.h"
 
@@ -20,7 +21,7 @@ constexpr std::size_t kLargeBytes = 1u << 20; // of a tree that traversal fetche
 // One geometry's tree between its construction and the filling of its leaf blocks.
 struct BuiltTree {
     TreeItems items;
-    WideLeaves filling;
+    LeafFilling filling;
 };
 
 template <class Block>
@@ -37,7 +38,7 @@ FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std
 }
 
 template <class Block>
-void fillLeaf(const LargeArray<Block>& blocks, const WideLeaf& leaf, const BuiltTree& tree, const AccelInput& input) {
+void fillLeaf(const LargeArray<Block>& blocks, const LeafItems& leaf, const BuiltTree& tree, const AccelInput& input) {
     for (std::uint32_t i = 0; i < leaf.count; ++i) {
         Block& block = blocks[leaf.firstBlock + i / kWidth];
         if (i % kWidth == 0) block = emptyBlock<Block>();
@@ -55,6 +56,7 @@ class Assembly {
     void fill(AccelStorage& storage);
     bool hasWorld() const { return hasWorld_; } // instances may all be of empty geometries
     Reference root() const { return roots_[0]; }
+    const SparseGrid& sparseGrid() const { return sparse_.grid; }
 
   private:
     void fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const;
@@ -63,7 +65,9 @@ class Assembly {
     const BuildSettings& settings_;
     const std::atomic<bool>* cancel_;
     std::atomic<std::uint64_t>* primitivesDone_;
-    WideBvh wide_;
+    std::vector<WideNode> nodes_;
+    SparseBvh sparse_; // the world, if it is sparse
+    BlockCounts blocks_;
     std::vector<BuiltTree> trees_;
     std::vector<Reference> roots_; // of each geometry
     bool hasWorld_ = false;
@@ -72,10 +76,16 @@ class Assembly {
 bool Assembly::buildTrees() {
     roots_.resize(input_.geometries.size());
     return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
-        WideLeaves leaves;
-        roots_[tree.geometry] = wide_.append(tree.bvh, tree.kinds, leaves);
+        LeafFilling filling;
+        LeafMaker leafMaker(tree.bvh, tree.kinds, blocks_, filling);
+        if (input_.instances.empty() && isSparse(tree.bvh)) {
+            sparse_ = makeSparse(tree.bvh, leafMaker);
+        } else {
+            roots_[tree.geometry] = appendWide(tree.bvh, leafMaker, nodes_);
+        }
+        leafMaker.finish();
         hasWorld_ = hasWorld_ || tree.geometry == 0;
-        trees_.push_back({std::move(tree.items), std::move(leaves)});
+        trees_.push_back({std::move(tree.items), std::move(filling)});
     });
 }
 
@@ -83,7 +93,7 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
     const Chunks chunks(tree.filling.leaves.size(), kLeafChunk);
     parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
         for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
-            const WideLeaf& leaf = tree.filling.leaves[i];
+            const LeafItems& leaf = tree.filling.leaves[i];
             switch (leaf.kind) {
                 case LeafKind::Sphere:
                     fillLeaf(storage.spheres, leaf, tree, input_);
@@ -112,9 +122,11 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
 }
 
 void Assembly::fill(AccelStorage& storage) {
-    const auto blocks = [&](LeafKind kind) { return wide_.blocks[static_cast<std::uint32_t>(kind)]; };
-    storage.nodes = LargeArray<WideNode>(wide_.nodes.size());
-    std::copy(wide_.nodes.begin(), wide_.nodes.end(), storage.nodes.data());
+    const auto blocks = [&](LeafKind kind) { return blocks_.of[static_cast<std::uint32_t>(kind)]; };
+    storage.nodes = LargeArray<WideNode>(nodes_.size());
+    std::copy(nodes_.begin(), nodes_.end(), storage.nodes.data());
+    storage.sparseNodes = LargeArray<SparseNode>(sparse_.nodes.size());
+    std::copy(sparse_.nodes.begin(), sparse_.nodes.end(), storage.sparseNodes.data());
     storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
     storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));
     storage.quads = LargeArray<QuadBlock>(blocks(LeafKind::Quad));
@@ -172,6 +184,8 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.flat = !assembly.hasWorld();
     view.root = assembly.root();
     view.isLarge = accel->bytes() > kLargeBytes;
+    view.sparseNodes = storage.sparseNodes.data();
+    view.sparseGrid = assembly.sparseGrid();
     view.nodes = storage.nodes.data();
     view.spheres = storage.spheres.data();
     view.movingSpheres = storage.movingSpheres.data();
@@ -183,9 +197,9 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 
 std::size_t CpuAccel::bytes() const {
     const AccelStorage& s = *storage_;
-    return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.spheres.bytes() + s.movingSpheres.bytes() + s.quads.bytes() +
-           s.triangles.bytes() + s.instances.bytes() + s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() +
-           s.flatQuads.bytes() + s.flatTriangles.bytes();
+    return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.sparseNodes.bytes() + s.spheres.bytes() +
+           s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.instances.bytes() +
+           s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() + s.flatQuads.bytes() + s.flatTriangles.bytes();
 }
 
 } // namespace rt::accel

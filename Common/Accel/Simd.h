@@ -13,9 +13,14 @@
 //   lane(a, i), least(a)
 //   firstOf(m, a)       the lane of the lowest bit of m, of which one must be set
 //   Index8              eight words, only carried along: loadIndex, select, firstOf
+//   topBits(a)          the top bit of word i in bit i
+//   fromWords(p)        eight words of 16 bits as floats
+//   storePacked(p, a, lanes)  the lanes of `a` whose bits are set, side by side; writes all eight words, returns how many
 //
 // Everything has internal linkage: each instruction set's copy stays in its own object file.
 #pragma once
+#include <cstdint>
+
 #include "Common/Accel/LowestBit.h"
 #include "Common/Shared/Shim.h"
 

@@ -29,6 +29,9 @@ RT_FN Float8 broadcast(float x) {
 RT_FN Index8 loadIndex(const std::uint32_t* p) {
     return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
 }
+RT_FN Float8 fromWords(const std::uint16_t* p) {
+    return {_mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p))))};
+}
 RT_FN void store(float* p, Float8 a) {
     _mm256_store_ps(p, a.v);
 }
@@ -109,6 +112,29 @@ RT_FN float firstOf(Mask8 m, Float8 a) {
 }
 RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
     return lane(a, lowestBit(bits(m)));
+}
+// [lanes]: the indices of the bits that are set, a byte each.
+struct PackedLanes {
+    std::uint64_t indices[256];
+    constexpr PackedLanes() : indices{} {
+        for (unsigned lanes = 0; lanes < 256; ++lanes) {
+            unsigned count = 0;
+            for (unsigned i = 0; i < 8; ++i) {
+                if ((lanes >> i & 1u) != 0) indices[lanes] |= std::uint64_t{i} << 8 * count++;
+            }
+        }
+    }
+};
+constexpr PackedLanes kPackedLanes;
+
+RT_FN unsigned topBits(Index8 a) {
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(a.v)));
+}
+RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
+    const void* indices = kPackedLanes.indices + lanes;
+    const __m256i order = _mm256_cvtepu8_epi32(_mm_loadl_epi64(static_cast<const __m128i*>(indices)));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(a.v, order));
+    return static_cast<unsigned>(_mm_popcnt_u32(lanes));
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

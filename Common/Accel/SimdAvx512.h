@@ -36,6 +36,9 @@ RT_FN Float8 broadcast(float x) {
 RT_FN Index8 loadIndex(const std::uint32_t* p) {
     return {_mm256_load_si256(reinterpret_cast<const __m256i*>(p))};
 }
+RT_FN Float8 fromWords(const std::uint16_t* p) {
+    return {_mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p))))};
+}
 RT_FN void store(float* p, Float8 a) {
     _mm256_store_ps(p, a.v);
 }
@@ -113,6 +116,13 @@ RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
 }
 RT_FN std::uint32_t lane(Index8 a, unsigned i) {
     return firstOf(Mask8{static_cast<__mmask8>(1u << i)}, a);
+}
+RT_FN unsigned topBits(Index8 a) {
+    return _mm256_movepi32_mask(a.v);
+}
+RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_maskz_compress_epi32(static_cast<__mmask8>(lanes), a.v));
+    return static_cast<unsigned>(_mm_popcnt_u32(lanes));
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

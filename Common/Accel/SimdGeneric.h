@@ -49,6 +49,9 @@ RT_FN Float8 broadcast(float x) {
 RT_FN Index8 loadIndex(const std::uint32_t* p) {
     RT_EACH_LANE(Index8, p[i]);
 }
+RT_FN Float8 fromWords(const std::uint16_t* p) {
+    RT_EACH_LANE(Float8, static_cast<float>(p[i]));
+}
 RT_FN void store(float* p, Float8 a) {
     for (int i = 0; i < 8; ++i) {
         p[i] = a.v[i];
@@ -133,6 +136,19 @@ RT_FN float firstOf(Mask8 m, Float8 a) {
 }
 RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
     return a.v[lowestBit(bits(m))];
+}
+RT_FN unsigned topBits(Index8 a) {
+    unsigned result = 0;
+    for (int i = 0; i < 8; ++i) result |= a.v[i] >> 31 << i;
+    return result;
+}
+RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
+    unsigned count = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+        p[count] = a.v[i];
+        count += lanes >> i & 1u;
+    }
+    return count;
 }
 RT_FN float least(Float8 a) {
     float result = a.v[0];

@@ -30,6 +30,10 @@ RT_FN Index8 loadIndex(const std::uint32_t* p) {
     const __m128i* v = reinterpret_cast<const __m128i*>(p);
     return {_mm_load_si128(v), _mm_load_si128(v + 1)};
 }
+RT_FN Float8 fromWords(const std::uint16_t* p) {
+    const __m128i words = _mm_load_si128(reinterpret_cast<const __m128i*>(p));
+    return {_mm_cvtepi32_ps(_mm_cvtepu16_epi32(words)), _mm_cvtepi32_ps(_mm_cvtepu16_epi32(_mm_srli_si128(words, 8)))};
+}
 RT_FN void store(float* p, Float8 a) {
     _mm_store_ps(p, a.lo);
     _mm_store_ps(p + 4, a.hi);
@@ -117,6 +121,21 @@ RT_FN float firstOf(Mask8 m, Float8 a) {
 }
 RT_FN std::uint32_t firstOf(Mask8 m, Index8 a) {
     return lane(a, lowestBit(bits(m)));
+}
+RT_FN unsigned topBits(Index8 a) {
+    return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(a.lo))) |
+           static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(a.hi))) << 4;
+}
+RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
+    alignas(16) std::uint32_t words[8];
+    _mm_store_si128(reinterpret_cast<__m128i*>(words), a.lo);
+    _mm_store_si128(reinterpret_cast<__m128i*>(words + 4), a.hi);
+    unsigned count = 0;
+    for (unsigned i = 0; i < 8; ++i) {
+        p[count] = words[i];
+        count += lanes >> i & 1u;
+    }
+    return count;
 }
 RT_FN float least(Float8 a) {
     __m128 m = _mm_min_ps(a.lo, a.hi);

@@ -140,15 +140,23 @@ RT_FN BoxRay makeBoxRay(const shared::Ray& ray) {
     return r;
 }
 
+RT_FN Float8 loadPlanes(const WideNode& node, unsigned i) {
+    return load(node.planes[i]);
+}
+RT_FN Float8 loadPlanes(const SparseNode& node, unsigned i) {
+    return fromWords(node.planes[i]);
+}
+
 // Bit i is set where the ray may meet child i within [0, tMax]; entry: where it enters each child. A ray that runs in
 // the plane of a slab gives 0 * infinity there; minimum and maximum pass over it because it is their first argument.
-RT_FN unsigned enterChildren(const WideNode& node, const BoxRay& ray, float tMax, Float8& entry) {
+template <class Node>
+RT_FN unsigned enterChildren(const Node& node, const BoxRay& ray, float tMax, Float8& entry) {
     Float8 t0 = broadcast(0.0f);
     Float8 t1 = broadcast(tMax);
     for (unsigned a = 0; a < 3; ++a) {
         const Float8 origin = broadcast(ray.origin[a]);
-        const Float8 near = load(node.planes[ray.nearPlane[a]]);
-        const Float8 far = load(node.planes[ray.nearPlane[a] ^ 1u]);
+        const Float8 near = loadPlanes(node, ray.nearPlane[a]);
+        const Float8 far = loadPlanes(node, ray.nearPlane[a] ^ 1u);
         t0 = maximum((near - origin) * broadcast(ray.inverseNear[a]), t0);
         t1 = minimum((far - origin) * broadcast(ray.inverseFar[a]), t1);
     }
@@ -249,13 +257,77 @@ RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray)
     return r;
 }
 
-// Nearest hit below `root`, if nearer than `best`. Instances are followed one level down. Ahead: what waits is fetched
-// from memory meanwhile, for trees that a core's own cache does not hold.
+template <bool World, bool Ahead>
+RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+                     shared::uint instance, shared::Hit& best);
+template <bool World, bool Ahead>
+RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+                        float tMax);
+
+// A ray in the space of the tree: as its leaves want it, and as it is.
+struct LeafRay {
+    ShapeRay shape;
+    shared::Ray ray;
+};
+
+RT_FN LeafRay makeLeafRay(shared::uint features, const shared::Ray& ray, bool isUnit) {
+    return {makeShapeRay(features, ray, isUnit), ray};
+}
+
+// Instances, which only the world has, are followed one level down.
+template <bool World, bool Ahead>
+RT_FN void traceLeaf(shared::uint features, const AccelView& view, Reference leaf, const LeafRay& ray,
+                     shared::uint instance, shared::Hit& best) {
+    const LeafKind kind = leafKind(leaf);
+    if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
+        testLeaf(ray.shape, view.triangles, leaf, shared::kTriangle, instance, best);
+    } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
+        testLeaf(ray.shape, view.spheres, leaf, shared::kSphere, instance, best);
+    } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
+        testLeaf(ray.shape, view.quads, leaf, shared::kQuad, instance, best);
+    } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
+        testLeaf(ray.shape, view.movingSpheres, leaf, shared::kSphere, instance, best);
+    } else if constexpr (World) {
+        if (shared::has(features, shared::kFeatureInstances)) {
+            const PlacedGeometry* placed = view.instances + leafFirst(leaf);
+            for (const PlacedGeometry* end = placed + leafBlocks(leaf); placed != end; ++placed) {
+                traceTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray.ray), placed->instance,
+                                        best);
+            }
+        }
+    }
+}
+
+template <bool World, bool Ahead>
+RT_FN bool occludedLeaf(shared::uint features, const AccelView& view, Reference leaf, const LeafRay& ray, float tMax) {
+    const LeafKind kind = leafKind(leaf);
+    if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
+        return testLeafAny(ray.shape, view.triangles, leaf, tMax);
+    } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
+        return testLeafAny(ray.shape, view.spheres, leaf, tMax);
+    } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
+        return testLeafAny(ray.shape, view.quads, leaf, tMax);
+    } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
+        return testLeafAny(ray.shape, view.movingSpheres, leaf, tMax);
+    } else if constexpr (World) {
+        if (shared::has(features, shared::kFeatureInstances)) {
+            const PlacedGeometry* placed = view.instances + leafFirst(leaf);
+            for (const PlacedGeometry* end = placed + leafBlocks(leaf); placed != end; ++placed) {
+                if (occludedTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray.ray), tMax))
+                    return true;
+            }
+        }
+    }
+    return false;
+}
+
+// Nearest hit below `root`, if nearer than `best`. Ahead: what waits is fetched from memory meanwhile, for trees that a
+// core's own cache does not hold.
 template <bool World, bool Ahead>
 RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                      shared::uint instance, shared::Hit& best) {
     const BoxRay boxRay = makeBoxRay(ray);
-    const ShapeRay shapeRay = makeShapeRay(features, ray, World);
+    const LeafRay leafRay = makeLeafRay(features, ray, World);
     StackEntry stack[kStackSize];
     unsigned size = 0;
     Reference current = root;
@@ -273,24 +345,7 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
                 continue;
             }
         } else {
-            const LeafKind kind = leafKind(current);
-            if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
-                testLeaf(shapeRay, view.triangles, current, shared::kTriangle, instance, best);
-            } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
-                testLeaf(shapeRay, view.spheres, current, shared::kSphere, instance, best);
-            } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
-                testLeaf(shapeRay, view.quads, current, shared::kQuad, instance, best);
-            } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
-                testLeaf(shapeRay, view.movingSpheres, current, shared::kSphere, instance, best);
-            } else if constexpr (World) {
-                if (shared::has(features, shared::kFeatureInstances)) {
-                    const PlacedGeometry* placed = view.instances + leafFirst(current);
-                    for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
-                        traceTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray), placed->instance,
-                                                best);
-                    }
-                }
-            }
+            traceLeaf<World, Ahead>(features, view, current, leafRay, instance, best);
         }
         do {
             if (size == 0) return;
@@ -300,59 +355,81 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
     }
 }
 
+// Whether anything is hit below `root`. Nodes are visited some at a time, without a branch that depends on what is met: so
+// a processor overlaps them.
 template <bool World, bool Ahead>
 RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax) {
+    constexpr unsigned kBatch = Ahead ? 4 : 2;
     const BoxRay boxRay = makeBoxRay(ray);
-    const ShapeRay shapeRay = makeShapeRay(features, ray, World);
-    Reference stack[kStackSize];
-    unsigned size = 0;
-    // What is to be visited next, a ring: on its way from memory meanwhile.
-    constexpr unsigned kAhead = 4;
-    [[maybe_unused]] Reference ahead[kAhead];
-    [[maybe_unused]] unsigned first = 0, waiting = 0;
-    Reference current = root;
-    for (;;) {
-        if ((current & kLeafBit) == 0) {
-            const WideNode& node = view.nodes[current];
+    const LeafRay leafRay = makeLeafRay(features, ray, World);
+    if ((root & kLeafBit) != 0) return occludedLeaf<World, Ahead>(features, view, root, leafRay, tMax);
+    // A level of the tree adds no more than the children of one batch.
+    Reference waiting[((kMaxTreeDepth + 1) * kBatch + 1) * kWidth];
+    Reference leaves[(kBatch + 1) * kWidth];
+    Reference batch[kBatch];
+    waiting[0] = root;
+    unsigned size = 1;
+    do {
+        const unsigned count = size < kBatch ? size : kBatch;
+        size -= count;
+        for (unsigned i = 0; i < count; ++i) batch[i] = waiting[size + i];
+        unsigned found = 0;
+        for (unsigned i = 0; i < count; ++i) {
+            const WideNode& node = view.nodes[batch[i]];
             Float8 entry;
-            for (unsigned hits = enterChildren(node, boxRay, tMax, entry); hits != 0; hits &= hits - 1) {
-                stack[size++] = node.child[lowestBit(hits)];
-            }
-        } else {
-            const LeafKind kind = leafKind(current);
-            if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
-                if (testLeafAny(shapeRay, view.triangles, current, tMax)) return true;
-            } else if (shared::has(features, shared::kFeatureSpheres) && kind == LeafKind::Sphere) {
-                if (testLeafAny(shapeRay, view.spheres, current, tMax)) return true;
-            } else if (shared::has(features, shared::kFeatureQuads) && kind == LeafKind::Quad) {
-                if (testLeafAny(shapeRay, view.quads, current, tMax)) return true;
-            } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
-                if (testLeafAny(shapeRay, view.movingSpheres, current, tMax)) return true;
-            } else if constexpr (World) {
-                if (shared::has(features, shared::kFeatureInstances)) {
-                    const PlacedGeometry* placed = view.instances + leafFirst(current);
-                    for (const PlacedGeometry* end = placed + leafBlocks(current); placed != end; ++placed) {
-                        if (occludedTree<false, Ahead>(features, view, placed->root, toObject(*placed, ray), tMax))
-                            return true;
-                    }
-                }
-            }
+            const unsigned hits = enterChildren(node, boxRay, tMax, entry);
+            const Index8 children = loadIndex(node.child);
+            const unsigned isLeaf = topBits(children);
+            size += storePacked(waiting + size, children, hits & ~isLeaf);
+            found += storePacked(leaves + found, children, hits & isLeaf);
         }
         if constexpr (Ahead) {
-            for (; waiting < kAhead && size > 0; ++waiting) {
-                const Reference next = stack[--size];
-                prefetchReference(features, view, next);
-                ahead[(first + waiting) % kAhead] = next;
+            for (unsigned i = size < kBatch ? 0 : size - kBatch; i < size; ++i) {
+                prefetchBytes<sizeof(WideNode)>(view.nodes + waiting[i]);
             }
-            if (waiting == 0) return false;
-            current = ahead[first];
-            first = (first + 1) % kAhead;
-            --waiting;
-        } else {
-            if (size == 0) return false;
-            current = stack[--size];
         }
+        for (unsigned i = 0; i < found; ++i) {
+            if (occludedLeaf<World, Ahead>(features, view, leaves[i], leafRay, tMax)) return true;
+        }
+    } while (size != 0);
+    return false;
+}
+
+// ---- sparse trees ---------------------------------------------------------------------------------------------------
+
+// Calls testLeaf(reference) for the leaves of the world that the ray may meet before tMax, which it may lower, until it
+// returns true. Nodes are visited in the order in which they are found: which one is next does not depend on the last,
+// so a processor overlaps many. When too many wait, the last comes first.
+template <class TestLeaf>
+RT_FN void visitSparse(const AccelView& view, const shared::Ray& ray, const float& tMax, const TestLeaf& testLeaf) {
+    constexpr unsigned kMany = 256;
+    constexpr unsigned kAhead = 4; // nodes that are on their way from memory
+    const float scale = view.sparseGrid.stepsPerUnit;
+    const BoxRay boxRay = makeBoxRay({(ray.origin - view.sparseGrid.origin) * scale, ray.direction, ray.time});
+    Reference queue[kMany + (kMaxTreeDepth + 2) * kWidth];
+    Reference leaves[kMany];
+    unsigned head = 0, tail = 1, found = 0;
+    unsigned pause = 8; // after so many visits their leaves are tested: what is large is found first, and ends the ray
+    queue[0] = 0;
+    while (head != tail) {
+        const float end = tMax * scale;
+        while (head != tail && head != pause && found + kWidth <= kMany) {
+            const SparseNode& node = view.sparseNodes[tail < kMany ? queue[head++] : queue[--tail]];
+            Float8 entry;
+            const unsigned hits = enterChildren(node, boxRay, end, entry);
+            const Index8 children = loadIndex(node.child);
+            const unsigned isLeaf = topBits(children);
+            tail += storePacked(queue + tail, children, hits & ~isLeaf);
+            found += storePacked(leaves + found, children, hits & isLeaf);
+            const unsigned next = head + kAhead < tail ? head + kAhead : tail - 1;
+            prefetchBytes<sizeof(SparseNode)>(view.sparseNodes + queue[next]);
+        }
+        for (unsigned i = 0; i < found; ++i) {
+            if (testLeaf(leaves[i])) return;
+        }
+        found = 0;
+        if (head == pause) pause *= 4;
     }
 }
 
@@ -362,7 +439,13 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
 RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray, true), tMax);
     shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
-    if (view.isLarge) {
+    if (view.sparseNodes != nullptr) {
+        const LeafRay leafRay = makeLeafRay(features, ray, true);
+        visitSparse(view, ray, best.t, [&](Reference leaf) {
+            traceLeaf<false, true>(features, view, leaf, leafRay, shared::kNone, best);
+            return false;
+        });
+    } else if (view.isLarge) {
         traceTree<true, true>(features, view, view.root, ray, shared::kNone, best);
     } else {
         traceTree<true, false>(features, view, view.root, ray, shared::kNone, best);
@@ -374,6 +457,15 @@ RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, con
 // Whether anything is hit with 0 < t < tMax.
 RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray, true), tMax);
+    if (view.sparseNodes != nullptr) {
+        const LeafRay leafRay = makeLeafRay(features, ray, true);
+        bool isHit = false;
+        visitSparse(view, ray, tMax, [&](Reference leaf) {
+            isHit = occludedLeaf<false, true>(features, view, leaf, leafRay, tMax);
+            return isHit;
+        });
+        return isHit;
+    }
     return view.isLarge ? occludedTree<true, true>(features, view, view.root, ray, tMax)
                         : occludedTree<true, false>(features, view, view.root, ray, tMax);
 }

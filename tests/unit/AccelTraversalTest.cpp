@@ -117,6 +117,70 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
     }
 }
 
+// Small things of all kinds far from each other in a room.
+Geometry sparseCloud(Random& random) {
+    Geometry g;
+    for (int i = 0; i < 3000; ++i) {
+        g.addSphere(random.inCube(10.0f), 0.02f);
+        g.addQuad(random.inCube(10.0f), random.direction() * 0.04f, random.direction() * 0.04f);
+        const vec3 a = random.inCube(10.0f);
+        g.addTriangle(a, a + random.inCube(0.04f), a + random.inCube(0.04f));
+    }
+    for (const float y : {-11.0f, 11.0f}) g.addQuad({-11.0f, y, -11.0f}, {22.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 22.0f});
+    return g;
+}
+
+// A row of boxes along the x axis, more than a traversal can remember, with nothing in them where the axis is.
+Geometry emptyBoxes(Random& random) {
+    Geometry g;
+    for (int i = 0; i < 6000; ++i) {
+        const float x = 0.01f * static_cast<float>(i) - 30.0f, s = random.uniform(0.001f, 0.002f);
+        const vec3 a(x, s, -0.5f * s), b(x + s, -0.5f * s, s), c(x, s, s);
+        if (i % 2 == 0) {
+            g.addTriangle(a, b, c);
+        } else {
+            g.addQuad(a, b - a, c - a);
+        }
+    }
+    g.addSphere({32.0f, 0.0f, 0.0f}, 0.01f);
+    return g;
+}
+
+TEST(AccelTraversal, SparseTreesFindWhatTestingEverythingFinds) {
+    Random random(17);
+    Geometry scenes[] = {sparseCloud(random), emptyBoxes(random)};
+    for (std::size_t scene = 0; scene < 2; ++scene) {
+        Geometry& g = scenes[scene];
+        const auto tree = buildAccel(g), flat = buildAccel(g, kAlwaysFlat);
+        ASSERT_NE(tree->view().sparseNodes, nullptr);
+        std::vector<Ray> rays = randomRays(g, random, 1000);
+        if (scene == 1) {
+            for (int i = 0; i < 200; ++i) { // along the axis, to the sphere at its end
+                const vec3 origin(-31.0f, random.uniform(-1e-4f, 1e-4f), random.uniform(-1e-4f, 1e-4f));
+                rays.push_back({origin, shared::normalize(vec3(32.0f, 0.0f, 0.0f) - origin), 0.0f});
+            }
+        }
+        for (const NamedQuery& q : runnableQueries()) {
+            SCOPED_TRACE(std::to_string(scene) + " " + q.name);
+            const std::vector<Hit> a = closestHits(*q.query, tree->view(), rays);
+            const std::vector<Hit> b = closestHits(*q.query, flat->view(), rays);
+            int hits = 0, different = 0;
+            std::vector<float> ends(rays.size());
+            for (std::size_t i = 0; i < rays.size(); ++i) {
+                hits += a[i].t >= 0.0f;
+                different += !sameBits(a[i], b[i]);
+                ends[i] = b[i].t < 0.0f ? shared::kInfinity : b[i].t * (i % 2 == 0 ? 0.9999f : 1.0001f);
+            }
+            EXPECT_EQ(different, 0);
+            EXPECT_GT(hits, 400);
+            const auto any = anyHits(*q.query, tree->view(), rays, ends);
+            int wrong = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i) wrong += any[i] != (b[i].t >= 0.0f && i % 2 == 1);
+            EXPECT_EQ(wrong, 0);
+        }
+    }
+}
+
 // Numerics N6: rays in the planes of flat boxes, along axes and diagonals, with zeros of both signs and denormal
 // components.
 TEST(AccelTraversal, RaysInThePlanesOfBoxesMissNothing) {
