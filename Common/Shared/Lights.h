@@ -440,7 +440,8 @@ RT_FN vec3 lightPointError(RT_IN(Light) light) {
         float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
         return vec3(32.0f * kEpsilon * reach);
     }
-    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV));
+    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
+           extentError(light.edgeU, light.edgeV);
 }
 
 // ---- choosing among lights ------------------------------------------------------------------------------------------

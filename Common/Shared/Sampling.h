@@ -98,6 +98,16 @@ RT_FN vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
     return p + n * (dot(n, w) < 0.0f ? -reach : reach);
 }
 
+// What a device's own test of a flat primitive may round by, in every direction: it works with the distances of the corners
+// from the ray. A ray that leaves a large floor may so meet it again, although its height there is exact: without this an
+// NVIDIA GPU lost up to a fifth of the light that reaches a point on the diagonal of a quad of 100 by 100. There 1 is too
+// little and 2 is enough; much more would lift the origins of rays noticeably.
+const float kExtentError = 3.0f;
+
+RT_FN float extentError(vec3 edgeU, vec3 edgeV) {
+    return kExtentError * kEpsilon * maxComponent(abs(edgeU) + abs(edgeV));
+}
+
 RT_SHARED_END
 
 #endif

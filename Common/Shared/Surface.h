@@ -64,7 +64,8 @@ RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
     vec3 alongU = quad.edgeU * hit.u;
     vec3 alongV = quad.edgeV * hit.v;
     s.position = quad.corner + alongU + alongV;
-    s.error = gammaBound(kFlatError) * (abs(quad.corner) + abs(alongU) + abs(alongV));
+    s.error = gammaBound(kFlatError) * (abs(quad.corner) + abs(alongU) + abs(alongV)) +
+              extentError(quad.edgeU, quad.edgeV);
     s.normal = quad.normal;
     s.shading = quad.normal;
     s.uv = vec2(hit.u, hit.v);
@@ -85,7 +86,7 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     vec3 c = p2 * hit.v;
     Surface s;
     s.position = a + b + c;
-    s.error = gammaBound(kFlatError) * (abs(a) + abs(b) + abs(c));
+    s.error = gammaBound(kFlatError) * (abs(a) + abs(b) + abs(c)) + extentError(p1 - p0, p2 - p0);
     s.normal = normalize(cross(p1 - p0, p2 - p0));
     s.shading = s.normal;
     s.uv = vec2(hit.u, hit.v);
