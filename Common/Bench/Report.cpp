@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "Common/Bench/Defaults.h"
 #include "Common/Bench/ReportCharts.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/AtomicFile.h"
@@ -257,6 +258,25 @@ std::vector<Block> winners(const Suite& suite, const Results& results) {
     return {Heading{2, "In short"}, table};
 }
 
+// The defaults against the best configuration, experiment by experiment.
+std::vector<Block> defaultsBlocks(const Results& results) {
+    Table table{{"experiment", "engine", "scenes", "geometric mean", "least", "in", "where the best is"}, {}};
+    for (const DefaultsRow& row : compareDefaults(results.rows)) {
+        std::string best;
+        for (const Axis& axis : axes()) {
+            const std::string value = axis.get(row.leastBest);
+            if (axis.name == "scene" || axis.name == "engine" || axis.name == "width" || axis.name == "height")
+                continue;
+            if (value != axis.get(Config())) best += (best.empty() ? "" : ", ") + value;
+        }
+        table.rows.push_back({row.experiment, row.engine, std::to_string(row.scenes),
+                              withInterval(row.mean, row.meanCi), withInterval(row.least, row.leastCi), row.leastScene,
+                              best.empty() ? "the default" : best});
+    }
+    if (table.rows.empty()) return {};
+    return {Heading{2, "What the defaults reach of the best efficiency, 1 / (mse s)"}, table};
+}
+
 void appendExperiment(Document& document, const Experiment& experiment, const Results& results, const Suite& suite) {
     std::vector<const Row*> rows;
     for (const Row& row : results.rows)
@@ -305,6 +325,7 @@ Document makeReport(const Results& results, const Suite& suite) {
     if (!machine.rows.empty()) document.push_back(machine);
     for (const std::string& notice : results.notices) document.push_back(Paragraph{notice});
     for (Block& block : winners(suite, results)) document.push_back(std::move(block));
+    for (Block& block : defaultsBlocks(results)) document.push_back(std::move(block));
     for (const Experiment& experiment : suite.experiments) appendExperiment(document, experiment, results, suite);
     if (!results.skips.empty()) {
         std::vector<const SkipRow*> rows;

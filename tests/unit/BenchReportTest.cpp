@@ -1,11 +1,13 @@
 // From results to files and back, and two results side by side.
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "Common/Bench/Chart.h"
 #include "Common/Bench/Comparison.h"
+#include "Common/Bench/Defaults.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Bench/Report.h"
 #include "Common/Bench/ResultsJson.h"
@@ -43,6 +45,32 @@ Results someResults() {
     results.rows[1].config.settings.sampler = app::SamplerKind::Independent;
     results.rows[1].config.settings.features = shared::kFeatureAll;
     return results;
+}
+
+TEST(BenchDefaults, AreComparedWithTheBestOfEachScene) {
+    std::vector<Row> rows;
+    const auto add = [&](const std::string& scene, double mse, app::SamplerKind sampler) {
+        for (const double spp : {4.0, 16.0}) {
+            rows.push_back(rowWith(spp, spp, spp == 16 ? mse : 1.0));
+            rows.back().config.scene = scene;
+            rows.back().config.settings.sampler = sampler;
+        }
+    };
+    const app::SamplerKind usual = Config().settings.sampler;
+    add("a", 0.2, usual);
+    add("a", 0.1, app::SamplerKind::Independent); // twice as efficient
+    add("b", 0.1, usual);
+    add("b", 0.4, app::SamplerKind::Independent);
+    add("zero", 0.0, usual);
+    add("zero", 0.1, app::SamplerKind::Independent);
+    const std::vector<DefaultsRow> found = compareDefaults(rows);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].scenes, 2);
+    EXPECT_NEAR(*found[0].mean, std::sqrt(0.5), 1e-9);
+    EXPECT_NEAR(*found[0].least, 0.5, 1e-9);
+    EXPECT_EQ(found[0].leastScene, "a");
+    EXPECT_EQ(found[0].leastBest.settings.sampler, app::SamplerKind::Independent);
+    EXPECT_NEAR(*found[0].leastCi, 0.5 * std::hypot(0.03, 0.03), 1e-9);
 }
 
 std::vector<std::string> fieldsOf(const std::string& line) { // of RFC 4180
