@@ -3,19 +3,16 @@
 // Slices are vertical half planes through the normal: the azimuth chooses one, and in it the projected solid angle is
 // the difference of the squared sines of two elevations. A slice cuts the light's plane in a straight line, so all of it
 // is computed in the light's own coordinates (u, v), where small and distant lights lose no digits, and the place in a
-// slice is the root of a quadratic equation. The marginal over the azimuth is smooth between the vertices; each sector
-// from one vertex to the next has its own fit. (Peters, "BRDF Importance Sampling for Polygonal Lights", 2021, samples the
+// slice is the root of a quadratic equation. (Peters, "BRDF Importance Sampling for Polygonal Lights", 2021, samples the
 // same density by inverting it in azimuth.)
 #ifndef RT_SHARED_PROJECTED_FAN_H
 #define RT_SHARED_PROJECTED_FAN_H
-#include "PiecewiseFit.h"
 #include "Sampling.h"
 
 RT_SHARED_BEGIN
 
-const uint kFanSectors = 5u;  // at most: between the vertices of a quad cut by the horizon
-const uint kFanSlices = 128u; // of all sectors
-
+// The outline is that of the part above the horizon. If the zenith is inside, or a vertex, slices reach from an edge up to
+// it, and the outline runs in the sense of azimuths. Otherwise they reach from one edge to another one.
 struct ProjectedFan {
     vec3 corner; // in the frame of the receiver's normal, lengths scaled to about 1
     vec3 edgeU;
@@ -23,20 +20,23 @@ struct ProjectedFan {
     vec3 plane;   // unit normal of the light
     float height; // of the receiver above the light's plane
     bool triangle;
-    uint sectors;
-    vec2 start[kFanSectors];  // azimuth at which a sector begins, unit
-    vec2 uv[kFanSectors];     // the vertex there
-    float reach[kFanSectors]; // its horizontal distance
-    float angle[kFanSectors]; // of the sector
-    uint first[kFanSectors];  // its slices
-    uint count[kFanSectors];
-    float turn[kFanSlices];  // angle of a slice from the beginning of its sector
-    uint form[kFanSectors];  // of the fit
-    float low[kFanSectors];  // at the sector's beginning
-    float high[kFanSectors]; // at its end
-    float mass[kFanSlices];  // of slices, per angle, without the factor `height`; kFitSquare: root of it, kFitInverse:
-                             // inverse root
-    float total;             // integral of the fit
+    bool around; // the zenith is inside, or a vertex, which is left out
+    uint edges;  // of an outline around the zenith: one less than vertices if the zenith is one of them; 0: invisible
+    uint count;  // of vertices
+    uint first;  // not around: the vertex at which azimuths begin
+    uint last;   // and that at which they end
+    vec2 uv[6];  // vertices; rounding may let a quad in the horizon have six
+};
+
+// Slices between two vertices.
+struct FanSector {
+    vec2 start;  // azimuth at which it begins, unit
+    vec2 uv;     // the vertex there
+    float reach; // its horizontal distance
+    float z;     // its height
+    float angle;
+    vec4 edgeA; // (u, v) of both ends, relative to the vertex, of an edge that bounds all of these slices
+    vec4 edgeB; // and of another one, if the zenith does not bound them
 };
 
 // Ends of a slice on the light, the lower one first.
@@ -54,77 +54,181 @@ RT_FN float cross2(vec2 a, vec2 b) {
 RT_FN vec2 horizontal(vec3 v) {
     return vec2(v.x, v.y);
 }
-
-// Narrows [range.x, range.y] to where f + slope * t >= 0.
-RT_FN vec2 clipRange(vec2 range, float f, float slope) {
-    float t = -f / (abs(slope) > 1.0e-37f ? slope : 1.0e-37f);
-    if (slope > 0.0f) return vec2(max(range.x, t), range.y);
-    if (slope < 0.0f) return vec2(range.x, min(range.y, t));
-    return f < 0.0f ? vec2(1.0f, 0.0f) : range;
+RT_FN vec3 fanPoint(RT_IN(ProjectedFan) fan, vec2 uv) {
+    return fan.corner + fan.edgeU * uv.x + fan.edgeV * uv.y;
 }
 
-// The slice at `turn` from the beginning of sector j.
-RT_FN FanSlice fanSlice(RT_IN(ProjectedFan) fan, uint j, float turn) {
+// Twice the signed area between the horizontal projections of two vertices, exact for neighbours in a small light.
+RT_FN float fanTurn(RT_IN(ProjectedFan) fan, vec2 a, vec2 b) {
+    vec2 p = horizontal(fanPoint(fan, a));
+    vec2 q = horizontal(fan.edgeU * (b.x - a.x) + fan.edgeV * (b.y - a.y));
+    return cross2(p, q);
+}
+
+RT_FN uint fanNext(RT_IN(ProjectedFan) fan, uint i) {
+    return i + 1u < fan.count ? i + 1u : 0u;
+}
+RT_FN uint fanPrevious(RT_IN(ProjectedFan) fan, uint i) {
+    return i > 0u ? i - 1u : fan.count - 1u;
+}
+
+// ---- outline --------------------------------------------------------------------------------------------------------
+
+// Replaces the outline by the part of it above the horizon.
+RT_FN void clipToHorizon(RT_INOUT(ProjectedFan) fan) {
+    vec2 whole[4];
+    whole[0] = vec2(0.0f, 0.0f);
+    whole[1] = vec2(1.0f, 0.0f);
+    whole[2] = fan.triangle ? vec2(0.0f, 1.0f) : vec2(1.0f, 1.0f);
+    whole[3] = vec2(0.0f, 1.0f);
+    uint n = fan.triangle ? 3u : 4u;
+    fan.count = 0u;
+    for (uint i = 0u; i < n; i++) {
+        vec2 a = whole[i];
+        vec2 b = whole[i + 1u < n ? i + 1u : 0u];
+        float za = fanPoint(fan, a).z;
+        float zb = fanPoint(fan, b).z;
+        if (za >= 0.0f) fan.uv[fan.count++] = a;
+        if ((za >= 0.0f) != (zb >= 0.0f)) fan.uv[fan.count++] = a + (b - a) * clamp(za / (za - zb), 0.0f, 1.0f);
+    }
+}
+
+RT_FN bool isZenith(RT_IN(ProjectedFan) fan, vec2 uv) {
+    vec2 p = horizontal(fanPoint(fan, uv));
+    return dot(p, p) <= 1.0e-13f;
+}
+
+// Leaves out vertices at the zenith, which have no azimuth; the outline then begins behind them.
+RT_FN void removeZenith(RT_INOUT(ProjectedFan) fan) {
+    uint at = fan.count;
+    for (uint i = 0u; i < fan.count; i++)
+        if (isZenith(fan, fan.uv[i]) && !isZenith(fan, fan.uv[fanNext(fan, i)])) at = i;
+    if (at == fan.count) return;
+    vec2 rest[6];
+    uint n = 0u;
+    for (uint i = 1u; i < fan.count; i++) {
+        vec2 uv = fan.uv[(at + i) % fan.count];
+        if (!isZenith(fan, uv)) rest[n++] = uv;
+    }
+    for (uint i = 0u; i < n; i++) fan.uv[i] = rest[i];
+    fan.count = n;
+    fan.edges = max(n, 1u) - 1u;
+    fan.around = true;
+}
+
+// Finds out whether the outline is around the zenith, and where its azimuths begin and end.
+RT_FN void orient(RT_INOUT(ProjectedFan) fan) {
+    uint n = fan.around ? fan.edges : fan.count;
+    uint left = 0u;
+    bool before = fan.count > 1u && fanTurn(fan, fan.uv[fan.count - 1u], fan.uv[0]) > 0.0f;
+    for (uint i = 0u; i < n; i++) {
+        bool onward = fanTurn(fan, fan.uv[i], fan.uv[fanNext(fan, i)]) > 0.0f;
+        left += onward ? 1u : 0u;
+        if (onward && !before) fan.first = i;
+        if (!onward && before) fan.last = i;
+        before = onward;
+    }
+    if (!fan.around && left != 0u && left != n) return;
+    fan.around = true;
+    fan.edges = n;
+    if (2u * left >= n) return;
+    for (uint i = 0u; i < fan.count / 2u; i++) {
+        vec2 other = fan.uv[fan.count - 1u - i];
+        fan.uv[fan.count - 1u - i] = fan.uv[i];
+        fan.uv[i] = other;
+    }
+}
+
+// `corner` relative to the receiver, edges of the light (a triangle is half of the parallelogram), unit normals of the
+// light's plane and of the receiver.
+RT_FN ProjectedFan makeProjectedFan(vec3 corner, vec3 edgeU, vec3 edgeV, vec3 plane, bool triangle, vec3 normal) {
+    ProjectedFan fan;
+    Frame f = makeFrame(normal);
+    float scale = 1.0f / (length(corner) + length(edgeU) + length(edgeV));
+    corner = corner * scale;
+    edgeU = edgeU * scale;
+    edgeV = edgeV * scale;
+    fan.corner = vec3(dot(corner, f.tangent), dot(corner, f.bitangent), dot(corner, normal));
+    fan.edgeU = vec3(dot(edgeU, f.tangent), dot(edgeU, f.bitangent), dot(edgeU, normal));
+    fan.edgeV = vec3(dot(edgeV, f.tangent), dot(edgeV, f.bitangent), dot(edgeV, normal));
+    fan.plane = vec3(dot(plane, f.tangent), dot(plane, f.bitangent), dot(plane, normal));
+    fan.height = abs(dot(corner, plane));
+    fan.triangle = triangle;
+    fan.around = false;
+    fan.edges = 0u;
+    fan.first = 0u;
+    fan.last = 0u;
+    clipToHorizon(fan);
+    removeZenith(fan);
+    if (fan.height > 0.0f && fan.count > 1u) {
+        orient(fan);
+    } else {
+        fan.count = 0u;
+    }
+    return fan;
+}
+
+// ---- slices ---------------------------------------------------------------------------------------------------------
+
+// From vertex `from` to `to`, bounded by the edges a to a2 and b to b2: all of them indices.
+RT_FN FanSector fanSector(RT_IN(ProjectedFan) fan, uint from, uint to, uvec2 a, uvec2 b) {
+    FanSector s;
+    s.uv = fan.uv[from];
+    vec3 start = fanPoint(fan, s.uv);
+    vec2 p = horizontal(start);
+    vec2 q = horizontal(fanPoint(fan, fan.uv[to]));
+    s.reach = length(p);
+    s.start = p * (1.0f / s.reach);
+    s.z = max(start.z, 0.0f);
+    s.angle = max(arcTan(fanTurn(fan, s.uv, fan.uv[to]), dot(p, q)), 0.0f);
+    s.edgeA = vec4(fan.uv[a.x] - s.uv, fan.uv[a.y] - s.uv);
+    s.edgeB = vec4(fan.uv[b.x] - s.uv, fan.uv[b.y] - s.uv);
+    return s;
+}
+
+// Where an edge meets the line dot(off, across) = level.
+RT_FN vec2 fanCrossing(vec4 edge, vec2 across, float level) {
+    vec2 a = vec2(edge.x, edge.y);
+    vec2 b = vec2(edge.z, edge.w);
+    float beyondA = dot(across, a) - level;
+    float beyondB = dot(across, b) - level;
+    float whole = beyondA - beyondB;
+    return a + (b - a) * clamp(beyondA / (whole != 0.0f ? whole : 1.0f), 0.0f, 1.0f);
+}
+
+// The slice at `turn` from the beginning of a sector.
+RT_FN FanSlice fanSlice(RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector, float turn) {
     vec2 sc = sinCos2Pi(clamp(turn * (0.5f * kInvPi), 0.0f, 1.0f));
-    vec2 d = vec2(fan.start[j].x * sc.y - fan.start[j].y * sc.x, fan.start[j].x * sc.x + fan.start[j].y * sc.y);
+    vec2 d = vec2(sector.start.x * sc.y - sector.start.y * sc.x, sector.start.x * sc.x + sector.start.y * sc.y);
     FanSlice slice;
     slice.mass = 0.0f;
-    // The line off.u * across.x + off.v * across.y = reach sin(turn), off = (u, v) - that of the vertex.
+    // (u, v) relative to the sector's vertex, which keeps the digits of small lights.
     vec2 across = vec2(cross2(d, horizontal(fan.edgeU)), cross2(d, horizontal(fan.edgeV)));
-    float length2 = dot(across, across);
-    if (!(length2 > 0.0f)) return slice;
-    float inverse = 1.0f / sqrt(length2);
-    vec2 along = vec2(-across.y, across.x) * inverse;
-    vec2 uv = fan.uv[j] + across * (fan.reach[j] * sc.x * inverse * inverse);
-    vec2 off = uv - fan.uv[j];
-    vec3 vertex = fan.corner + fan.edgeU * fan.uv[j].x + fan.edgeV * fan.uv[j].y;
-    float h = fan.reach[j] * sc.y + dot(d, horizontal(fan.edgeU)) * off.x + dot(d, horizontal(fan.edgeV)) * off.y;
-    float z = max(vertex.z, 0.0f) + fan.edgeU.z * off.x + fan.edgeV.z * off.y;
-    float slopeH = dot(d, horizontal(fan.edgeU)) * along.x + dot(d, horizontal(fan.edgeV)) * along.y;
-    float slopeZ = fan.edgeU.z * along.x + fan.edgeV.z * along.y;
-    vec2 range = vec2(-1.0e30f, 1.0e30f);
-    range = clipRange(range, uv.x, along.x);
-    range = clipRange(range, uv.y, along.y);
-    if (fan.triangle) {
-        range = clipRange(range, 1.0f - uv.x - uv.y, -along.x - along.y);
-    } else {
-        range = clipRange(range, 1.0f - uv.x, -along.x);
-        range = clipRange(range, 1.0f - uv.y, -along.y);
+    vec2 onward = vec2(dot(d, horizontal(fan.edgeU)), dot(d, horizontal(fan.edgeV)));
+    vec2 upward = vec2(fan.edgeU.z, fan.edgeV.z);
+    float begin = sector.reach * sc.y;
+    vec2 from = fanCrossing(sector.edgeA, across, sector.reach * sc.x);
+    vec2 a = vec2(max(begin + dot(onward, from), 0.0f), max(sector.z + dot(upward, from), 0.0f));
+    vec2 to = fanCrossing(sector.edgeB, across, sector.reach * sc.x);
+    if (fan.around) {
+        vec2 along = vec2(-across.y, across.x);
+        float slope = dot(onward, along);
+        to = from - along * (a.x / (slope != 0.0f ? slope : 1.0f));
     }
-    range = clipRange(range, z, slopeZ);
-    range = clipRange(range, h, slopeH);
-    if (!(range.x < range.y)) return slice;
-    vec2 a = vec2(max(h + slopeH * range.x, 0.0f), max(z + slopeZ * range.x, 0.0f));
-    vec2 b = vec2(max(h + slopeH * range.y, 0.0f), max(z + slopeZ * range.y, 0.0f));
+    vec2 b = vec2(max(begin + dot(onward, to), 0.0f), max(sector.z + dot(upward, to), 0.0f));
     bool swapped = a.y * b.x > b.y * a.x;
-    float from = swapped ? range.y : range.x;
-    float extent = swapped ? range.x - range.y : range.y - range.x;
-    slice.uv = uv + along * from;
-    slice.uvSpan = along * extent;
+    slice.uv = sector.uv + (swapped ? to : from);
+    slice.uvSpan = swapped ? from - to : to - from;
     slice.p = swapped ? b : a;
-    slice.span = vec2(slopeH, slopeZ) * extent;
+    slice.span = vec2(dot(onward, slice.uvSpan), dot(upward, slice.uvSpan));
     // Twice the triangle between the receiver and the slice, over the receiver's height above the light's plane.
     float lean = fan.plane.y * d.x - fan.plane.x * d.y;
-    float sine = sqrt(max((1.0f - lean) * (1.0f + lean), 0.0f));
-    if (!(sine > 0.0f)) return slice;
+    float sine2 = (1.0f - lean) * (1.0f + lean);
+    if (!(sine2 > 0.0f)) return slice;
     vec3 chord = fan.edgeU * slice.uvSpan.x + fan.edgeV * slice.uvSpan.y;
-    float sum = a.x * b.y + a.y * b.x;
-    slice.mass = 0.5f * length(chord) / sine * sum / max(dot(a, a) * dot(b, b), 1.0e-37f);
+    slice.mass =
+        0.5f * sqrt(dot(chord, chord) / sine2) * (a.x * b.y + a.y * b.x) / max(dot(a, a) * dot(b, b), 1.0e-37f);
     return slice;
-}
-
-// Piece k of the n + 1 of a sector of n slices: from the beginning to the first slice, between slices, from the last
-// to the end.
-RT_FN FitPiece fanPiece(RT_IN(ProjectedFan) fan, uint j, uint k) {
-    uint low = fan.first[j] + max(k, 1u) - 1u;
-    uint high = fan.first[j] + min(k, fan.count[j] - 1u);
-    FitPiece s;
-    s.a = k == 0u ? fan.low[j] : fan.mass[low];
-    s.b = k == fan.count[j] ? fan.high[j] : fan.mass[high];
-    s.start = k == 0u ? 0.0f : fan.turn[low];
-    s.width = (k == fan.count[j] ? fan.angle[j] : fan.turn[high]) - s.start;
-    s.form = fan.form[j];
-    return s;
 }
 
 RT_SHARED_END

@@ -13,7 +13,7 @@ struct FanSample {
 };
 
 // Fraction of the slice's way up at which `part` of its projected solid angle lies below.
-RT_FN float fanPlace(RT_IN(FanSlice) s, float part) {
+RT_FN float slicePlace(RT_IN(FanSlice) s, float part) {
     vec2 q = s.p + s.span;
     float p0 = dot(s.p, s.p);
     float p1 = dot(s.p, s.span);
@@ -32,68 +32,64 @@ RT_FN float fanPlace(RT_IN(FanSlice) s, float part) {
 
 // Density on the unit disk where the fit has the value `fit` and the slice the mass `mass`. What fills less than 1e-30 of
 // the disk counts as invisible.
-RT_FN float fanDensity(RT_IN(ProjectedFan) fan, float fit, float mass) {
+RT_FN float fanDensity(RT_IN(ProjectedFan) fan, float total, float fit, float mass) {
     float own = mass * fan.height;
-    float density = fit / max(fan.total, 1.0e-37f) / max(own, 1.0e-37f);
+    float density = fit / max(total, 1.0e-37f) / max(own, 1.0e-37f);
     return own > 1.0e-37f && density < 1.0e30f ? density : 0.0f;
+}
+
+// A piece of the fan by a number in [0,1) or, if that is negative, the one at an azimuth.
+RT_FN FanPick pickFan(RT_IN(ProjectedFan) fan, float number, vec2 azimuth) {
+    FanPick pick;
+    pick.byNumber = number >= 0.0f;
+    pick.azimuth = azimuth;
+    pick.least = 1.0e30f;
+    pick.turn = 0.0f;
+    pick.total = 0.0f;
+    pick.pieces = 0u;
+    pick.sectors = 0u;
+    pick.piece.form = kFitLinear;
+    pick.piece.a = 0.0f;
+    pick.piece.b = 0.0f;
+    pick.piece.start = 0.0f;
+    pick.piece.width = 0.0f;
+    if (fan.around) {
+        pickAround(fan, pick, number);
+    } else if (fan.count > 1u) {
+        pickSlice(fan, pick, number);
+    }
+    return pick;
+}
+
+// Density on the unit disk at the azimuth of a pick, whose slice has the mass `mass`.
+RT_FN float pickDensity(RT_IN(ProjectedFan) fan, RT_IN(FanPick) pick, float mass) {
+    float place = clamp((pick.turn - pick.piece.start) / max(pick.piece.width, 1.0e-37f), 0.0f, 1.0f);
+    return fanDensity(fan, pick.total, fan.around ? mass : fitValue(pick.piece, place), mass);
 }
 
 RT_FN FanSample sampleProjectedFan(RT_IN(ProjectedFan) fan, vec2 u) {
     FanSample result;
     result.density = 0.0f;
     result.uv = vec2(0.0f, 0.0f);
-    if (!(fan.total > 0.0f)) return result;
-    float rest = u.x * fan.total;
-    uint j = 0u;
-    uint k = 0u;
-    FitPiece s = fanPiece(fan, 0u, 0u);
-    float part = fitMass(s);
-    while (rest >= part && !(j + 1u == fan.sectors && k == fan.count[j])) {
-        rest -= part;
-        k++;
-        if (k > fan.count[j]) {
-            k = 0u;
-            j++;
-        }
-        s = fanPiece(fan, j, k);
-        part = fitMass(s);
-    }
-    float place = fitPlace(s, min(rest, part));
-    FanSlice slice = fanSlice(fan, j, s.start + place * s.width);
+    FanPick pick = pickFan(fan, u.x, vec2(0.0f, 0.0f));
+    if (!(pick.total > 0.0f)) return result;
+    FanSlice slice = fanSlice(fan, pick.sector, pick.turn);
     if (!(slice.mass > 0.0f)) return result;
-    vec2 uv = slice.uv + slice.uvSpan * fanPlace(slice, u.y);
+    vec2 uv = slice.uv + slice.uvSpan * slicePlace(slice, u.y);
     uv = vec2(clamp(uv.x, 0.0f, 1.0f), clamp(uv.y, 0.0f, 1.0f));
     if (fan.triangle) uv.y = min(uv.y, 1.0f - uv.x);
     result.uv = uv;
-    result.density = fanDensity(fan, fitValue(s, place), slice.mass);
+    result.density = pickDensity(fan, pick, slice.mass);
     return result;
 }
 
-// Density on the unit disk at a direction that meets the light; `local` in any frame about the normal is not enough:
-// `normal` must be that of makeProjectedFan.
+// Density on the unit disk at a direction that meets the light; `normal` must be that of makeProjectedFan.
 RT_FN float projectedFanDensity(RT_IN(ProjectedFan) fan, vec3 wi, vec3 normal) {
-    if (!(fan.total > 0.0f)) return 0.0f;
     Frame f = makeFrame(normal);
-    vec2 d = vec2(dot(wi, f.tangent), dot(wi, f.bitangent));
-    // The sector that the azimuth is in, or is out of by the least.
-    uint j = 0u;
-    float turn = 0.0f;
-    float least = 1.0e30f;
-    for (uint i = 0u; i < fan.sectors; i++) {
-        float angle = arcTan(cross2(fan.start[i], d), dot(fan.start[i], d));
-        float beyond = max(-angle, angle - fan.angle[i]);
-        if (beyond < least) {
-            least = beyond;
-            j = i;
-            turn = clamp(angle, 0.0f, fan.angle[i]);
-        }
-    }
-    uint k = 0u;
-    while (k < fan.count[j] && fan.turn[fan.first[j] + k] < turn) k++;
-    FitPiece s = fanPiece(fan, j, k);
-    float place = clamp((turn - s.start) / max(s.width, 1.0e-37f), 0.0f, 1.0f);
-    float mass = fanSlice(fan, j, turn).mass;
-    return fanDensity(fan, fitValue(s, place), mass);
+    FanPick pick = pickFan(fan, -1.0f, vec2(dot(wi, f.tangent), dot(wi, f.bitangent)));
+    if (!(pick.total > 0.0f)) return 0.0f;
+    float mass = fan.around ? 1.0f : fanSlice(fan, pick.sector, pick.turn).mass;
+    return pickDensity(fan, pick, mass);
 }
 
 RT_SHARED_END

@@ -162,7 +162,6 @@ TEST_P(ProjectedFanOfSize, MeanIsTheIrradiance) {
 TEST_P(ProjectedFanOfSize, VarianceIsAtMostAThousandth) {
     Uniforms uniform(7);
     int lights = 0;
-    std::size_t most = 0;
     for (int k = 0; k < 1200; ++k) {
         const Flat f = randomFlat(uniform, GetParam(), k % 3 == 0 ? 1e-3 : 0.1, k % 2 == 0);
         if (isMarginal(f.irradiance())) continue;
@@ -176,10 +175,8 @@ TEST_P(ProjectedFanOfSize, VarianceIsAtMostAThousandth) {
         }
         EXPECT_LE(mean.relativeVariance(), 1e-3) << k;
         ++lights;
-        for (std::uint32_t j = 0; j < fan.sectors; ++j) most = std::max<std::size_t>(most, fan.first[j] + fan.count[j]);
     }
     EXPECT_GT(lights, 500);
-    EXPECT_LE(most, kFanSlices);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ProjectedFanOfSize, testing::Values(1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0));
