@@ -1,0 +1,22 @@
+// Draws from the samplers of one family for the tests, see SamplerProbe.h.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#define RT_PROJECTED
+#include "SamplerProbe.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kFamily = 0u;
+layout(buffer_reference, scalar) buffer Results { uvec4 at[]; };
+layout(push_constant, scalar) uniform Launch {
+    Results results; // count for each mode of each case
+    uint count;
+};
+
+void main() {
+    uint part = gl_WorkGroupID.y;
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    results.at[part * count + i] = probeSampler(kFamily, part / kProbeModes, part % kProbeModes, i);
+}
