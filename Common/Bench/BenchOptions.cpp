@@ -34,8 +34,9 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     app.set_version_flag("--version", std::string(kName) + " " RT_VERSION);
     BenchOptions options;
     bool quick = false;
-    auto* const suite = app.add_option(
-        "SUITE", options.suite, "quick (the default), predecessor, lights, samplers, scaling, full, or a .json file");
+    auto* const suite =
+        app.add_option("SUITE", options.suite,
+                       "quick (the default), predecessor, defaults, lights, samplers, scaling, full, or a .json file");
     auto* const quickFlag = app.add_flag("--quick", quick, "the suite quick");
     app.add_flag("--list-suites", options.listSuites, "names and titles of the suites that come with the program");
     app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")
