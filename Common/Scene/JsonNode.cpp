@@ -156,7 +156,7 @@ std::string JsonNode::string() const {
 }
 
 std::string JsonNode::oneOf(std::initializer_list<const char*> allowed) const {
-    const std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
+    std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
     if (std::none_of(allowed.begin(), allowed.end(), [&](const char* name) { return text == name; }))
         failValue("one of " + listed(allowed));
     return text;
