@@ -109,8 +109,9 @@ std::optional<Division> Builder::choose(const Range& range, const BinSums& sums,
     if (division.split.axis < 0) return chooseForLeaf(range);
     if (range.size() <= settings_.maxLeafSize && !isMixedLeaf) {
         const float area = range.box.halfArea();
-        const float blocks = static_cast<float>((range.size() + settings_.blockSize - 1) / settings_.blockSize);
-        if (area * blocks <= area * settings_.nodeCost + division.split.cost) return chooseForLeaf(range);
+        const std::size_t blocks = (range.size() + settings_.blockSize - 1) / settings_.blockSize;
+        if (area * static_cast<float>(blocks) <= area * settings_.nodeCost + division.split.cost)
+            return chooseForLeaf(range);
     }
     return division;
 }

@@ -95,7 +95,7 @@ class Film {
     std::uint64_t bytes() const; // of memory held
 
   private:
-    static constexpr std::size_t kTileValues = kTilePixels * 3;
+    static constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
 
     std::size_t slot(std::uint32_t tile, std::uint32_t replicate) const {
         return std::size_t{tile} * desc_.replicates + replicate;
