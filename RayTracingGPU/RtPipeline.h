@@ -12,11 +12,11 @@ namespace rt::gpu {
 
 class RtPipeline final : public Kernel {
   public:
-    // With only the shader groups that the features need. `bindings` must outlive it.
+    // With only the shader groups that the decisions need. `bindings` must outlive it.
     RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const RenderBindings& bindings,
                const PipelineDecisions& decisions, Shader rayGeneration);
 
-    // The groups that exist: "paths+quads+spheres".
+    // The groups that exist: "paths+quads+spheres+projected-polygons".
     const std::string& name() const override { return name_; }
 
   private:

@@ -1,4 +1,4 @@
-// The shader binding table: which group of a pipeline runs for a ray's start, miss and hit.
+// The shader binding table: which group of a pipeline runs for a ray's start, miss and hit, and for a call.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -8,11 +8,12 @@
 
 namespace rt::gpu {
 
-// Indices of a pipeline's groups. A hit record without a group is never reached.
+// Indices of a pipeline's groups. A record without a group is never reached.
 struct ShaderGroups {
     std::uint32_t rayGeneration = 0;
     std::uint32_t miss = 0;
     std::vector<std::optional<std::uint32_t>> hit;
+    std::vector<std::optional<std::uint32_t>> callable;
     std::uint32_t count = 0; // of groups
 };
 
@@ -29,6 +30,7 @@ class ShaderTable {
     VkStridedDeviceAddressRegionKHR rayGeneration_{};
     VkStridedDeviceAddressRegionKHR miss_{};
     VkStridedDeviceAddressRegionKHR hit_{};
+    VkStridedDeviceAddressRegionKHR callable_{};
 };
 
 } // namespace rt::gpu

@@ -37,8 +37,9 @@ const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected soli
 const uint kFeatureBits = 27u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 
-// Whether the samplers by projected solid angle are compiled at all. They are as long as all other light sampling, and drivers
-// take seconds over code that a specialization constant leaves unused, so a shader that can need them says so: RT_PROJECTED.
+// Whether lights can be sampled by projected solid angle at all. Their samplers are as long as all other light sampling, and
+// drivers take seconds over code that a specialization constant leaves unused, so a shader that can need them says so:
+// RT_PROJECTED. One that says RT_PROJECTED_CALLS as well has useProjectedPolygon() and useProjectedSphere() call other shaders.
 #ifdef RT_PROJECTED
 const bool kProjectedCompiled = true;
 #else

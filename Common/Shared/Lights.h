@@ -4,8 +4,12 @@
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Features.h"
+#include "ProjectedQuery.h"
+#include "SphericalShapes.h"
+#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
 #include "ProjectedPolygon.h"
 #include "ProjectedSphere.h"
+#endif
 
 RT_SHARED_BEGIN
 
@@ -36,7 +40,7 @@ const uint kRegimeSolidAngle = 0u; // uniform in solid angle
 const uint kRegimeArea = 1u;       // uniform in area
 const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
 const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
-const uint kRegimeProjected = 4u;  // uniform in projected solid angle: of a point on a surface
+const uint kRegimeProjected = 4u;  // a sphere: uniform in projected solid angle; flat lights: isFlatProjected()
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
@@ -68,10 +72,17 @@ RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Li
     return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
 }
 
-// A flat light asked for by projected solid angle that is too small for it is sampled by area.
-RT_FN uint projectedOrArea(RT_IN(Light) light, vec3 toCenter) {
+// Whether a quad or triangle is sampled by projected solid angle from a point, `corner` relative to it. One that should be but
+// is too small for it is sampled by area.
+RT_FN bool isFlatProjected(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 corner, vec3 normal) {
+    bool quad = has(features, kFeatureQuadLights) && light.kind == kLightQuad &&
+                wantsProjected(features, params.quadLight, normal);
+    bool triangle = has(features, kFeatureTriangleLights) && light.kind == kLightTriangle &&
+                    wantsProjected(features, params.triangleLight, normal);
+    if (!quad && !triangle) return false;
+    vec3 toMiddle = corner + (light.edgeU + light.edgeV) * (quad ? 0.5f : 1.0f / 3.0f);
     float extent2 = dot(light.edgeU, light.edgeU) + dot(light.edgeV, light.edgeV);
-    return extent2 >= kTinyExtent * kTinyExtent * dot(toCenter, toCenter) ? kRegimeProjected : kRegimeArea;
+    return extent2 >= kTinyExtent * kTinyExtent * dot(toMiddle, toMiddle);
 }
 
 // Automatic: a flat light whose extent is below a tenth of its distance subtends nearly the same solid angle per area
@@ -81,9 +92,7 @@ RT_FN bool isFar(vec3 toCenter, vec3 edgeU, vec3 edgeV) {
 }
 
 RT_FN uint triangleLightRegime(uint features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
-    if (wantsProjected(features, method, normal))
-        return projectedOrArea(light, corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f));
-    bool area = method == kShapeArea;
+    bool area = method == kShapeArea || wantsProjected(features, method, normal);
     if (method == kShapeAuto)
         area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
     return area ? kRegimeArea : kRegimeSolidAngle;
@@ -106,10 +115,9 @@ struct QuadView {
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
-    q.regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    bool area = method == kShapeArea || wantsProjected(features, method, normal);
+    q.regime = area ? kRegimeArea : kRegimeSolidAngle;
     q.swapped = false;
-    if (wantsProjected(features, method, normal))
-        q.regime = projectedOrArea(light, q.corner + (light.edgeU + light.edgeV) * 0.5f);
     if (method != kShapeAuto) return q;
     if (isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV)) {
         q.regime = kRegimeArea;
@@ -135,28 +143,36 @@ RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
     return vec4(toWorld(makeFrame(normal), local), local.z * kInvPi);
 }
 
-RT_CALL LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
-                                          vec2 u) {
-#ifdef RT_PROJECTED
-    LightSample s = noLightSample();
-    ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
-    if (cap.kind == kCapHidden) return s;
-    ProjectedDirection d = sampleProjectedCap(cap, light.radius, u);
-    s.wi = d.place.direction;
-    s.distance = d.place.distance;
-    s.normal = d.place.normal;
-    s.point = cap.cone.distance < 2.0f * light.radius ? position + s.wi * s.distance : center + s.normal * light.radius;
-    s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
-    return s;
-#else
-    return noLightSample();
-#endif
+RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
+    CapQuery query;
+    query.toCenter = toCenter;
+    query.radius = light.radius;
+    query.normal = normal;
+    query.given = given;
+    query.use = use;
+    return query;
 }
 
-RT_CALL float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
+                                        vec2 u) {
+    LightSample s = noLightSample();
 #ifdef RT_PROJECTED
-    ProjectedCap cap = makeProjectedCap(makeSphereCone(toCenter, light.radius), normal);
-    return projectedCapDensity(cap, wi) * max(dot(normal, wi), 0.0f);
+    CapSample d = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
+    if (!(d.density > 0.0f)) return s;
+    s.wi = d.direction;
+    s.distance = d.distance;
+    s.normal = d.normal;
+    bool close = length(toCenter) < 2.0f * light.radius;
+    s.point = close ? position + s.wi * s.distance : center + s.normal * light.radius;
+    s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
+#endif
+    return s;
+}
+
+RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+#ifdef RT_PROJECTED
+    float density = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDensity, wi)).density;
+    return density * max(dot(normal, wi), 0.0f);
 #else
     return 0.0f;
 #endif
@@ -289,27 +305,35 @@ RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 corner) {
     return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
 }
 
-RT_FN ProjectedFan projectedFan(RT_IN(Light) light, vec3 corner, vec3 normal) {
-    return makeProjectedFan(corner, light.edgeU, light.edgeV, light.normal, light.kind == kLightTriangle, normal);
+RT_FN FanQuery fanQuery(RT_IN(Light) light, vec3 corner, vec3 normal, uint use, vec3 given) {
+    FanQuery query;
+    query.corner = corner;
+    query.edgeU = light.edgeU;
+    query.edgeV = light.edgeV;
+    query.plane = light.normal;
+    query.normal = normal;
+    query.given = given;
+    query.kind = light.kind;
+    query.use = use;
+    return query;
 }
 
-RT_CALL LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
-#ifdef RT_PROJECTED
+RT_FN LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
     LightSample s = noLightSample();
-    FanSample drawn = sampleProjectedFan(projectedFan(light, corner, normal), u);
+#ifdef RT_PROJECTED
+    FanSample drawn = useProjectedPolygon(fanQuery(light, corner, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
     if (!(drawn.density > 0.0f)) return s;
     s.uv = drawn.uv;
     placeOnLight(s, light, position);
     s.pdf = drawn.density * max(dot(normal, s.wi), 0.0f);
-    return s;
-#else
-    return noLightSample();
 #endif
+    return s;
 }
 
-RT_CALL float flatProjectedPdf(RT_IN(Light) light, vec3 corner, vec3 normal, vec3 wi) {
+RT_FN float flatProjectedPdf(RT_IN(Light) light, vec3 corner, vec3 normal, vec3 wi) {
 #ifdef RT_PROJECTED
-    return projectedFanDensity(projectedFan(light, corner, normal), wi, normal) * max(dot(normal, wi), 0.0f);
+    float density = useProjectedPolygon(fanQuery(light, corner, normal, kProjectedDensity, wi)).density;
+    return density * max(dot(normal, wi), 0.0f);
 #else
     return 0.0f;
 #endif
@@ -319,8 +343,6 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     LightSample s = noLightSample();
-    if (has(features, kFeatureProjected) && view.regime == kRegimeProjected)
-        return sampleFlatProjected(light, view.corner, position, normal, u);
     if (view.regime == kRegimeSolidAngle) {
         s = sampleQuadSolidAngle(light, view.corner, position, u);
         if (s.pdf > 0.0f) return s;
@@ -340,8 +362,6 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
 RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    if (has(features, kFeatureProjected) && view.regime == kRegimeProjected)
-        return flatProjectedPdf(light, view.corner, normal, wi);
     if (view.regime == kRegimeSolidAngle) {
         float solidAngle = quadSolidAngle(light, view.corner);
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
@@ -359,8 +379,6 @@ RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params,
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
     uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
-    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
-        return sampleFlatProjected(light, corner, position, normal, u);
     if (regime == kRegimeSolidAngle) {
         SphericalTriangle t = triangleShape(light, corner);
         if (t.solidAngle >= kTinySolidAngle) {
@@ -380,8 +398,6 @@ RT_FN float triangleLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Li
                              vec3 wi, float distance) {
     vec3 corner = light.position - position;
     uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
-    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
-        return flatProjectedPdf(light, corner, normal, wi);
     if (regime == kRegimeSolidAngle) {
         float solidAngle = triangleShape(light, corner).solidAngle;
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
@@ -404,7 +420,10 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         s = sampleSphereLight(features, params, light, position, normal, time, u);
     } else if (light.kind != kLightSky && isLit(light, position)) {
-        if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
+        vec3 corner = light.position - position;
+        if (isFlatProjected(features, params, light, corner, normal)) {
+            s = sampleFlatProjected(light, corner, position, normal, u);
+        } else if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
             s = sampleQuadLight(features, params, light, position, normal, u);
         } else if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
             s = sampleTriangleLight(features, params, light, position, normal, u);
@@ -425,6 +444,8 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
     }
+    vec3 corner = light.position - position;
+    if (isFlatProjected(features, params, light, corner, normal)) return flatProjectedPdf(light, corner, normal, wi);
     if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
         return quadLightPdf(features, params, light, position, normal, wi, distance);
     }

@@ -29,6 +29,7 @@ struct FanPick {
     FitPiece piece;
     float turn; // from the beginning of the sector
 };
+RT_LARGE_VARIABLE(FanPick, pick)
 
 // ---- around the zenith ----------------------------------------------------------------------------------------------
 
@@ -37,7 +38,7 @@ RT_FN float fanArc(vec3 p, vec3 q) {
     return arcTan(length(cross(p, q - p)), dot(p, q));
 }
 
-RT_FN void pickAround(RT_IN(ProjectedFan) fan, RT_INOUT(FanPick) pick, float number) {
+RT_FN void pickAround(RT_LARGE_INOUT(FanPick, pick) RT_IN(ProjectedFan) fan, float number) {
     float mass[6];
     for (uint i = 0u; i < fan.edges; i++) {
         vec3 p = fanPoint(fan, fan.uv[i]);
@@ -92,7 +93,7 @@ RT_FN FitPiece fanPiece(uint form, RT_IN(FanKnot) a, RT_IN(FanKnot) b) {
 }
 
 // `turn`: the azimuth's in this sector, if it is picked by that, or less than 0.
-RT_FN void walkPiece(RT_INOUT(FanPick) pick, RT_IN(FanSector) sector, RT_IN(FitPiece) piece, float turn) {
+RT_FN void walkPiece(RT_LARGE_INOUT(FanPick, pick) RT_IN(FanSector) sector, RT_IN(FitPiece) piece, float turn) {
     pick.total += fitMass(piece);
     if (pick.byNumber) {
         pick.kept[pick.pieces] = vec4(piece.a, piece.b, piece.start, piece.width);
@@ -104,7 +105,7 @@ RT_FN void walkPiece(RT_INOUT(FanPick) pick, RT_IN(FanSector) sector, RT_IN(FitP
 }
 
 // Turn of the azimuth in this sector, -1 if another one is nearer.
-RT_FN float azimuthTurn(RT_INOUT(FanPick) pick, RT_IN(FanSector) sector) {
+RT_FN float azimuthTurn(RT_LARGE_INOUT(FanPick, pick) RT_IN(FanSector) sector) {
     float angle = arcTan(cross2(sector.start, pick.azimuth), dot(sector.start, pick.azimuth));
     float beyond = max(-angle, angle - sector.angle);
     if (beyond >= pick.least) return -1.0f;
@@ -121,12 +122,12 @@ RT_FN bool isOnHorizon(RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector, vec4 ed
 
 // Slices of a sector: two next to each other and the one in their middle by turns, ever closer until the fit of the outer two
 // misses little of the third. `slices` counts those of all sectors, `tolerance` is absolute.
-RT_FN void walkSector(RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector, RT_INOUT(FanPick) pick, RT_INOUT(uint) slices,
-                      float tolerance) {
+RT_FN void walkSector(RT_LARGE_INOUT(FanPick, pick) RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector,
+                      RT_INOUT(uint) slices, float tolerance) {
     // From the horizon up a slice's mass is half the squared sine of its upper end's elevation.
     uint form =
         isOnHorizon(fan, sector, sector.edgeA) || isOnHorizon(fan, sector, sector.edgeB) ? kFitSquare : kFitLinear;
-    float azimuth = pick.byNumber ? -1.0f : azimuthTurn(pick, sector);
+    float azimuth = pick.byNumber ? -1.0f : azimuthTurn(RT_LARGE(pick) sector);
     float turn = 0.0f;
     float stride = min(kFanStep, (sector.angle > 0.03f ? 0.5f : 1.0f) * sector.angle);
     FanKnot left;
@@ -153,8 +154,8 @@ RT_FN void walkSector(RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector, RT_INOUT
                 stride = 0.5f * whole.width;
                 turn = 0.5f * (left.turn + right.turn);
             } else {
-                walkPiece(pick, sector, fanPiece(form, left, knot), azimuth);
-                walkPiece(pick, sector, fanPiece(form, knot, right), azimuth);
+                walkPiece(RT_LARGE(pick) sector, fanPiece(form, left, knot), azimuth);
+                walkPiece(RT_LARGE(pick) sector, fanPiece(form, knot, right), azimuth);
                 if (missed < 0.03f * tolerance) stride = min(2.0f * stride, kFanStep);
                 if (slices >= kFanSlices) stride = sector.angle;
                 left = right;
@@ -187,7 +188,7 @@ RT_FN float fanMeasure(RT_IN(ProjectedFan) fan) {
 }
 
 // Two chains of edges lead from the first vertex to the last one; a sector ends at the next vertex of either.
-RT_FN void pickSlice(RT_IN(ProjectedFan) fan, RT_INOUT(FanPick) pick, float number) {
+RT_FN void pickSlice(RT_LARGE_INOUT(FanPick, pick) RT_IN(ProjectedFan) fan, float number) {
     float tolerance = kFanTolerance * fanMeasure(fan) / fan.height;
     uint slices = 0u;
     uint a = fan.first;
@@ -199,7 +200,7 @@ RT_FN void pickSlice(RT_IN(ProjectedFan) fan, RT_INOUT(FanPick) pick, float numb
         bool byA = nextA != fan.last && (nextB == fan.last || fanTurn(fan, fan.uv[nextA], fan.uv[nextB]) > 0.0f);
         uint to = byA ? nextA : nextB;
         FanSector sector = fanSector(fan, from, to, uvec2(a, nextA), uvec2(b, nextB));
-        if (sector.angle > 0.0f) walkSector(fan, sector, pick, slices, tolerance);
+        if (sector.angle > 0.0f) walkSector(RT_LARGE(pick) fan, sector, slices, tolerance);
         from = to;
         if (byA) {
             a = nextA;

@@ -1,16 +1,11 @@
-// Parallelograms and triangles by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an unoccluded diffuse
-// receiver then sees no variance. What is below its horizon is cut off.
+// Parallelograms and triangles by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an
+// unoccluded diffuse receiver then sees no variance. What is below its horizon is cut off.
 #ifndef RT_SHARED_PROJECTED_POLYGON_H
 #define RT_SHARED_PROJECTED_POLYGON_H
 #include "ProjectedFanFit.h"
+#include "ProjectedQuery.h"
 
 RT_SHARED_BEGIN
-
-// A point of the light with the density of its direction on the unit disk of the tangent plane.
-struct FanSample {
-    vec2 uv;
-    float density; // 0: nothing is visible
-};
 
 // Fraction of the slice's way up at which `part` of its projected solid angle lies below.
 RT_FN float slicePlace(RT_IN(FanSlice) s, float part) {
@@ -39,8 +34,7 @@ RT_FN float fanDensity(RT_IN(ProjectedFan) fan, float total, float fit, float ma
 }
 
 // A piece of the fan by a number in [0,1) or, if that is negative, the one at an azimuth.
-RT_FN FanPick pickFan(RT_IN(ProjectedFan) fan, float number, vec2 azimuth) {
-    FanPick pick;
+RT_FN void pickFan(RT_LARGE_INOUT(FanPick, pick) RT_IN(ProjectedFan) fan, float number, vec2 azimuth) {
     pick.byNumber = number >= 0.0f;
     pick.azimuth = azimuth;
     pick.least = 1.0e30f;
@@ -54,42 +48,49 @@ RT_FN FanPick pickFan(RT_IN(ProjectedFan) fan, float number, vec2 azimuth) {
     pick.piece.start = 0.0f;
     pick.piece.width = 0.0f;
     if (fan.around) {
-        pickAround(fan, pick, number);
+        pickAround(RT_LARGE(pick) fan, number);
     } else if (fan.count > 1u) {
-        pickSlice(fan, pick, number);
+        pickSlice(RT_LARGE(pick) fan, number);
     }
-    return pick;
 }
 
 // Density on the unit disk at the azimuth of a pick, whose slice has the mass `mass`.
-RT_FN float pickDensity(RT_IN(ProjectedFan) fan, RT_IN(FanPick) pick, float mass) {
+RT_FN float pickDensity(RT_LARGE_IN(FanPick, pick) RT_IN(ProjectedFan) fan, float mass) {
     float place = clamp((pick.turn - pick.piece.start) / max(pick.piece.width, 1.0e-37f), 0.0f, 1.0f);
     return fanDensity(fan, pick.total, fan.around ? mass : fitValue(pick.piece, place), mass);
 }
 
-RT_FN FanSample sampleProjectedFan(RT_IN(ProjectedFan) fan, vec2 u) {
+// Draws from the fan by two random numbers, or states the density at a direction that meets the light; the query's normal must
+// be that of makeProjectedFan. One function, so that a GPU's compiler has the walk and the slice once for both.
+RT_FN FanSample useProjectedFan(RT_LARGE_INOUT(FanPick, pick) RT_IN(ProjectedFan) fan, RT_IN(FanQuery) query) {
     FanSample result;
     result.density = 0.0f;
     result.uv = vec2(0.0f, 0.0f);
-    FanPick pick = pickFan(fan, u.x, vec2(0.0f, 0.0f));
+    bool draws = query.use == kProjectedDraw;
+    Frame f = makeFrame(query.normal);
+    vec2 azimuth = vec2(dot(query.given, f.tangent), dot(query.given, f.bitangent));
+    pickFan(RT_LARGE(pick) fan, draws ? query.given.x : -1.0f, azimuth);
     if (!(pick.total > 0.0f)) return result;
+    if (!draws && fan.around) { // all slices have this density
+        result.density = pickDensity(RT_LARGE(pick) fan, 1.0f);
+        return result;
+    }
     FanSlice slice = fanSlice(fan, pick.sector, pick.turn);
     if (!(slice.mass > 0.0f)) return result;
-    vec2 uv = slice.uv + slice.uvSpan * slicePlace(slice, u.y);
+    result.density = pickDensity(RT_LARGE(pick) fan, slice.mass);
+    if (!draws) return result;
+    vec2 uv = slice.uv + slice.uvSpan * slicePlace(slice, query.given.y);
     uv = vec2(clamp(uv.x, 0.0f, 1.0f), clamp(uv.y, 0.0f, 1.0f));
     if (fan.triangle) uv.y = min(uv.y, 1.0f - uv.x);
     result.uv = uv;
-    result.density = pickDensity(fan, pick, slice.mass);
     return result;
 }
 
-// Density on the unit disk at a direction that meets the light; `normal` must be that of makeProjectedFan.
-RT_FN float projectedFanDensity(RT_IN(ProjectedFan) fan, vec3 wi, vec3 normal) {
-    Frame f = makeFrame(normal);
-    FanPick pick = pickFan(fan, -1.0f, vec2(dot(wi, f.tangent), dot(wi, f.bitangent)));
-    if (!(pick.total > 0.0f)) return 0.0f;
-    float mass = fan.around ? 1.0f : fanSlice(fan, pick.sector, pick.turn).mass;
-    return pickDensity(fan, pick, mass);
+RT_CALL FanSample useProjectedPolygon(RT_IN(FanQuery) query) {
+    RT_LARGE_LOCAL(FanPick, pick)
+    ProjectedFan fan = makeProjectedFan(query.corner, query.edgeU, query.edgeV, query.plane,
+                                        query.kind == kLightTriangle, query.normal);
+    return useProjectedFan(RT_LARGE(pick) fan, query);
 }
 
 RT_SHARED_END

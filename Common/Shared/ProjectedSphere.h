@@ -8,6 +8,7 @@
 #ifndef RT_SHARED_PROJECTED_SPHERE_H
 #define RT_SHARED_PROJECTED_SPHERE_H
 #include "PiecewiseFit.h"
+#include "ProjectedQuery.h"
 #include "SphericalShapes.h"
 
 RT_SHARED_BEGIN
@@ -172,6 +173,27 @@ RT_FN float projectedCapDensity(RT_IN(ProjectedCap) cap, vec3 wi) {
     float sinPsi = min(abs(dot(cap.side, wi)) / cap.cone.sine, 1.0f);
     float cosPsi = sqrt((1.0f - sinPsi) * (1.0f + sinPsi));
     return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap, sinPsi, cosPsi), cosPsi);
+}
+
+// Draws or states a density, see ProjectedQuery.h.
+RT_CALL CapSample useProjectedSphere(RT_IN(CapQuery) query) {
+    CapSample result;
+    result.direction = query.normal;
+    result.distance = 0.0f;
+    result.normal = query.normal;
+    result.density = 0.0f;
+    ProjectedCap cap = makeProjectedCap(makeSphereCone(query.toCenter, query.radius), query.normal);
+    if (cap.kind == kCapHidden) return result;
+    if (query.use == kProjectedDensity) {
+        result.density = projectedCapDensity(cap, query.given);
+        return result;
+    }
+    ProjectedDirection d = sampleProjectedCap(cap, query.radius, vec2(query.given));
+    result.direction = d.place.direction;
+    result.distance = d.place.distance;
+    result.normal = d.place.normal;
+    result.density = d.density;
+    return result;
 }
 
 RT_SHARED_END

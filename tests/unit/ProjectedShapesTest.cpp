@@ -114,6 +114,24 @@ struct Flat {
     vec3 towards(vec2 uv) const { return normalize(corner + edgeU * uv.x + edgeV * uv.y); }
 };
 
+FanSample draw(const ProjectedFan& fan, vec2 u) {
+    FanQuery query{};
+    query.use = kProjectedDraw;
+    query.given = vec3(u, 0);
+    query.normal = vec3(0, 0, 1); // of no account
+    FanPick pick;
+    return useProjectedFan(pick, fan, query);
+}
+
+float density(const ProjectedFan& fan, vec3 wi, vec3 normal) {
+    FanQuery query{};
+    query.use = kProjectedDensity;
+    query.given = wi;
+    query.normal = normal;
+    FanPick pick;
+    return useProjectedFan(pick, fan, query).density;
+}
+
 Flat flat(const dvec3& corner, const dvec3& u, const dvec3& v, bool triangle, const dvec3& normal) {
     return {vec3(corner), vec3(u), vec3(v), vec3(glm::normalize(glm::cross(dvec3(vec3(u)), dvec3(vec3(v))))),
             vec3(normal), triangle};
@@ -144,7 +162,7 @@ TEST_P(ProjectedFanOfSize, MeanIsTheIrradiance) {
         Mean mean;
         double lost = 0;
         for (int i = 0; i < 1 << 12; ++i) {
-            const FanSample s = sampleProjectedFan(fan, uniform.pair());
+            const FanSample s = draw(fan, uniform.pair());
             ASSERT_TRUE(isFinite(s.density) && s.density >= 0 && isFinite(s.uv.x) && isFinite(s.uv.y));
             ASSERT_TRUE(s.uv.x >= 0 && s.uv.y >= 0 && s.uv.x <= 1 && s.uv.y <= 1);
             mean.add(s.density > 0 ? 1 / double(s.density) : 0);
@@ -170,7 +188,7 @@ TEST_P(ProjectedFanOfSize, VarianceIsAtMostAThousandth) {
         Mean mean;
         for (int i = 0; i < 1 << 12; ++i) {
             const float u = (static_cast<float>(i) + uniform()) * 0x1p-12f;
-            const FanSample s = sampleProjectedFan(fan, vec2(u, uniform()));
+            const FanSample s = draw(fan, vec2(u, uniform()));
             mean.add(s.density > 0 ? 1 / double(s.density) : 0);
         }
         EXPECT_LE(mean.relativeVariance(), 1e-3) << k;
@@ -213,7 +231,7 @@ TEST(ProjectedFan, WeightedCountsAreTheMeasure) {
         const ProjectedFan fan = f.fan();
         std::vector<std::uint64_t> counts(exact.size());
         for (int i = 0; i < 1 << 17; ++i) {
-            const FanSample s = sampleProjectedFan(fan, uniform.pair());
+            const FanSample s = draw(fan, uniform.pair());
             ASSERT_GT(s.density, 0.0f) << k;
             if (uniform.between(0, 1.5) >= 1 / (double(s.density) * f.irradiance())) continue;
             int a = std::min(static_cast<int>(s.uv.x * kCells), kCells - 1);
@@ -231,7 +249,7 @@ TEST(ProjectedFan, KeepsStrata) {
     const Flat f = flat({0.5, -1, -0.3}, {0, 2, 0.3}, {0.4, 0, 2}, false, {0, 0, 1});
     const ProjectedFan fan = f.fan();
     const auto value = [&](vec2 u) {
-        const FanSample s = sampleProjectedFan(fan, u);
+        const FanSample s = draw(fan, u);
         return (double(s.uv.x) * 0.7 + double(s.uv.y) * double(s.uv.y)) / double(s.density);
     };
     Mean random, strata;
@@ -264,11 +282,11 @@ TEST(ProjectedFan, StaysFiniteUnderStress) {
         const Flat f = flat(corner, u, v, k % 2 == 0, n);
         const ProjectedFan fan = f.fan();
         for (const vec2 w : {uniform.pair(), vec2(0), vec2(last), vec2(0, last), vec2(last, 0)}) {
-            const FanSample s = sampleProjectedFan(fan, w);
+            const FanSample s = draw(fan, w);
             ASSERT_TRUE(isFinite(s.density) && s.density >= 0) << k;
             ASSERT_TRUE(s.uv.x >= 0 && s.uv.x <= 1 && s.uv.y >= 0 && s.uv.y <= 1) << k;
             if (s.density == 0) continue;
-            const float again = projectedFanDensity(fan, f.towards(s.uv), f.normal);
+            const float again = density(fan, f.towards(s.uv), f.normal);
             ASSERT_TRUE(isFinite(again) && again >= 0) << k;
         }
     }
