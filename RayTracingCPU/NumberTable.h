@@ -19,7 +19,7 @@ struct PairTable {
 RT_CALL void fillPairs(PairTable& table, const Sampler& first, std::uint32_t dimension) {
     const uvec3 key = hash3(uvec3(first.key, kSobolKey, dimension));
     for (std::uint32_t lane = 0; lane < image::Film::kBlock; ++lane) {
-        const uvec2 words = sobolPair(first.index + lane, key);
+        const uvec2 words = sobolPair(first.base + first.index + lane, key);
         table.x[lane] = toUniform(words.x);
         table.y[lane] = toUniform(words.y);
     }

@@ -109,8 +109,8 @@ RT_FN RenderParams probeParams() {
 
 RT_FN uvec4 probeSampler(uint i) {
     RenderParams params = probeParams();
-    params.samplerKind = i % 3u;
-    uvec2 words = randomWords(makeSampler(params, i / 3u, i & 1u, i & 255u), i & 15u);
+    params.samplerKind = i % 4u;
+    uvec2 words = randomWords(makeSampler(params, i / 4u, i & 1u, i & 255u), i & 15u);
     return uvec4(words.x, words.y, 0u, 0u);
 }
 

@@ -40,8 +40,10 @@ inline constexpr Named<ShapeSampling> kFlatLights[] = {{"auto", ShapeSampling::A
                                                        {"solid-angle", ShapeSampling::SolidAngle},
                                                        {"projected", ShapeSampling::Projected},
                                                        {"area", ShapeSampling::Area}};
-inline constexpr Named<SamplerKind> kSamplers[] = {
-    {"sobol", SamplerKind::Sobol}, {"stratified", SamplerKind::Stratified}, {"independent", SamplerKind::Independent}};
+inline constexpr Named<SamplerKind> kSamplers[] = {{"sobol", SamplerKind::Sobol},
+                                                   {"sobol-blue", SamplerKind::SobolBlue},
+                                                   {"stratified", SamplerKind::Stratified},
+                                                   {"independent", SamplerKind::Independent}};
 inline constexpr Named<Policy> kPolicies[] = {
     {"par", Policy::Par}, {"seq", Policy::Seq}, {"par_unseq", Policy::ParUnseq}};
 inline constexpr Named<GpuEngineKind> kGpuEngines[] = {

@@ -1,5 +1,7 @@
 #include "Common/App/RenderParams.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "Common/Shared/Features.h"
@@ -25,6 +27,14 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
 }
 
+// Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
+std::uint32_t logOfBlock(const RenderSettings& settings) {
+    const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
+    const std::uint32_t wanted = settings.sppIsKnown ? static_cast<std::uint32_t>(std::bit_width(samples - 1)) : 4u;
+    const auto side = static_cast<std::uint32_t>(std::bit_width(std::max(settings.width, settings.height) - 1));
+    return std::min(wanted, 32u - 2u * std::min(side, 16u));
+}
+
 } // namespace
 
 shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings) {
@@ -39,7 +49,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.quadLight = static_cast<std::uint32_t>(settings.quadLight);
     params.triangleLight = static_cast<std::uint32_t>(settings.triangleLight);
     params.samplerKind = static_cast<std::uint32_t>(settings.sampler);
-    params.strataX = strata(settings).x;
+    params.strataX = settings.sampler == SamplerKind::SobolBlue ? logOfBlock(settings) : strata(settings).x;
     params.strataY = strata(settings).y;
     if (settings.russianRoulette)
         params.russianRoulette = isUnderPlainSky(scene) ? kRouletteStartUnderSky : kRouletteStart;

@@ -66,7 +66,8 @@ std::uint64_t mostSamples(const image::Film& film) {
 // other.
 void checkSpp(const std::string& file, std::uint32_t stored, const RenderSettings& settings, const image::Film& film) {
     const std::string now = std::to_string(settings.spp) + " now";
-    if (settings.sampler == SamplerKind::Stratified && settings.sppIsKnown && stored != settings.spp)
+    const bool isMadeForSpp = settings.sampler == SamplerKind::Stratified || settings.sampler == SamplerKind::SobolBlue;
+    if (isMadeForSpp && settings.sppIsKnown && stored != settings.spp)
         throw InputError(file + ": spp is " + std::to_string(stored) +
                          " in the checkpoint, whose strata allow no other, but " + now);
     if (const std::uint64_t most = mostSamples(film); most > settings.spp)

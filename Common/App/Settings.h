@@ -27,7 +27,8 @@ enum class ShapeSampling : std::uint32_t {
 enum class SamplerKind : std::uint32_t {
     Independent = shared::kSamplerIndependent,
     Stratified = shared::kSamplerStratified,
-    Sobol = shared::kSamplerSobol
+    Sobol = shared::kSamplerSobol,
+    SobolBlue = shared::kSamplerSobolBlue
 };
 
 struct RenderSettings {

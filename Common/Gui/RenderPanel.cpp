@@ -32,6 +32,7 @@ constexpr Named<ShapeSampling> kFlatNames[] = {{"Automatic", ShapeSampling::Auto
                                                {"Projected solid angle", ShapeSampling::Projected},
                                                {"Area", ShapeSampling::Area}};
 constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
+                                                {"Sobol, blue noise", SamplerKind::SobolBlue},
                                                 {"Stratified", SamplerKind::Stratified},
                                                 {"Normal (independent)", SamplerKind::Independent}};
 

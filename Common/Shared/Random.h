@@ -137,15 +137,37 @@ struct Sampler {
     uint kind;  // kSamplerIndependent, kSamplerStratified, kSamplerSobol
     uint key;   // of the pixel, the seed and the replicate
     uint index; // of the sample in the pixel
+    uint base;  // of the pixel's samples in Sobol's sequence
     uint strataX;
     uint strataY;
 };
 
+// Bits of x at even places.
+RT_FN uint spreadBits(uint x) {
+    x = (x | x << 8u) & 0x00ff00ffu;
+    x = (x | x << 4u) & 0x0f0f0f0fu;
+    x = (x | x << 2u) & 0x33333333u;
+    return (x | x << 1u) & 0x55555555u;
+}
+
+// kSamplerSobolBlue: all pixels share one sequence, in the order of a Z curve, and the scrambling of its index, which is
+// nested, shuffles quadrants at every level. What 2^k pixels of a square take together is stratified like the samples of
+// one, so errors of neighbours cancel, and errors turn into blue noise (Ahmed & Wonka, "Screen-Space Blue-Noise Diffusion of
+// Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020). A pixel takes 2^strataX samples in a row; those
+// beyond are of another, independent round.
 RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate, uint index) {
     Sampler s;
     s.kind = params.samplerKind;
     s.key = hash3(uvec3(pixel, params.seed, replicate)).x;
     s.index = index;
+    s.base = 0u;
+    if (params.samplerKind == kSamplerSobolBlue) {
+        uint round = index >> params.strataX;
+        uint order = spreadBits(pixel % params.width) | spreadBits(pixel / params.width) << 1u;
+        s.kind = kSamplerSobol;
+        s.key = hash3(uvec3(0x9e3779b9u ^ round, params.seed, replicate)).z;
+        s.base = (order - round) << params.strataX;
+    }
     s.strataX = params.strataX;
     s.strataY = params.strataY;
     return s;
@@ -158,7 +180,7 @@ RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
         uvec3 h = hash3(uvec3(s.key, s.index, pair));
         return uvec2(h.x, h.y);
     }
-    if (s.kind == kSamplerSobol) return sobolPair(s.index, hash3(uvec3(s.key, kSobolKey, pair)));
+    if (s.kind == kSamplerSobol) return sobolPair(s.base + s.index, hash3(uvec3(s.key, kSobolKey, pair)));
     uint cells = s.strataX * s.strataY;
     uint round = s.index / cells;
     uint cell = permute(s.index % cells, cells, hash3(uvec3(s.key, round, pair)).z);
@@ -196,7 +218,7 @@ RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
     float x[4];
     float y[4];
     for (uint i = 0u; i < 4u; i++) {
-        uvec2 words = sobolPair(s.index, hash3(uvec3(s.key, kSobolKey, first + i)));
+        uvec2 words = sobolPair(s.base + s.index, hash3(uvec3(s.key, kSobolKey, first + i)));
         x[i] = toUniform(words.x);
         y[i] = toUniform(words.y);
     }
@@ -210,7 +232,7 @@ RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
 // First number of the pair, in [0,1), fine near 0.
 RT_FN float randomFine(RT_IN(Sampler) s, uint pair) {
     uint high = randomWords(s, pair).x;
-    return toFineUniform(high, hash3(uvec3(s.key ^ 0x9e3779b9u, s.index, pair)).x);
+    return toFineUniform(high, hash3(uvec3(s.key ^ 0x9e3779b9u, s.base + s.index, pair)).x);
 }
 
 // u, known to lie in [low, high) of a distribution function, stretched to [0,1): reuses a number after a choice.

@@ -255,6 +255,7 @@ const uint kShapeArea = 3u;
 const uint kSamplerIndependent = 0u;
 const uint kSamplerStratified = 1u;
 const uint kSamplerSobol = 2u;
+const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
 
 struct RenderParams {
     uint width; // pixels
@@ -267,7 +268,8 @@ struct RenderParams {
     uint quadLight;
     uint triangleLight;
     uint samplerKind;
-    uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel
+    uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
+                  // logarithm of the samples of a pixel that are next to each other in the sequence
     uint strataY;
     uint russianRoulette; // vertices that scatter before it begins; 0: there is none
 };

@@ -75,5 +75,44 @@ TEST(Convergence, SobolIsSteeperThanIndependentAndNeverWorse) {
     }
 }
 
+// Root of the mean square of means of errors over blocks of pixels, and eight scramblings.
+double blockError(app::Engine& engine, const CompiledScene& scene, app::SamplerKind sampler, std::uint32_t spp,
+                  const image::Image& reference, std::size_t block) {
+    constexpr std::size_t kSide = 16;
+    double squares = 0;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+        const image::Image image = renderOnce(engine, scene, sampler, spp, seed);
+        for (std::size_t y = 0; y < kSide; y += block)
+            for (std::size_t x = 0; x < kSide; x += block) {
+                double sum = 0;
+                for (std::size_t k = 0; k < block * block; ++k) {
+                    const std::size_t i = 3 * ((y + k / block) * kSide + x + k % block);
+                    sum += static_cast<double>(image.data[i]) - static_cast<double>(reference.data[i]);
+                }
+                squares += std::pow(sum / static_cast<double>(block * block), 2);
+            }
+    }
+    return std::sqrt(squares * static_cast<double>(block * block) / (8 * kSide * kSide));
+}
+
+// Errors as blue noise: pixels are as good as ever, means of 4 x 4 of them have less than 0.7 of the error. The errors of
+// independent pixels would leave the ratio at 1, within a tenth by the number of blocks.
+TEST(Convergence, BlueNoiseMovesErrorsToHighFrequencies) {
+    for (const bool sphere : {false, true}) {
+        const auto scene = compileScene(litFloor(sphere));
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        const image::Image reference = renderOnce(*engine, *scene, app::SamplerKind::Sobol, 1u << 14, 77);
+        const auto ratio = [&](std::uint32_t spp, std::size_t block) {
+            return blockError(*engine, *scene, app::SamplerKind::SobolBlue, spp, reference, block) /
+                   blockError(*engine, *scene, app::SamplerKind::Sobol, spp, reference, block);
+        };
+        EXPECT_LT(ratio(16, 1), 1.2);
+        EXPECT_LT(ratio(16, 4), 0.7);
+        EXPECT_LT(ratio(20, 1), 1.2); // no power of two
+        EXPECT_LT(ratio(20, 4), 1.1);
+    }
+}
+
 } // namespace
 } // namespace rt::test

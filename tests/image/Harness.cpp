@@ -18,7 +18,7 @@ app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
 std::string describe(const app::RenderSettings& settings) {
     static const char* const kSamplings[] = {"bsdf", "mixture", "mis"};
     static const char* const kSelections[] = {"uniform", "power", "contribution"};
-    static const char* const kSamplers[] = {"independent", "stratified", "sobol"};
+    static const char* const kSamplers[] = {"independent", "stratified", "sobol", "sobol-blue"};
     return std::string(kSamplings[static_cast<std::size_t>(settings.lightSampling)]) + " " +
            kSelections[static_cast<std::size_t>(settings.lightSelection)] + " " +
            kSamplers[static_cast<std::size_t>(settings.sampler)] + " depth " + std::to_string(settings.maxDepth);

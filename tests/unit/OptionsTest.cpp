@@ -197,7 +197,7 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
     EXPECT_EQ(error({"--width", "16385"}), "--width 16385: must be a whole number from 1 to 16384");
     EXPECT_EQ(error({"--height", "0"}), "--height 0: must be a whole number from 1 to 16384");
     EXPECT_EQ(error({"--seed", "4294967296"}), "--seed 4294967296: must be a whole number from 0 to 4294967295");
-    EXPECT_EQ(error({"--sampler", "halton"}), "--sampler halton: must be sobol, stratified or independent");
+    EXPECT_EQ(error({"--sampler", "halton"}), "--sampler halton: must be sobol, sobol-blue, stratified or independent");
     EXPECT_EQ(error({"--russian-roulette", "yes"}), "--russian-roulette yes: must be on or off");
     EXPECT_EQ(error({"--aov", "albedo,colour", "-o", "a.png"}),
               "--aov colour: must be albedo, normal, depth, variance or samples");

@@ -19,10 +19,11 @@ RenderParams paramsOf(uint kind, uint strataX = 16, uint strataY = 16, uint seed
     params.strataX = strataX;
     params.strataY = strataY;
     params.seed = seed;
+    params.width = 64;
     return params;
 }
 
-constexpr uint kKinds[] = {kSamplerIndependent, kSamplerStratified, kSamplerSobol};
+constexpr uint kKinds[] = {kSamplerIndependent, kSamplerStratified, kSamplerSobol, kSamplerSobolBlue};
 
 // ---- numbers --------------------------------------------------------------------------------------------------------
 
@@ -240,7 +241,9 @@ TEST(Samplers, PairsAreIndependentOfEachOther) {
             }
         }
         EXPECT_GT(chiSquareP(dimensions), kSignificance) << kind;
-        EXPECT_GT(chiSquareP(pixels), kSignificance) << kind;
+        if (kind != kSamplerSobolBlue) { // whose pixels share a sequence
+            EXPECT_GT(chiSquareP(pixels), kSignificance) << kind;
+        }
     }
 }
 
@@ -263,7 +266,7 @@ TEST(Samplers, CoverageOfAnEdge) {
 
 // Root mean square errors of a smooth integral with 256 samples: strata and Sobol must pay.
 TEST(Samplers, StratificationPays) {
-    double errors[3] = {};
+    double errors[4] = {};
     for (const uint kind : kKinds) {
         double squares = 0;
         for (uint pixel = 0; pixel < 128; ++pixel) {
@@ -278,6 +281,69 @@ TEST(Samplers, StratificationPays) {
     }
     EXPECT_LT(errors[kSamplerStratified] * 5, errors[kSamplerIndependent]);
     EXPECT_LT(errors[kSamplerSobol] * 2, errors[kSamplerStratified]);
+}
+
+// Errors of an image whose pixels are one smooth integral, at 16 samples.
+std::vector<double> errorImage(uint kind, uint seed) {
+    constexpr uint kSide = 64;
+    std::vector<double> errors;
+    for (uint pixel = 0; pixel < kSide * kSide; ++pixel) {
+        double sum = 0;
+        for (uint i = 0; i < 16; ++i) {
+            const vec2 u = randomPair(makeSampler(paramsOf(kind, 4, 4, seed), pixel, 0, i), 6);
+            sum += std::exp(double(u.x) + double(u.y));
+        }
+        errors.push_back(sum / 16 / std::pow(std::exp(1.0) - 1, 2) - 1);
+    }
+    return errors;
+}
+
+// Neighbours' errors cancel: means of 4 x 4 pixels, wherever they begin, have less than half of the root mean square of
+// independent pixels, and single pixels are as good as ever.
+TEST(Samplers, ErrorsAreBlueNoise) {
+    const auto rms = [](uint kind, uint block) {
+        Mean squares;
+        for (uint seed = 0; seed < 32; ++seed) {
+            const std::vector<double> errors = errorImage(kind, seed);
+            for (uint y = 2; y + block <= 64; y += block) // 2: not aligned to the quadrants
+                for (uint x = 2; x + block <= 64; x += block) {
+                    double sum = 0;
+                    for (uint k = 0; k < block * block; ++k) sum += errors[(y + k / block) * 64 + x + k % block];
+                    squares.add(std::pow(sum / (block * block), 2));
+                }
+        }
+        return std::sqrt(squares.mean());
+    };
+    EXPECT_LT(rms(kSamplerSobolBlue, 1), 1.2 * rms(kSamplerSobol, 1)); // of 32 scramblings, each worth some 30 %
+    EXPECT_LT(rms(kSamplerSobolBlue, 4) * 2, rms(kSamplerSobol, 4));
+}
+
+// A quadrant's pixels together are a net: 64 samples of 4 pixels have one in each of 64 strips, and 16 of one pixel in each
+// of 16.
+TEST(Samplers, BlueNoiseSharesOneSequence) {
+    for (const uint pixels : {1u, 4u}) {
+        std::vector<int> x(16 * pixels), y(16 * pixels);
+        for (uint p = 0; p < pixels; ++p)
+            for (uint i = 0; i < 16; ++i) {
+                const uint pixel = (10 + p / 2) * 64 + 20 + p % 2;
+                const uvec2 w = randomWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), pixel, 0, i), 6);
+                ++x[static_cast<std::size_t>((std::uint64_t{w.x} * 16 * pixels) >> 32)];
+                ++y[static_cast<std::size_t>((std::uint64_t{w.y} * 16 * pixels) >> 32)];
+            }
+        for (uint k = 0; k < 16 * pixels; ++k) EXPECT_TRUE(x[k] == 1 && y[k] == 1) << pixels << " " << k;
+    }
+}
+
+// More samples than the image's sequence has for a pixel go on in rounds of their own, in which no number comes again.
+TEST(Samplers, BlueNoiseGoesOnInRounds) {
+    std::set<std::pair<uint, uint>> seen;
+    Mean mean;
+    for (uint i = 0; i < 4096; ++i) {
+        const uvec2 w = randomWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), 77, 0, i), 6);
+        EXPECT_TRUE(seen.insert({w.x, w.y}).second) << i;
+        mean.add(double(w.x) / 0x1p32);
+    }
+    EXPECT_TRUE(agrees(mean, 0.5));
 }
 
 // The numbers that a vertex draws at once are those of its pairs.

@@ -242,7 +242,7 @@ TEST_F(SessionTest, SecondInterruptionEndsAtOnce) {
 }
 
 TEST_F(SessionTest, ResumesToTheSameBits) {
-    for (const std::string sampler : {"sobol", "stratified"})
+    for (const std::string sampler : {"sobol", "sobol-blue", "stratified"})
         for (const std::string replicates : {"1", "3"}) {
             const std::vector<std::string> common = {"--spp", "75", "--sampler", sampler, "--replicates", replicates};
             const auto with = [&common](std::vector<std::string> more) {
