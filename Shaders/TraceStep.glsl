@@ -15,16 +15,15 @@ Hit traceStep(PathState path, DirectLight direct, bool checking, inout uint nonf
         ray = shadowRay(path, direct);
         tMax = direct.distance;
     }
-    if (!isTraceable(ray, tMax)) {
+    // Traced all the same, somewhere: a branch around the trace would cost all rays more.
+    bool traceable = isTraceable(ray, tMax);
+    if (!traceable) {
         nonfinite++;
-        Hit none;
-        none.t = checking ? 0.0f : -1.0f;
-        none.kind = kNone;
-        none.primitive = 0u;
-        none.instance = kNone;
-        none.u = 0.0f;
-        none.v = 0.0f;
-        return none;
+        ray.origin = vec3(0.0f, 0.0f, 0.0f);
+        ray.direction = vec3(0.0f, 0.0f, 1.0f);
+        tMax = 1.0f;
     }
-    return traceRay(ray, checking, tMax);
+    Hit hit = traceRay(ray, checking, tMax);
+    if (!traceable) hit.t = checking ? 0.0f : -1.0f;
+    return hit;
 }
