@@ -29,8 +29,8 @@ RenderBindings::RenderBindings(vulkan::VulkanContext& context, app::GpuEngineKin
         {compute ? kFlatLists : kTopLevel, traced, 1, pushStages_, nullptr},
     }};
     set_ = vulkan::DescriptorSet(context.device(), bindings, "Creating bindings");
-    layout_ = vulkan::makePipelineLayout(context.device(), {pushStages_, 0, pushBytes}, set_.layout(),
-                                         "Creating bindings");
+    layout_ =
+        vulkan::makePipelineLayout(context.device(), {pushStages_, 0, pushBytes}, set_.layout(), "Creating bindings");
 }
 
 void RenderBindings::update(const vulkan::Buffer& constants, VkAccelerationStructureKHR topLevel) const {

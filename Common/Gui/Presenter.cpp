@@ -25,9 +25,10 @@ Handle<VkSemaphore> createSemaphore(VkDevice device) {
 
 Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(device), window_(window) {
     chooseFormat();
-    renderPass_ = makeWindowRenderPass(device.device(), format_.format,
-                                       VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the picture and its surroundings cover everything
-                                       VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    renderPass_ =
+        makeWindowRenderPass(device.device(), format_.format,
+                             VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the picture and its surroundings cover everything
+                             VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
     createFrames();
     film_ = std::make_unique<FilmPass>(device, renderPass_.get());
     provideSwapchain();

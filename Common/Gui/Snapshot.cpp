@@ -23,13 +23,12 @@ class Target {
   public:
     Target(GraphicsDevice& device, VkFormat format, VkExtent2D extent)
         : extent_(extent),
-          color_(device.device(),
-                 {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                  VK_IMAGE_ASPECT_COLOR_BIT},
-                 [&](std::uint32_t allowed) {
-                     return device.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-                 },
-                 kWhat),
+          color_(
+              device.device(),
+              {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+               VK_IMAGE_ASPECT_COLOR_BIT},
+              [&](std::uint32_t allowed) { return device.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT); },
+              kWhat),
           renderPass_(makeWindowRenderPass(device.device(), format, VK_ATTACHMENT_LOAD_OP_CLEAR,
                                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL)) {
         VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};

@@ -64,8 +64,8 @@ RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
     vec3 alongU = quad.edgeU * hit.u;
     vec3 alongV = quad.edgeV * hit.v;
     s.position = quad.corner + alongU + alongV;
-    s.error = gammaBound(kFlatError) * (abs(quad.corner) + abs(alongU) + abs(alongV)) +
-              extentError(quad.edgeU, quad.edgeV);
+    s.error =
+        gammaBound(kFlatError) * (abs(quad.corner) + abs(alongU) + abs(alongV)) + extentError(quad.edgeU, quad.edgeV);
     s.normal = quad.normal;
     s.shading = quad.normal;
     s.uv = vec2(hit.u, hit.v);

@@ -134,7 +134,8 @@ void DescriptorSet::write(std::uint32_t binding, VkDescriptorType type, VkBuffer
 }
 
 void DescriptorSet::write(std::uint32_t binding, VkAccelerationStructureKHR structure) const {
-    VkWriteDescriptorSetAccelerationStructureKHR info{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
+    VkWriteDescriptorSetAccelerationStructureKHR info{
+        VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR};
     info.accelerationStructureCount = 1;
     info.pAccelerationStructures = &structure;
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, &info};

@@ -26,7 +26,7 @@ Handle<VkPipeline> makeComputePipeline(VkDevice device, VkPipelineCache cache, V
 
 // Triangles without vertex buffers, one sample a pixel, no blending; viewport and scissor are set while recording.
 struct Rasterization {
-    VkCullModeFlags cull = VK_CULL_MODE_NONE; // counter-clockwise is front
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;                     // counter-clockwise is front
     const VkPipelineDepthStencilStateCreateInfo* depth = nullptr; // null: the render pass has no depth
 };
 Handle<VkPipeline> makeGraphicsPipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,

@@ -177,8 +177,8 @@ void VulkanContext::submit(VkCommandBuffer commands) {
     const VkFence fence = fence_.get();
     check(vkQueueSubmit(queue_, 1, &submit, fence), "Running on " + info_.name);
     const bool patient = info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const VkResult result = vkWaitForFences(
-        device_, 1, &fence, VK_TRUE, patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
+    const VkResult result = vkWaitForFences(device_, 1, &fence, VK_TRUE,
+                                            patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
     if (result == VK_TIMEOUT) {
         hangs_ = true;
         throw DeviceLostError("Running on " + info_.name + ": no answer for a minute; a newer driver may help");

@@ -43,8 +43,8 @@ std::vector<Words> runOnDevice(vulkan::VulkanContext& context) {
         const VkSpecializationMapEntry entry{0, 0, sizeof family};
         const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
         const std::string what = "Compiling family " + std::to_string(family) + " of formulas";
-        const auto pipeline = vulkan::makeComputePipeline(device, VK_NULL_HANDLE, layout.get(), module.get(), &constants,
-                                                          what.c_str());
+        const auto pipeline =
+            vulkan::makeComputePipeline(device, VK_NULL_HANDLE, layout.get(), module.get(), &constants, what.c_str());
         context.run([&](VkCommandBuffer commands) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
             vkCmdPushConstants(commands, layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
