@@ -430,9 +430,10 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
         }
     }
     s.radiance = light.emission;
-    // Rounding may let the point coincide with the shading point, or the direction run within the light's plane, which is
-    // then infinitely far.
-    if (!(s.pdf < kInfinity && s.distance < kInfinity && dot(s.wi, s.wi) < 2.0f)) s.pdf = 0.0f;
+    // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which is
+    // then infinitely far, or behind.
+    bool isAhead = s.distance > 0.0f && s.distance < kInfinity;
+    if (!(s.pdf < kInfinity && isAhead && dot(s.wi, s.wi) < 2.0f)) s.pdf = 0.0f;
     if (isSurface(normal) && dot(normal, s.wi) <= 0.0f) s.pdf = 0.0f;
     return s;
 }
