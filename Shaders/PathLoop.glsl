@@ -52,12 +52,12 @@ void tracePaths(uint invocation) {
     uint shadow = 0u;
     uint nonfinite = 0u;
     Work work;
-    PathState path;
+    // Without work the sampler is undefined, and so would a path be.
+    if (!takeWork(work)) return;
+    PathState path = beginPath(params, work);
     DirectLight direct = noDirectLight();
     bool goesOn = false; // the path has a next vertex
-    bool working = takeWork(work);
-    if (working) path = beginPath(params, work);
-    while (working) {
+    for (;;) {
         bool checking = direct.distance > 0.0f;
         Hit hit = traceStep(path, direct, checking, nonfinite);
         if (checking) {
@@ -79,7 +79,6 @@ void tracePaths(uint invocation) {
         if (++work.smp.index == work.end) {
             launch.blockSums.at[work.item] = work.sum;
             atomicAdd(launch.counters.at[line + kCounterItems], 1u);
-            // Without work the sampler is undefined: permuting an undefined number of strata need never end.
             if (!takeWork(work)) break;
         }
         path = beginPath(params, work);
