@@ -11,6 +11,7 @@
 #include "Common/Shared/Random.h"
 #include "Common/Shared/Shapes.h"
 #include "Common/Shared/Tonemap.h"
+#include "ProbeArguments.h"
 
 RT_SHARED_BEGIN
 
@@ -51,20 +52,6 @@ const uint kProbeSpherePoint = 31u;
 const uint kProbeTonemap = 32u;
 const uint kProbeCount = 33u;
 
-// A source of arguments. At most one of them stands in a call: C++ leaves open which is evaluated first.
-struct Arguments {
-    uint key;
-    uint next;
-};
-
-RT_FN vec2 uniformPair(RT_INOUT(Arguments) a) {
-    uvec3 h = hash3(uvec3(a.key, a.next, 0x517cc1b7u));
-    a.next++;
-    return vec2(toUniform(h.x), toUniform(h.y));
-}
-RT_FN float uniformNumber(RT_INOUT(Arguments) a) {
-    return uniformPair(a).x;
-}
 // In the cube [-1, 1]^3.
 RT_FN vec3 cubePoint(RT_INOUT(Arguments) a) {
     vec2 xy = uniformPair(a);
@@ -82,33 +69,8 @@ RT_FN vec3 hemisphereVector(RT_INOUT(Arguments) a, vec3 n) {
     return dot(v, n) < 0.0f ? -v : v;
 }
 
-RT_FN uvec4 floatWords(float x, float y, float z, float w) {
-    return uvec4(floatBitsToUint(x), floatBitsToUint(y), floatBitsToUint(z), floatBitsToUint(w));
-}
-RT_FN uvec4 floatWords(vec3 v, float w) {
-    return floatWords(v.x, v.y, v.z, w);
-}
-
-RT_FN RenderParams probeParams() {
-    RenderParams p;
-    p.width = 640u;
-    p.height = 360u;
-    p.maxDepth = 50u;
-    p.seed = 7u;
-    p.lightSampling = kSampleMis;
-    p.lightSelection = kSelectContribution;
-    p.sphereLight = kShapeAuto;
-    p.quadLight = kShapeAuto;
-    p.triangleLight = kShapeAuto;
-    p.samplerKind = kSamplerIndependent;
-    p.strataX = 5u;
-    p.strataY = 7u;
-    p.russianRoulette = 1u;
-    return p;
-}
-
 RT_FN uvec4 probeSampler(uint i) {
-    RenderParams params = probeParams();
+    RenderParams params = probeParams(kShapeAuto);
     params.samplerKind = i % 4u;
     uvec2 words = randomWords(makeSampler(params, i / 4u, i & 1u, i & 255u), i & 15u);
     return uvec4(words.x, words.y, 0u, 0u);
@@ -149,21 +111,15 @@ RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
     vec3 position = cubePoint(a);
     vec3 normal = vec3(0.0f, 1.0f, 0.0f);
     uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights;
-    RenderParams params = probeParams();
     uint shape = a.key % 3u == 0u ? kShapeAuto : (a.key % 3u == 1u ? kShapeSolidAngle : kShapeArea);
-    params.sphereLight = shape;
-    params.quadLight = shape;
-    params.triangleLight = shape;
+    RenderParams params = probeParams(shape);
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
     return floatWords(s.wi, s.pdf);
 }
 
 // The sample and, in its last word, how much the density at its direction differs from its own.
 RT_FN uvec4 probeProjectedLight(RT_INOUT(Arguments) a, uint kind) {
-    RenderParams params = probeParams();
-    params.sphereLight = kShapeProjected;
-    params.quadLight = kShapeProjected;
-    params.triangleLight = kShapeProjected;
+    RenderParams params = probeParams(kShapeProjected);
     Light light = probeLight(a, kind);
     vec3 position = cubePoint(a);
     vec3 normal = unitVector(a);

@@ -4,6 +4,7 @@
 #define RT_SHADERS_SAMPLER_PROBE_H
 #include "Common/Shared/Bsdf.h"
 #include "Common/Shared/Types.h"
+#include "ProbeArguments.h"
 
 RT_SHARED_BEGIN
 
@@ -38,33 +39,16 @@ const uint kProbeModes = 4u;
 const uint kProbeSide = 16u;
 const uint kProbeLights = 12u; // to choose from
 
-// A source of arguments. At most one of them stands in an expression: C++ leaves open which is evaluated first.
-struct ProbeNumbers {
-    uint key;
-    uint next;
-};
-RT_FN vec2 probePair(RT_INOUT(ProbeNumbers) a) {
-    uvec3 h = hash3(uvec3(a.key, a.next, 0x2545f491u));
-    a.next++;
-    return vec2(toUniform(h.x), toUniform(h.y));
-}
-RT_FN float probeNumber(RT_INOUT(ProbeNumbers) a) {
-    return probePair(a).x;
-}
-RT_FN vec3 probeUnit(RT_INOUT(ProbeNumbers) a) {
-    return sampleSphere(probePair(a));
+RT_FN vec3 probeUnit(RT_INOUT(Arguments) a) {
+    return sampleSphere(uniformPair(a));
 }
 // 10^low to 10^high.
-RT_FN float probeDecades(RT_INOUT(ProbeNumbers) a, float low, float high) {
-    return exponential(2.302585093f * mix(low, high, probeNumber(a)));
+RT_FN float probeDecades(RT_INOUT(Arguments) a, float low, float high) {
+    return exponential(2.302585093f * mix(low, high, uniformNumber(a)));
 }
-RT_FN uvec4 probeWords(float x, float y, float z, float w) {
-    return uvec4(floatBitsToUint(x), floatBitsToUint(y), floatBitsToUint(z), floatBitsToUint(w));
-}
-
 // The pair that draws sample i: in mode kProbeStrata that of a cell of a square.
-RT_FN vec2 probeSquare(RT_INOUT(ProbeNumbers) a, uint mode, uint i) {
-    vec2 u = probePair(a);
+RT_FN vec2 probeSquare(RT_INOUT(Arguments) a, uint mode, uint i) {
+    vec2 u = uniformPair(a);
     if (mode != kProbeStrata) return u;
     vec2 cell = vec2(float(i % kProbeSide), float(i / kProbeSide % kProbeSide));
     return min((cell + u) * (1.0f / float(kProbeSide)), vec2(0.99999994f));
@@ -110,24 +94,6 @@ RT_FN Light probeCaseLight(uint family, uint which) {
     return probeLightOf(kind, vec3(0.2f, 1.0f, -2.0f), vec3(0.0f, 0.0f, 4.0f), vec3(0.15f, 0.0f, 0.0f), 0.0f); // thin
 }
 
-RT_FN RenderParams probeShapeParams(uint shape) {
-    RenderParams p;
-    p.width = 64u;
-    p.height = 64u;
-    p.maxDepth = 4u;
-    p.seed = 7u;
-    p.lightSampling = kSampleMis;
-    p.lightSelection = kSelectContribution;
-    p.sphereLight = shape;
-    p.quadLight = shape;
-    p.triangleLight = shape;
-    p.samplerKind = kSamplerIndependent;
-    p.strataX = 1u;
-    p.strataY = 1u;
-    p.russianRoulette = 1u;
-    return p;
-}
-
 RT_FN uint probeShape(uint family, uint which) {
     if (family >= kProbeProjected) return kShapeProjected;
     if (which == 0u) return kShapeArea;
@@ -135,7 +101,7 @@ RT_FN uint probeShape(uint family, uint which) {
 }
 
 // A light of any of twelve decades in size and distance: thin, edge-on, touched, or far from the origin.
-RT_FN Light probeStressLight(RT_INOUT(ProbeNumbers) a, uint kind, RT_INOUT(vec3) position) {
+RT_FN Light probeStressLight(RT_INOUT(Arguments) a, uint kind, RT_INOUT(vec3) position) {
     vec3 u = probeUnit(a);
     u *= probeDecades(a, -6.0f, 6.0f);
     vec3 v = probeUnit(a) * length(u);
@@ -168,7 +134,7 @@ RT_FN vec3 probeLightPoint(RT_IN(Light) light, vec2 u, RT_INOUT(vec3) normal) {
 // there is none; and the density per area, times the area, at a point uniform in it.
 // kProbeStress, bits: 0 not finite, 1 no positive density, 2 no unit vector, 3 an unusable density when asked again.
 RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
-    ProbeNumbers a;
+    Arguments a;
     a.key = i;
     a.next = ((family * kProbeCases + which) * kProbeModes + mode) << 8u;
     uint kind = family % kProbeShapes;
@@ -183,11 +149,11 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
         light = probeStressLight(a, kind, position);
         normal = (i & 128u) == 0u ? probeUnit(a) : vec3(0.0f);
     }
-    RenderParams params = probeShapeParams(probeShape(family, which));
+    RenderParams params = probeParams(probeShape(family, which));
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, probeSquare(a, mode, i));
-    if (mode <= kProbeStrata) return probeWords(s.wi.x, s.wi.y, s.wi.z, s.pdf);
+    if (mode <= kProbeStrata) return floatWords(s.wi, s.pdf);
     vec3 onLight = vec3(0.0f);
-    vec3 v = probeLightPoint(light, probePair(a), onLight) - position;
+    vec3 v = probeLightPoint(light, uniformPair(a), onLight) - position;
     float again = 1.0f;
     float perArea = 0.0f;
     for (uint n = 0u; n < 2u; n++) { // one call for two densities: compilers copy the code into each
@@ -207,7 +173,7 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
             }
         }
     }
-    if (!stress) return probeWords(again, perArea, 0.0f, 0.0f);
+    if (!stress) return floatWords(again, perArea, 0.0f, 0.0f);
     uint flags = isFinite(s.pdf) ? 0u : 1u;
     if (s.pdf < 0.0f) flags |= 2u;
     if (s.pdf > 0.0f) {
@@ -244,7 +210,7 @@ RT_FN vec4 probeCone(uint which) {
 
 // As probeLight; kProbeDensity: a direction uniform in the cone takes the place of a point on the light.
 RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
-    ProbeNumbers a;
+    Arguments a;
     a.key = i;
     a.next = ((kProbeScattering * kProbeCases + which) * kProbeModes + mode) << 8u;
     bool stress = mode == kProbeStress;
@@ -258,18 +224,18 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     }
     vec2 u = probeSquare(a, mode, i);
     if (stress && (i & 7u) < 4u) u = vec2(float(i & 1u), float(i >> 1u & 1u)) * 0.99999994f;
-    BsdfSample s = sampleBsdf(kFeatureAll, m, m.albedo, n, 1u, wo, u, probeNumber(a));
+    BsdfSample s = sampleBsdf(kFeatureAll, m, m.albedo, n, 1u, wo, u, uniformNumber(a));
     if (which == 1u) s = samplePhase(m.albedo, u);
-    if (mode <= kProbeStrata) return probeWords(s.wi.x, s.wi.y, s.wi.z, s.pdf);
+    if (mode <= kProbeStrata) return floatWords(s.wi, s.pdf);
     vec4 cone = probeCone(which);
-    vec2 w = probePair(a);
+    vec2 w = uniformPair(a);
     float cosine = mix(1.0f, cone.w, w.x);
     vec2 sc = sinCos2Pi(w.y) * sqrt(max((1.0f - cosine) * (1.0f + cosine), 0.0f));
     vec3 wi = toWorld(makeFrame(vec3(cone)), vec3(sc.y, sc.x, cosine));
     float there = which == 1u ? kPhasePdf : evalBsdf(kFeatureAll, m, m.albedo, n, wo, wi).w;
     there *= 2.0f * kPi * (1.0f - cone.w);
     float again = which == 1u || !(s.pdf > 0.0f) ? s.pdf : evalBsdf(kFeatureAll, m, m.albedo, n, wo, s.wi).w;
-    if (!stress) return probeWords(s.pdf > 0.0f ? again / s.pdf : 1.0f, there, 0.0f, 0.0f);
+    if (!stress) return floatWords(s.pdf > 0.0f ? again / s.pdf : 1.0f, there, 0.0f, 0.0f);
     uint flags = isFinite(s.pdf) && isFinite(there) && there >= 0.0f ? 0u : 1u;
     if (s.pdf < 0.0f) flags |= 2u;
     if (s.pdf > 0.0f && !(isFinite(s.wi) && abs(dot(s.wi, s.wi) - 1.0f) < 1.0e-4f)) flags |= 4u;
@@ -280,11 +246,11 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
 // ---- choice among lights --------------------------------------------------------------------------------------------
 
 RT_FN Light loadLight(SceneRef scene, uint i) {
-    ProbeNumbers a;
+    Arguments a;
     a.key = i;
     a.next = scene;
     vec3 place = probeUnit(a);
-    place *= 0.5f + 3.0f * probeNumber(a);
+    place *= 0.5f + 3.0f * uniformNumber(a);
     vec3 u = probeUnit(a) * 0.2f;
     vec3 v = probeUnit(a) * 0.3f;
     Light light = probeLightOf(kLightQuad, place, u, v, 0.0f);
@@ -345,11 +311,11 @@ RT_FN LightContext probeContext(uint which) {
 // kProbeDraws, kProbeStrata: the light, its probability and that asked for again. kProbeDensity: the sum of all lights'
 // probabilities. kProbeStress, bits: 0 not finite, 1 no positive probability, 2 a number outside of [0,1).
 RT_FN uvec4 probeChoice(uint which, uint mode, uint i) {
-    ProbeNumbers a;
+    Arguments a;
     a.key = i;
     a.next = ((kProbeChoice * kProbeCases + which) * kProbeModes + mode) << 8u;
     LightContext context = probeContext(which);
-    vec2 u = probePair(a);
+    vec2 u = uniformPair(a);
     uint cells = kProbeSide * kProbeSide;
     if (mode == kProbeStrata) u.x = min((float(i % cells) + u.x) / float(cells), 0.99999994f);
     if (mode == kProbeStress) {
@@ -367,7 +333,7 @@ RT_FN uvec4 probeChoice(uint which, uint mode, uint i) {
         again = k == c.light ? p : again;
     }
     if (mode <= kProbeStrata) return uvec4(c.light, floatBitsToUint(c.probability), floatBitsToUint(again), 0u);
-    if (mode == kProbeDensity) return probeWords(c.probability > 0.0f ? again / c.probability : 1.0f, sum, 0.0f, 0.0f);
+    if (mode == kProbeDensity) return floatWords(c.probability > 0.0f ? again / c.probability : 1.0f, sum, 0.0f, 0.0f);
     uint flags = isFinite(c.probability) && isFinite(sum) ? 0u : 1u;
     if (c.light != kNone && !(c.probability > 0.0f && c.light < kProbeLights)) flags |= 2u;
     if (c.light != kNone && !(c.u >= 0.0f && c.u < 1.0f)) flags |= 4u;

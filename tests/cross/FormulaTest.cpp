@@ -1,60 +1,21 @@
 // The shared formulas on the device against the C++ build of the same headers.
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <span>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "Common/Vulkan/Check.h"
-#include "Common/Vulkan/Pipelines.h"
-#include "Common/Vulkan/VulkanResources.h"
 #include <FormulaProbe.comp.h>
 #include "Shaders/FormulaProbe.h"
-#include "tests/cross/Device.h"
+#include "tests/cross/Probe.h"
 
 namespace rt::test {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>;
-
 constexpr std::uint32_t kInputs = 100'000;
-
-// Results of all formulas, kInputs of each.
-std::vector<Words> runOnDevice(vulkan::VulkanContext& context) {
-    struct Launch {
-        VkDeviceAddress results;
-        std::uint32_t count;
-    };
-    const VkDevice device = context.device();
-    const auto module = vulkan::makeShaderModule(device, FormulaProbe_comp);
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Launch)};
-    const auto layout = vulkan::makePipelineLayout(device, push, VK_NULL_HANDLE, "Loading the probe");
-
-    std::vector<Words> results(std::size_t{shared::kProbeCount} * kInputs);
-    const vulkan::Buffer buffer(context, results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
-    const Launch launch{buffer.address(), kInputs};
-    for (std::uint32_t family = 0; family < shared::kFamilyCount; ++family) {
-        const VkSpecializationMapEntry entry{0, 0, sizeof family};
-        const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
-        const std::string what = "Compiling family " + std::to_string(family) + " of formulas";
-        const auto pipeline =
-            vulkan::makeComputePipeline(device, VK_NULL_HANDLE, layout.get(), module.get(), &constants, what.c_str());
-        context.run([&](VkCommandBuffer commands) {
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-            vkCmdPushConstants(commands, layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
-            vkCmdDispatch(commands, (kInputs + 63) / 64, shared::kProbeCount, 1);
-            vulkan::barrier(commands);
-        });
-    }
-    vulkan::download(context, buffer, std::as_writable_bytes(std::span(results)));
-    return results;
-}
 
 // Bound on the difference of a formula's results, absolute or relative, whichever is smaller. Devices may round divisions and
 // roots otherwise than the host, so where a formula decides something, or is ill-conditioned, `exceptions` of the kInputs
@@ -121,8 +82,14 @@ Words onHost(std::uint32_t formula, std::uint32_t input) {
     return {words.x, words.y, words.z, words.w};
 }
 
+std::vector<Words> runOnDevice() {
+    Probe probe{FormulaProbe_comp, {}, shared::kProbeCount, kInputs};
+    for (std::uint32_t family = 0; family < shared::kFamilyCount; ++family) probe.families.push_back(family);
+    return answersOf(probe);
+}
+
 const Words& onDevice(std::uint32_t formula, std::uint32_t input) {
-    static const std::vector<Words> results = runOnDevice(device());
+    static const std::vector<Words> results = runOnDevice();
     return results[std::size_t{formula} * kInputs + input];
 }
 

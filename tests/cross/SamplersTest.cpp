@@ -5,56 +5,23 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "Common/Vulkan/Pipelines.h"
-#include "Common/Vulkan/VulkanResources.h"
 #include <SamplerProbe.comp.h>
 #include "Shaders/SamplerProbe.h"
-#include "tests/cross/Device.h"
+#include "tests/cross/Probe.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::test {
 namespace {
 
-using Words = std::array<std::uint32_t, 4>;
-
 constexpr std::uint32_t kDraws = 1u << 15;
 constexpr std::uint32_t kParts = shared::kProbeCases * shared::kProbeModes;
-
-// kDraws of each mode of each case of a family.
-std::vector<Words> drawOnDevice(vulkan::VulkanContext& context, std::uint32_t family) {
-    struct Launch {
-        VkDeviceAddress results;
-        std::uint32_t count;
-    };
-    const VkDevice device = context.device();
-    const auto module = vulkan::makeShaderModule(device, SamplerProbe_comp);
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(Launch)};
-    const auto layout = vulkan::makePipelineLayout(device, push, VK_NULL_HANDLE, "Loading the probe");
-
-    std::vector<Words> results(std::size_t{kParts} * kDraws);
-    const vulkan::Buffer buffer(context, results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
-    const Launch launch{buffer.address(), kDraws};
-    const VkSpecializationMapEntry entry{0, 0, sizeof family};
-    const VkSpecializationInfo constants{1, &entry, sizeof family, &family};
-    const auto pipeline = vulkan::makeComputePipeline(device, VK_NULL_HANDLE, layout.get(), module.get(), &constants,
-                                                      "Compiling a family of samplers");
-    context.run([&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
-        vkCmdPushConstants(commands, layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
-        vkCmdDispatch(commands, kDraws / 64, kParts, 1);
-        vulkan::barrier(commands);
-    });
-    vulkan::download(context, buffer, std::as_writable_bytes(std::span(results)));
-    return results;
-}
 
 enum class Where { Host, Device };
 
@@ -364,7 +331,8 @@ class Samplers : public testing::TestWithParam<std::tuple<std::uint32_t, Where>>
 
 TEST_P(Samplers, AreProved) {
     const auto [family, where] = GetParam();
-    const std::vector<Words> onDevice = where == Where::Device ? drawOnDevice(device(), family) : std::vector<Words>();
+    const std::vector<Words> onDevice =
+        where == Where::Device ? answersOf({SamplerProbe_comp, {family}, kParts, kDraws}) : std::vector<Words>();
     for (std::uint32_t which = 0; which < shared::kProbeCases; ++which) {
         SCOPED_TRACE("case " + std::to_string(which));
         const Case c{where, family, which};
