@@ -222,6 +222,8 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
+    if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
     if (has(features, kFeatureProjected) && regime == kRegimeProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);
     if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));

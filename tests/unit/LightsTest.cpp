@@ -290,6 +290,23 @@ TEST(Lights, InsideASphere) {
     EXPECT_TRUE(agrees(medium, 4 * kPiD));
 }
 
+// Rounding may take a point near a huge sphere to be inside of it, while a ray meets the near side: no sample lies there, so
+// that the ray's light counts in full.
+TEST(Lights, SideOfASphereThatIsNotSampledHasNoDensity) {
+    const vec3 up(0, 1, 0);
+    for (const uint method : {kShapeAuto, kShapeSolidAngle, kShapeArea}) {
+        const RenderParams params = withMethod(method);
+        const auto pdf = [&](double center, const vec3& lightNormal) {
+            const Light light = sphere({0, center, 0}, 1);
+            return lightPdf(kFeatureSphereLights, params, light, vec3(0), up, 0, up, 1, lightNormal);
+        };
+        EXPECT_EQ(pdf(0.5, -up), 0);
+        EXPECT_GT(pdf(0.5, up), 0);
+        EXPECT_EQ(pdf(2, up), 0);
+        EXPECT_GT(pdf(2, -up), 0);
+    }
+}
+
 TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
     Light light = sphere({-1, 0, 2}, 0.3);
     light.edgeU = vec3(2, 0, 0);
