@@ -65,7 +65,7 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
     choice.light = kNone;
     choice.probability = 0.0f;
     choice.u = 0.0f;
-    // Sums of the weights before each light; the choice is the last light whose sum is not above the target.
+    // Sums of the weights before each light; the choice is the last light of any weight whose sum is not above the target.
     LightWeights weights = loadContributions(scene, context.position, context.normal);
     LightWeights before;
     float total = 0.0f;
@@ -77,10 +77,10 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
     if (!(total > 0.0f)) return choice;
     float target = u * total;
     uint chosen = 0u;
-    for (uint i = 1u; i < count; i++) chosen += before.weight[i] <= target ? 1u : 0u;
-    // Lights of no weight share their sum with the light that follows; only those at the end can be met here, by
-    // rounding.
-    while (weights.weight[chosen] == 0.0f) chosen--;
+    for (uint i = 0u; i < count; i++) {
+        bool fits = before.weight[i] <= target && weights.weight[i] > 0.0f;
+        chosen = max(chosen, fits ? i : 0u);
+    }
     choice.light = chosen;
     choice.probability = weights.weight[chosen] / total;
     choice.u = clamp((target - before.weight[chosen]) / weights.weight[chosen], 0.0f, 0.999999940395355f);
