@@ -5,10 +5,10 @@
 
 namespace rt::gpu {
 
-// Whether compute shaders serve better than the device's ray tracing pipelines: on a device that is the processor itself, where
-// both are programs, but one of them pays for shader calls. On a GPU without hardware for rays (an NVIDIA H200) they were
-// measured to be 2 to 3 times as fast too, but its driver takes from ten seconds to minutes to compile them, so that there
-// they are only for those who ask for them.
+// Whether compute shaders serve better than the device's ray tracing pipelines, which they do where those are programs, too: on
+// a device that is the processor itself, and on a GPU without hardware for rays, which an NVIDIA H200 is (measured there: 2.8 to
+// 3.4 times as fast, from Cornell Box Lights to One Weekend). Vulkan does not tell about hardware; but drivers offer ray queries
+// only with it.
 bool computeIsFaster(const vulkan::DeviceInfo& device);
 
 // `wish`, or for Auto what is there and faster. Throws NoDeviceError when the device has no pipeline and one is wished for.

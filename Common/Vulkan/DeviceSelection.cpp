@@ -113,6 +113,7 @@ DeviceInfo describe(VkPhysicalDevice device) {
     const std::vector<VkExtensionProperties> extensions = extensionsOf(device);
     info.missing = missingFeatures(device);
     info.hasShaderClock = hasShaderClock(device, extensions);
+    info.hasRayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
     info.missingForPipeline = missingForPipeline(device, extensions);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
         // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not with

@@ -21,6 +21,7 @@ struct DeviceInfo {
     std::uint32_t queueFamily = 0;
     bool draws = false;             // its queue rasterises, too, into kDepthFormat
     bool hasShaderClock = false;    // shaders may ask what time it is
+    bool hasRayQueries = false;     // any shader may trace rays; of no use to us, but see computeIsFaster()
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
     bool suitable() const { return missing.empty(); }
