@@ -24,8 +24,7 @@ RT_SHARED_BEGIN
 
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
-const float kRouletteMin = 0.05f;
-const float kRouletteMax = 0.95f;
+const float kLeastSurvival = 0.05f; // of the roulette: bounds what a path may weigh
 
 struct PathState {
     Ray ray;
@@ -345,8 +344,8 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     }
     s.ray.direction = b.wi;
     s.pdf = b.delta != 0u ? 0.0f : b.pdf;
-    if (params.russianRoulette != 0u && v.index >= params.russianRoulette) {
-        float survival = clamp(strongest, kRouletteMin, kRouletteMax);
+    if (params.russianRoulette != 0u && v.index > 0u) {
+        float survival = clamp(float(params.russianRoulette) * strongest, kLeastSurvival, 1.0f);
         if (v.numbers.choice.x >= survival) return false;
         s.throughput /= survival;
     }

@@ -271,7 +271,7 @@ struct RenderParams {
     uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
                   // logarithm of the samples of a pixel that are next to each other in the sequence
     uint strataY;
-    uint russianRoulette; // vertices that scatter before it begins; 0: there is none
+    uint russianRoulette; // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
 };
 
 // ---- rays ------------------------------------------------------------------------------------------------------------
