@@ -28,6 +28,12 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
 }
 
+// What sends light on into a range of directions, and what is of use only there.
+constexpr std::uint32_t kScattersWidely = shared::kFeatureLambertian | shared::kFeatureFuzz | shared::kFeatureVolumes;
+constexpr std::uint32_t kLightSampling =
+    shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
+    shared::kFeatureTriangleLights | shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
+
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {
     const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
@@ -64,6 +70,8 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
         if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
+    // Mirrors, glass and emitters alone leave light sampling nothing to do.
+    if (!shared::has(features, kScattersWidely)) features &= ~kLightSampling;
     return features | settings.features.value_or(0u);
 }
 
