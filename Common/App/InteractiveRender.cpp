@@ -159,7 +159,8 @@ bool InteractiveSession::isFrameDue() const {
     const double seconds = sincePublished_.seconds();
     if (seconds <= publishSeconds_ / kPublishShare) return false;
     if (!request_.accumulate) return seconds > kLongFrameSeconds;
-    if (sinceStart_.seconds() < kEarlySeconds) return seconds > kEarlyInterval;
+    const bool costly = setup_.drawnBySoftware && publishedSamples_ > 0; // the first picture does not wait
+    if (sinceStart_.seconds() < kEarlySeconds && !costly) return seconds > kEarlyInterval;
     if (request_.samplesPerFrame == 0) return seconds > kLateInterval;
     const std::uint64_t frame = std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
     return status_.samplesDone - publishedSamples_ >= frame || seconds > kLongFrameSeconds;

@@ -147,6 +147,7 @@ class InteractiveSession {
         std::optional<SaveRequest> atEnd; // as writeAtEnd()
         bool preview = false;             // is shown from the beginning
         double sliceSeconds = 0.03;       // of one call of the engine
+        bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
         RunHistory* history = nullptr;    // gets the runs that end; may be none
         std::function<void()> onChange;   // called on other threads when there is something new to show
     };

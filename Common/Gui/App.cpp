@@ -37,7 +37,8 @@ std::optional<app::SaveRequest> endFiles(const app::Options& options, const app:
 }
 
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
-                                            const app::GuiSettings& settings, app::RunHistory& history) {
+                                            const app::GuiSettings& settings, const GraphicsDevice& device,
+                                            app::RunHistory& history) {
     app::InteractiveSession::Setup setup;
     setup.options = options;
     setup.makeEngine = program.makeEngine;
@@ -48,7 +49,9 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
     setup.preview = !settings.rayTracing;
-    setup.sliceSeconds = options.program == app::kGpuProgram ? 0.008 : 0.03;
+    // Draws wait for launches on the same device; those of software are threads among threads.
+    setup.sliceSeconds = options.program == app::kGpuProgram && !device.isSoftware() ? 0.008 : 0.03;
+    setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
     setup.onChange = [] { Window::wake(); };
     return setup;
@@ -68,7 +71,7 @@ class App {
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
           sentRayTracing_(settings_.rayTracing),
           sentEnd_(endFiles(options, settings_)),
-          session_(sessionSetup(options, program, settings_, history_)),
+          session_(sessionSetup(options, program, settings_, device_, history_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
                program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });

@@ -95,6 +95,7 @@ void GraphicsDevice::choose(const std::string& preferred) {
         physical_ = device;
         queueFamily_ = *family;
         name_ = properties.deviceName;
+        isSoftware_ = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
         maxStorageBytes_ = properties.limits.maxStorageBufferRange;
     }
     if (best < 0) {

@@ -27,6 +27,7 @@ class GraphicsDevice {
     std::uint32_t queueFamily() const { return queueFamily_; }
     VkSurfaceKHR surface() const { return surface_; }
     const std::string& name() const { return name_; }
+    bool isSoftware() const { return isSoftware_; }
     VkDeviceSize maxStorageBytes() const { return maxStorageBytes_; }
 
     void renewSurface(const Window& window); // after it was lost; nothing may use it any more
@@ -42,6 +43,7 @@ class GraphicsDevice {
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     std::string name_;
+    bool isSoftware_ = false;
     VkDeviceSize maxStorageBytes_ = 0;
     VkPhysicalDeviceMemoryProperties memory_{};
     std::uint32_t queueFamily_ = 0;
