@@ -7,19 +7,12 @@
 
 #include "Common/Image/Flip.h"
 #include "Common/Image/Metrics.h"
-#include "Common/Image/Statistics.h"
 
 namespace rt::image {
 namespace {
 
 constexpr double kFirefly = 10; // times the rmse
 constexpr std::uint32_t kTile = 8;
-
-double meanOf(const Image& image) {
-    double sum = 0;
-    for (const float value : image.data) sum += value;
-    return sum / static_cast<double>(image.data.size());
-}
 
 double worstBiasZ(const Image& image, const Image& reference) {
     std::array<double, 4> sums{}, squares{};
@@ -36,18 +29,44 @@ double worstBiasZ(const Image& image, const Image& reference) {
     return worst;
 }
 
-double tileError(const Image& image, const Image& reference) {
+template <class Predicate> // (const float* reference) -> bool: whether a pixel counts
+MeanSquares meanSquares(const Image& image, const Reference& reference, Predicate counts) {
+    struct Tile {
+        double squares = 0, values = 0;
+    };
     const std::uint32_t tilesX = (image.width + kTile - 1) / kTile, tilesY = (image.height + kTile - 1) / kTile;
-    std::vector<double> sums(std::size_t{tilesX} * tilesY), counts(sums.size());
-    for (std::size_t i = 0; i < image.data.size(); ++i) {
-        const std::size_t pixel = i / image.channels;
-        const std::size_t tile = pixel / image.width / kTile * tilesX + pixel % image.width / kTile;
-        const double difference = static_cast<double>(image.data[i]) - reference.data[i];
-        sums[tile] += difference * difference;
-        counts[tile] += 1;
+    std::vector<Tile> tiles(std::size_t{tilesX} * tilesY);
+    double squares = 0, values = 0, variance = 0;
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const float* const target = reference.mean.pixel(x, y);
+            if (!counts(target)) continue;
+            Tile& tile = tiles[std::size_t{y / kTile} * tilesX + x / kTile];
+            for (std::uint32_t c = 0; c < image.channels; ++c) {
+                const double difference = static_cast<double>(image.pixel(x, y)[c]) - target[c];
+                tile.squares += difference * difference;
+                variance += reference.variance.pixel(x, y)[c];
+            }
+            tile.values += image.channels;
+        }
+    for (const Tile& tile : tiles) {
+        squares += tile.squares;
+        values += tile.values;
     }
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] /= counts[i];
-    return std::sqrt(estimate(sums).varianceOfMean);
+    if (values == 0) return {};
+    // The error of a ratio of sums: tiles with more values have more weight.
+    const double mean = squares / values, count = static_cast<double>(tiles.size());
+    double spread = 0;
+    for (const Tile& tile : tiles) {
+        const double excess = tile.squares - mean * tile.values;
+        spread += excess * excess;
+    }
+    MeanSquares result;
+    result.share = values / static_cast<double>(image.data.size());
+    result.referenceMse = variance / values;
+    result.mse = mean - result.referenceMse;
+    result.mseError = tiles.size() > 1 ? std::sqrt(spread * count / (count - 1)) / values : 0;
+    return result;
 }
 
 void findFireflies(const Image& image, const Image& reference, double rmse, ErrorAnalysis& result) {
@@ -69,18 +88,26 @@ void findFireflies(const Image& image, const Image& reference, double rmse, Erro
 
 } // namespace
 
+MeanSquares meanSquaresUpTo1(const Image& image, const Reference& reference) {
+    return meanSquares(image, reference, [channels = image.channels](const float* pixel) {
+        return std::all_of(pixel, pixel + channels, [](float value) { return value <= 1; });
+    });
+}
+
 ErrorAnalysis analyseError(const Image& image, const Reference& reference) {
     const ErrorFigures figures = compare(image, reference.mean);
     ErrorAnalysis result;
-    result.referenceMse = meanOf(reference.variance);
+    const MeanSquares all = meanSquares(image, reference, [](const float*) { return true; });
+    result.mse = all.mse;
+    result.referenceMse = all.referenceMse;
+    result.mseError = all.mseError;
+    result.upTo1 = meanSquaresUpTo1(image, reference);
     result.referenceRelmse = estimatedRelMse(reference.mean, reference.variance);
-    result.mse = figures.mse - result.referenceMse;
     result.rmse = std::sqrt(std::max(result.mse, 0.0));
     result.relmse = figures.relmse - result.referenceRelmse;
     result.mae = figures.mae;
     result.psnr = figures.psnr;
     result.flip = flip(image, reference.mean);
-    result.mseError = tileError(image, reference.mean);
     result.biasZ = worstBiasZ(image, reference.mean);
     findFireflies(image, reference.mean, figures.rmse, result);
     return result;

@@ -51,6 +51,35 @@ TEST(ErrorAnalysis, TilesTellHowSureTheMseIs) {
     EXPECT_NEAR(mseError, expected, 4 * expected / std::sqrt(2.0 * kSide * kSide / 64));
 }
 
+// A light in a quarter of the picture, in one channel only, with other noise than the rest.
+TEST(ErrorAnalysis, PixelsUpTo1HaveAnErrorOfTheirOwn) {
+    const float dim = 0.06f, bright = 0.9f, own = 0.02f;
+    Reference reference{noisy(own, 8), constant(own * own)};
+    Image image = noisy(dim, 9);
+    const Image loud = noisy(bright, 10, 5);
+    for (std::uint32_t y = 0; y < kSide / 4; ++y)
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            reference.mean.pixel(x, y)[2] = 5;
+            reference.variance.pixel(x, y)[2] = 0.3f;
+            image.pixel(x, y)[2] = loud.pixel(x, y)[2];
+        }
+    const ErrorAnalysis error = analyseError(image, reference);
+    EXPECT_DOUBLE_EQ(error.upTo1.share, 0.75);
+    const double values = 0.75 * kSide * kSide * 3, spread = (dim * dim + own * own) * std::sqrt(2.0 / values);
+    EXPECT_NEAR(error.upTo1.mse, dim * dim, 4 * spread);
+    EXPECT_NEAR(error.upTo1.referenceMse, own * own, 1e-9);
+    EXPECT_NEAR(error.upTo1.mseError, spread, 0.3 * spread);
+    EXPECT_GT(error.mse, 10 * error.upTo1.mse);
+}
+
+TEST(ErrorAnalysis, NoPixelUpTo1HasNoError) {
+    const ErrorAnalysis error = analyseError(noisy(0.1f, 11, 2), {constant(2), constant(0)});
+    EXPECT_EQ(error.upTo1.share, 0);
+    EXPECT_EQ(error.upTo1.mse, 0);
+    EXPECT_GT(error.mse, 0);
+    EXPECT_EQ(analyseError(constant(1), {constant(1), constant(0)}).upTo1.share, 1); // 1 is up to 1
+}
+
 // A bias of 1.5 % of the noise in each pixel is found: 0.015 sqrt(16384) = 1.9 standard deviations is not yet, 8 % is.
 TEST(ErrorAnalysis, BiasOfTheMeanIsFound) {
     const float sigma = 0.1f;
