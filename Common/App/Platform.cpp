@@ -12,6 +12,7 @@
 // After windows.h:
 #include <psapi.h>
 #else
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/resource.h>
@@ -45,8 +46,30 @@ std::uint64_t residentBytes() {
     return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) ? counters.WorkingSetSize : 0;
 }
 
+double processorSeconds() {
+    FILETIME created{}, ended{}, kernel{}, user{};
+    if (!GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user)) return 0;
+    const auto seconds = [](const FILETIME& time) {
+        return 1e-7 * static_cast<double>(std::uint64_t{time.dwHighDateTime} << 32 | time.dwLowDateTime);
+    };
+    return seconds(kernel) + seconds(user);
+}
+
 void lowerThreadPriority() {
     SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_BELOW_NORMAL);
+}
+
+SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (handle_ == nullptr) handle_ = LoadLibraryExA(name, nullptr, LOAD_LIBRARY_SEARCH_SYSTEM32);
+}
+
+SharedLibrary::~SharedLibrary() {
+    if (handle_ != nullptr) FreeLibrary(static_cast<HMODULE>(handle_));
+}
+
+void* SharedLibrary::symbol(const char* name) const {
+    return handle_ == nullptr ? nullptr : reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(handle_), name));
 }
 
 FileLock::FileLock(const std::filesystem::path& file) {
@@ -99,11 +122,33 @@ std::uint64_t residentBytes() {
     return statm >> total >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
 }
 
+double processorSeconds() {
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    const auto seconds = [](const timeval& time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 void lowerThreadPriority() {
 #ifdef __linux__
     // Linux gives each thread a niceness of its own, and new threads that of the one that starts them.
     setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), 5);
 #endif
+}
+
+SharedLibrary::SharedLibrary(std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (handle_ == nullptr) handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+}
+
+SharedLibrary::~SharedLibrary() {
+    if (handle_ != nullptr) dlclose(handle_);
+}
+
+void* SharedLibrary::symbol(const char* name) const {
+    return handle_ == nullptr ? nullptr : dlsym(handle_, name);
 }
 
 FileLock::FileLock(const std::filesystem::path& file) {

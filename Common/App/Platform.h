@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 
 namespace rt::app {
 
@@ -11,9 +12,28 @@ bool hasDisplay(); // false where a window cannot be opened for want of a screen
 // $XDG_CONFIG_HOME/ray-tracing or the platform's place for it; empty when the environment names none.
 std::filesystem::path userConfigDirectory();
 std::uint64_t residentBytes(); // of this process at present; 0 where unknown
+double processorSeconds();     // that all threads of this process have run
 
 // The calling thread, and where the platform lets them inherit it the threads that it starts, give way to others.
 void lowerThreadPriority();
+
+// A library that is not linked and may be missing; loaded from the system's places while this exists.
+class SharedLibrary {
+  public:
+    explicit SharedLibrary(std::initializer_list<const char*> names); // the first of these that is there
+    ~SharedLibrary();
+    SharedLibrary(const SharedLibrary&) = delete;
+    SharedLibrary& operator=(const SharedLibrary&) = delete;
+
+    template <class Function>
+    Function* find(const char* name) const { // null: there is no such library, or it has no such function
+        return reinterpret_cast<Function*>(symbol(name));
+    }
+
+  private:
+    void* symbol(const char* name) const;
+    void* handle_ = nullptr;
+};
 
 // Keeps other processes that lock the same file waiting while it exists. The file is made if need be. Throws RenderError.
 class FileLock {

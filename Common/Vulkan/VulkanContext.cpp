@@ -132,8 +132,10 @@ void VulkanContext::queryLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
-    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
-    if (info_.tracesRays()) memory.pNext = &pipeline;
+    VkPhysicalDeviceIDProperties identity{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
+    if (info_.tracesRays()) identity.pNext = &pipeline;
+    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                  &identity};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &memory};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
@@ -151,6 +153,7 @@ void VulkanContext::queryLimits() {
     limits_.vendor = properties.properties.vendorID;
     limits_.deviceId = properties.properties.deviceID;
     std::memcpy(limits_.pipelineCacheId, properties.properties.pipelineCacheUUID, VK_UUID_SIZE);
+    std::copy(std::begin(identity.deviceUUID), std::end(identity.deviceUUID), limits_.uuid.begin());
 
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(info_.device, &count, nullptr);

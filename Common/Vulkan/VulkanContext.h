@@ -1,5 +1,6 @@
 // One device with one queue, and all that is known about it: enough for headless rendering.
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,7 @@ struct DeviceLimits {
     std::uint32_t vendor = 0;
     std::uint32_t deviceId = 0;
     std::uint8_t pipelineCacheId[VK_UUID_SIZE] = {};
+    std::array<std::uint8_t, VK_UUID_SIZE> uuid{}; // of this very device, for other interfaces to it
 };
 
 // Not thread-safe. Must outlive everything that is made with it.
