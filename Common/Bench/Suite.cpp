@@ -17,6 +17,7 @@ using scene::JsonNode;
 
 constexpr std::uint64_t kLargestFile = 16 << 20;
 constexpr double kLongest = 1e6; // seconds
+constexpr std::uint32_t kLargestSide = 1 << 20;
 
 // Calls with each element of an array, or with the value itself.
 template <class Function> // (const JsonNode&)
@@ -55,10 +56,10 @@ std::vector<T> ascending(const JsonNode& node, Read read) {
 }
 
 std::uint32_t wholeWithin(const JsonNode& node, std::uint32_t low, std::uint32_t high) {
-    const std::uint32_t value = node.unsignedInteger();
-    if (value < low || value > high)
+    const auto& value = node.value();
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() < low || value.get<std::uint64_t>() > high)
         node.failValue("a whole number from " + std::to_string(low) + " to " + std::to_string(high));
-    return value;
+    return value.get<std::uint32_t>();
 }
 
 std::string engineName(const std::string& text, const JsonNode& node) {
@@ -110,6 +111,7 @@ std::string axisNames() {
 Experiment readExperiment(const JsonNode& node) {
     Experiment experiment;
     experiment.name = node.at("name").string();
+    if (experiment.name.empty()) node.at("name").fail("must not be empty");
     experiment.title = node.has("title") ? node.at("title").string() : experiment.name;
     node.forEachMember([&](const std::string& key, const JsonNode& value) {
         if (std::find(std::begin(kExperimentKeys), std::end(kExperimentKeys), key) != std::end(kExperimentKeys)) return;
@@ -127,8 +129,12 @@ Experiment readExperiment(const JsonNode& node) {
 }
 
 Published readPublished(const JsonNode& node) {
-    node.expectKeys({"name", "scene", "seconds"});
-    Published published{node.at("name").string(), node.at("scene").string(), {}};
+    node.expectKeys({"name", "scene", "width", "height", "seconds"});
+    Published published{node.at("name").string(),
+                        node.at("scene").string(),
+                        wholeWithin(node.at("width"), 1, kLargestSide),
+                        wholeWithin(node.at("height"), 1, kLargestSide),
+                        {}};
     node.at("seconds").forEachMember([&](const std::string& spp, const JsonNode& value) {
         try {
             published.seconds[app::parseWhole("spp", spp, 1, 0x7fffffffu)] = value.positive();

@@ -26,10 +26,11 @@ struct Experiment {
     std::map<const Axis*, std::string> baseline; // row to compare with: the same but for these; empty: none
 };
 
-// What others published, beside our rows of the same scene and samples per pixel.
+// What others published, beside our rows of the same scene, size and samples per pixel.
 struct Published {
     std::string name;
     std::string scene;
+    std::uint32_t width = 0, height = 0;
     std::map<std::uint32_t, double> seconds; // by samples per pixel
 };
 

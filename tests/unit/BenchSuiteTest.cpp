@@ -45,7 +45,8 @@ TEST(BenchSuite, ThePublishedSchemaAgrees) {
     const test::JsonSchema schema(json);
     for (const NamedSuite& named : namedSuites())
         EXPECT_TRUE(schema.accepts(nlohmann::json::parse(named.text))) << named.name;
-    for (const char* wrong : {R"("spp": 0)", R"("spp": [1], "smapler": "sobol")", R"("spp": 1, "repeats": 0)"}) {
+    for (const char* wrong : {R"("spp": 0)", R"("spp": [1], "smapler": "sobol")", R"("spp": 1, "repeats": 0)",
+                              R"("spp": 1}, {"name": "", "spp": 1)"}) {
         EXPECT_FALSE(schema.accepts(nlohmann::json::parse(suiteWith(wrong)))) << wrong;
         EXPECT_THROW(parseSuite(suiteWith(wrong), "s.json"), InputError) << wrong;
     }
@@ -104,6 +105,8 @@ TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
     expect(R"({"version": 1})", "experiments", "");
     expect(suiteWith(R"("spp": [4, 2])"), "/experiments/0/spp/1", "ascending");
     expect(suiteWith(R"("spp": [0])"), "/experiments/0/spp/0", "1 to 2147483647");
+    expect(suiteWith(R"("spp": -1)"), "/experiments/0/spp: -1", "1 to 2147483647");
+    expect(R"({"version": 1, "experiments": [{"name": "", "spp": 1}]})", "/experiments/0/name", "empty");
     expect(suiteWith(R"("scene": "furnace")"), "/experiments/0", "spp or seconds");
     expect(suiteWith(R"("spp": 1, "seconds": 1)"), "/experiments/0", "spp or seconds");
     expect(suiteWith(R"("spp": 1, "sampler": ["sobol", "halton"])"), "/experiments/0/sampler/1", "stratified");

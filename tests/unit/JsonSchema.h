@@ -54,6 +54,7 @@ class JsonSchema {
         if (key == "maximum") return !value.is_number() || value <= rule;
         if (key == "exclusiveMinimum") return !value.is_number() || value > rule;
         if (key == "exclusiveMaximum") return !value.is_number() || value < rule;
+        if (key == "minLength") return !value.is_string() || value.get_ref<const std::string&>().size() >= rule;
         if (key == "minItems") return !value.is_array() || value.size() >= rule;
         if (key == "maxItems") return !value.is_array() || value.size() <= rule;
         if (key == "items")
