@@ -62,10 +62,11 @@ class SvgWriter {
     std::string text_;
 };
 
-std::string powerOfTen(int exponent) {
-    if (exponent >= 0 && exponent <= 4) return std::to_string(static_cast<int>(std::lround(std::pow(10.0, exponent))));
-    if (exponent < 0 && exponent >= -2) return exponent == -1 ? "0.1" : "0.01";
-    return "1e" + std::to_string(exponent);
+std::string labelOf(int digit, int exponent) {
+    if (exponent < -2 || exponent > 4) return std::to_string(digit) + "e" + std::to_string(exponent);
+    char text[32];
+    std::snprintf(text, sizeof text, "%g", digit * std::pow(10.0, exponent));
+    return text;
 }
 
 // Whole powers of ten, or halves of them where there is little to see.
@@ -78,7 +79,8 @@ void drawAxes(SvgWriter& svg, const Chart& chart, const Scale& x, const Scale& y
     const std::string grid = "stroke=\"#ddd\"", faint = "stroke=\"#f2f2f2\"";
     for (const bool horizontal : {true, false}) {
         const Scale& scale = horizontal ? x : y;
-        const bool wide = scale.high - scale.low > 6; // no room for all labels
+        const bool wide = scale.high - scale.low > 6;    // no room for all labels
+        const bool narrow = scale.high - scale.low <= 2; // room for some between
         for (int e = static_cast<int>(std::floor(scale.low)); e <= static_cast<int>(std::ceil(scale.high)); ++e)
             for (int digit = 1; digit < 10; ++digit) {
                 const double exponent = e + std::log10(digit);
@@ -86,9 +88,10 @@ void drawAxes(SvgWriter& svg, const Chart& chart, const Scale& x, const Scale& y
                 const double at = scale(std::pow(10.0, exponent));
                 const std::string& style = digit == 1 ? grid : faint;
                 horizontal ? svg.line(at, y.from, at, y.to, style) : svg.line(x.from, at, x.to, at, style);
-                if (digit != 1 || (wide && e % 2 != 0)) continue;
-                horizontal ? svg.text(at, y.from + 16, powerOfTen(e), "text-anchor=\"middle\"")
-                           : svg.text(x.from - 6, at + 4, powerOfTen(e), "text-anchor=\"end\"");
+                const bool labelled = digit == 1 ? !wide || e % 2 == 0 : narrow && (digit == 2 || digit == 5);
+                if (!labelled) continue;
+                horizontal ? svg.text(at, y.from + 16, labelOf(digit, e), "text-anchor=\"middle\"")
+                           : svg.text(x.from - 6, at + 4, labelOf(digit, e), "text-anchor=\"end\"");
             }
     }
     svg.line(x.from, y.from, x.to, y.from, "stroke=\"#888\"");
@@ -96,6 +99,12 @@ void drawAxes(SvgWriter& svg, const Chart& chart, const Scale& x, const Scale& y
     svg.text((x.from + x.to) / 2, y.from + 36, chart.xTitle, "text-anchor=\"middle\"");
     svg.text(x.from - 50, y.to - 10, chart.yTitle, "");
     svg.text((x.from + x.to) / 2, 16, chart.title, "text-anchor=\"middle\" font-weight=\"bold\"");
+}
+
+void drawLegend(SvgWriter& svg, const std::string& name, std::size_t index, const Scale& y, const std::string& style) {
+    const double at = y.from + kBottom + kLegendLine * static_cast<double>(index);
+    svg.line(kLeft, at - 4, kLeft + 26, at - 4, style);
+    svg.text(kLeft + 32, at, name, "");
 }
 
 void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Scale& x, const Scale& y) {
@@ -113,20 +122,20 @@ void drawLine(SvgWriter& svg, const ChartLine& line, std::size_t index, const Sc
     }
     svg.polyline(points, "stroke=\"" + color + "\" stroke-width=\"1.6\"" +
                              (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
-    const double legend = y.from + kBottom + kLegendLine * static_cast<double>(index);
-    svg.line(
-        kLeft, legend - 4, kLeft + 26, legend - 4,
+    drawLegend(
+        svg, line.name, index, y,
         "stroke=\"" + color + "\" stroke-width=\"2\"" + (dash.empty() ? "" : " stroke-dasharray=\"" + dash + "\""));
-    svg.text(kLeft + 32, legend, line.name, "");
 }
 
 // Through the first point of the first line.
-void drawGuide(SvgWriter& svg, const ChartLine& line, const Scale& x, const Scale& y) {
+void drawGuide(SvgWriter& svg, const ChartLine& line, std::size_t index, const Scale& x, const Scale& y) {
+    const std::string style = "stroke=\"#999\" stroke-dasharray=\"1 4\"";
     const double start = std::log10(line.points.front().y) + std::log10(line.points.front().x);
     const double from = std::max(x.low, start - y.high), to = std::min(x.high, start - y.low);
     if (!(to > from)) return;
     svg.line(x(std::pow(10.0, from)), y(std::pow(10.0, start - from)), x(std::pow(10.0, to)),
-             y(std::pow(10.0, start - to)), "stroke=\"#999\" stroke-dasharray=\"1 4\"");
+             y(std::pow(10.0, start - to)), style);
+    drawLegend(svg, "slope −1", index, y, style);
 }
 
 } // namespace
@@ -150,9 +159,10 @@ std::string toSvg(const Chart& original) {
     if (chart.lines.empty()) return {};
     widen(x);
     widen(y);
-    SvgWriter svg(kTop + kPlotHeight + kBottom + kLegendLine * static_cast<double>(chart.lines.size()));
+    const std::size_t legends = chart.lines.size() + (chart.minusOne ? 1 : 0);
+    SvgWriter svg(kTop + kPlotHeight + kBottom + kLegendLine * static_cast<double>(legends));
     drawAxes(svg, chart, x, y);
-    if (chart.minusOne) drawGuide(svg, chart.lines.front(), x, y);
+    if (chart.minusOne) drawGuide(svg, chart.lines.front(), chart.lines.size(), x, y);
     for (std::size_t i = 0; i < chart.lines.size(); ++i) drawLine(svg, chart.lines[i], i, x, y);
     return svg.finish();
 }

@@ -21,22 +21,31 @@ std::string escapeCell(const std::string& text) {
     return escaped;
 }
 
-// Columns padded, so that it reads well as plain text too; numbers to the right.
+// Columns of numbers, with units and intervals or unknown, which go to the right.
+std::vector<bool> numberColumns(const Table& table) {
+    const auto isNumber = [](const std::string& cell) {
+        return cell == "–" || (cell.find_first_of("0123456789∞") != std::string::npos &&
+                               cell.find_first_not_of("0123456789.-+e%~<±∞x ") == std::string::npos);
+    };
+    std::vector<bool> numbers(table.header.size(), true);
+    for (std::size_t c = 0; c < numbers.size(); ++c)
+        for (const auto& row : table.rows) numbers[c] = numbers[c] && isNumber(row[c]);
+    return numbers;
+}
+
+// Columns padded, so that it reads well as plain text too.
 std::string markdownTable(Table table) {
     for (auto& row : table.rows)
         for (std::string& cell : row) cell = escapeCell(cell);
     std::vector<std::size_t> widths(table.header.size(), 3);
-    std::vector<bool> right(table.header.size(), true);
+    const std::vector<bool> right = numberColumns(table);
     const auto lengthOf = [](const std::string& text) { // of UTF-8
         return static_cast<std::size_t>(
             std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
     };
     for (std::size_t c = 0; c < table.header.size(); ++c) {
         widths[c] = std::max(widths[c], lengthOf(table.header[c]));
-        for (const auto& row : table.rows) {
-            widths[c] = std::max(widths[c], lengthOf(row[c]));
-            right[c] = right[c] && row[c].find_first_not_of("0123456789.-+e%~<±x ") == std::string::npos;
-        }
+        for (const auto& row : table.rows) widths[c] = std::max(widths[c], lengthOf(row[c]));
     }
     const auto line = [&](const std::vector<std::string>& cells) {
         std::string text = "|";
@@ -55,14 +64,16 @@ std::string markdownTable(Table table) {
 }
 
 std::string htmlTable(const Table& table) {
-    std::string text = "<div class=\"wide\"><table>\n<tr>";
-    for (const std::string& cell : table.header) text += "<th>" + escapeMarkup(cell) + "</th>";
-    text += "</tr>\n";
-    for (const auto& row : table.rows) {
+    const std::vector<bool> numbers = numberColumns(table);
+    std::string text = "<div class=\"wide\"><table>\n";
+    const auto line = [&](const std::vector<std::string>& cells, const std::string& tag) {
         text += "<tr>";
-        for (const std::string& cell : row) text += "<td>" + escapeMarkup(cell) + "</td>";
+        for (std::size_t c = 0; c < cells.size(); ++c)
+            text += "<" + tag + (numbers[c] ? " class=\"n\">" : ">") + escapeMarkup(cells[c]) + "</" + tag + ">";
         text += "</tr>\n";
-    }
+    };
+    line(table.header, "th");
+    for (const auto& row : table.rows) line(row, "td");
     return text + "</table></div>\n";
 }
 
@@ -78,8 +89,8 @@ constexpr const char* kStyle =
     "body{font:15px/1.45 sans-serif;margin:2em auto;max-width:1150px;padding:0 1em;color:#222;background:#fff}"
     "h1,h2,h3{line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #ccc}"
     ".wide{overflow-x:auto}table{border-collapse:collapse;margin:.6em 0;font-size:13px}"
-    "th,td{padding:.2em .6em;border:1px solid #ddd;text-align:right;white-space:nowrap}th{background:#f4f4f4}"
-    "td:first-child,th:first-child{text-align:left}"
+    "th,td{padding:.2em .6em;border:1px solid #ddd;text-align:left;white-space:nowrap}th{background:#f4f4f4}"
+    ".n{text-align:right}"
     ".charts{display:inline-block;margin:.4em .6em .4em 0;vertical-align:top}"
     ".grid{display:flex;flex-wrap:wrap;gap:8px}figure{margin:0;width:180px}img{width:180px;image-rendering:auto}"
     "figcaption{font-size:12px}";

@@ -6,11 +6,14 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace rt::bench {
 namespace {
 
 using Rows = std::vector<const Row*>;
+
+constexpr std::size_t kMostLines = 10; // of a chart
 
 // Axes, but `except`, with more than one value among the rows.
 std::vector<const Axis*> varied(const Rows& rows, const std::set<std::string_view>& except) {
@@ -35,14 +38,29 @@ ChartLine& lineNamed(Chart& chart, const std::string& name) {
     return found == chart.lines.end() ? chart.lines.emplace_back(ChartLine{name, {}}) : *found;
 }
 
-Chart errorChart(const Rows& rows, const std::string& scene, Figure Row::*x, const std::string& xTitle) {
-    Chart chart{scene, xTitle, "relmse", {}, true};
+Chart errorChart(const Rows& rows, const std::string& title, Figure Row::*x, const std::string& xTitle) {
+    Chart chart{title, xTitle, "relmse", {}, true};
     const std::vector<const Axis*> axes = varied(rows, {"scene", "height"});
     for (const Row* row : rows)
         if (row->*x && row->relmse)
             lineNamed(chart, nameOf(*row, axes))
                 .points.push_back({*(row->*x), *row->relmse, row->relmseCi.value_or(0)});
     return chart;
+}
+
+// One picture's rows by title: all, or those of each engine where they are too many lines to tell apart.
+std::vector<std::pair<std::string, Rows>> readable(const Rows& rows, const std::string& scene) {
+    std::set<std::string> lines;
+    for (const Row* row : rows) lines.insert(keyOf(row->config));
+    if (lines.size() <= kMostLines) return {{scene, rows}};
+    std::vector<std::pair<std::string, Rows>> parts;
+    for (const std::string_view engine : kEngines) {
+        Rows own;
+        std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
+                     [&](const Row* row) { return row->config.engine == engine; });
+        if (!own.empty()) parts.emplace_back(scene + ", " + std::string(engine), std::move(own));
+    }
+    return parts;
 }
 
 double countOf(const std::string& scene) { // N of "id:N"; 0: none
@@ -102,8 +120,10 @@ std::vector<Chart> makeCharts(const Rows& rows) {
         Rows own;
         std::copy_if(rows.begin(), rows.end(), std::back_inserter(own),
                      [&](const Row* row) { return row->config.scene == scene && row->relmse; });
-        charts.push_back(errorChart(own, scene, &Row::spp, "samples per pixel"));
-        charts.push_back(errorChart(own, scene, &Row::seconds, "seconds"));
+        for (const auto& [title, part] : readable(own, scene)) {
+            charts.push_back(errorChart(part, title, &Row::spp, "samples per pixel"));
+            charts.push_back(errorChart(part, title, &Row::seconds, "seconds"));
+        }
     }
     return charts;
 }
