@@ -1,13 +1,15 @@
 #include "Common/Bench/Energy.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
-#include <string>
 
 namespace rt::bench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kNvmlSuccess = 0;
 
 std::optional<std::uint64_t> readNumber(const fs::path& file) {
     std::ifstream in(file);
@@ -42,6 +44,36 @@ std::optional<double> EnergyMeter::joules() const {
             static_cast<double>(*now >= counter.start ? *now - counter.start : *now + counter.range - counter.start);
     }
     return total * 1e-6;
+}
+
+NvidiaEnergy::NvidiaEnergy(const std::array<std::uint8_t, 16>& uuid) : library_{"libnvidia-ml.so.1", "nvml.dll"} {
+    auto* const init = library_.find<int()>("nvmlInit_v2");
+    auto* const handleOf = library_.find<int(const char*, void**)>("nvmlDeviceGetHandleByUUID");
+    if (init == nullptr || handleOf == nullptr || init() != kNvmlSuccess) return;
+    started_ = true;
+    if (handleOf(nvidiaUuid(uuid).c_str(), &device_) != kNvmlSuccess) device_ = nullptr;
+}
+
+NvidiaEnergy::~NvidiaEnergy() {
+    if (auto* const shutdown = library_.find<int()>("nvmlShutdown"); started_ && shutdown != nullptr) shutdown();
+}
+
+std::optional<double> NvidiaEnergy::joules() const {
+    auto* const energyOf = library_.find<int(void*, unsigned long long*)>("nvmlDeviceGetTotalEnergyConsumption");
+    unsigned long long millijoules = 0;
+    if (device_ == nullptr || energyOf == nullptr || energyOf(device_, &millijoules) != kNvmlSuccess)
+        return std::nullopt;
+    return static_cast<double>(millijoules) * 1e-3;
+}
+
+std::string nvidiaUuid(const std::array<std::uint8_t, 16>& uuid) {
+    std::string text = "GPU";
+    for (std::size_t i = 0; i < uuid.size(); ++i) {
+        char digits[4];
+        std::snprintf(digits, sizeof digits, "%02x", uuid[i]);
+        text += (i == 0 || (i >= 4 && i <= 10 && i % 2 == 0) ? "-" : "") + std::string(digits);
+    }
+    return text;
 }
 
 } // namespace rt::bench

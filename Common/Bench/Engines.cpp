@@ -21,6 +21,11 @@ std::string Engines::missing(const std::string& name) const {
     return kind->make ? "" : kind->missing;
 }
 
+EnergyCounter Engines::energy(const std::string& name) const {
+    const EngineKind* kind = find(kinds_, name);
+    return kind == nullptr ? EnergyCounter() : kind->energy;
+}
+
 app::Engine* Engines::prepare(const Config& config, const std::shared_ptr<const scene::CompiledScene>& scene,
                               const std::atomic<bool>& cancel) {
     if (const std::string why = missing(config.engine); !why.empty())

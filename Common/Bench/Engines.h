@@ -10,6 +10,7 @@
 
 #include "Common/App/Engine.h"
 #include "Common/Bench/Config.h"
+#include "Common/Bench/Energy.h"
 
 namespace rt::bench {
 
@@ -17,6 +18,7 @@ struct EngineKind {
     std::string name;                                                        // one of kEngines
     std::function<std::unique_ptr<app::Engine>(std::uint32_t threads)> make; // empty: there is none here
     std::string missing;                                                     // and this is why
+    EnergyCounter energy = {};                                               // of its device alone; may be empty
 };
 
 // Engines are made when first used and keep the scene that they have. GPU engines also keep the pipeline that their
@@ -27,6 +29,9 @@ class Engines {
 
     // Why there is no such engine here; empty: there is one.
     std::string missing(const std::string& name) const;
+
+    // Of this engine's device; empty: there is none.
+    EnergyCounter energy(const std::string& name) const;
 
     // The engine that this configuration asks for, with the scene; null when cancelled.
     app::Engine* prepare(const Config& config, const std::shared_ptr<const scene::CompiledScene>& scene,

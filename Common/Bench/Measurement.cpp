@@ -2,8 +2,8 @@
 
 #include <ostream>
 
+#include "Common/App/Platform.h"
 #include "Common/App/RenderLoop.h"
-#include "Common/Bench/Energy.h"
 
 namespace rt::bench {
 namespace {
@@ -19,10 +19,11 @@ app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
 class Measurer {
   public:
     Measurer(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings,
-             const std::atomic<bool>& stop)
+             const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy)
         : engine_(engine),
           scene_(scene),
           stop_(stop),
+          deviceEnergy_(deviceEnergy),
           silence_(nullptr),
           progress_(silence_, app::Progress::Style::Silent) {
         options_.settings = settings;
@@ -46,6 +47,8 @@ class Measurer {
             options_.settings.spp = spp;
             engine_.reset(scene_.camera, options_.settings);
             if (done_.spp > 0) engine_.restore(std::move(film));
+            options_.timeLimit =
+                done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds); // nothing tells as yet
             if (!step()) return;
             take(std::nullopt);
         }
@@ -69,16 +72,23 @@ class Measurer {
     }
 
   private:
-    // False: interrupted.
+    // False: interrupted, or not done in time.
     bool step() {
         const app::EngineReport before = engine_.report(); // a reset has set its counts to 0
         const EnergyMeter energy;
+        const auto deviceJoules = [this] { return deviceEnergy_ ? deviceEnergy_() : std::nullopt; };
+        const std::optional<double> deviceBefore = deviceJoules();
+        const double processorBefore = app::processorSeconds();
         const app::RenderResult result =
             app::renderUntilStopped(engine_, options_, engine_.film().totalSamples(), stop_, progress_, [] {});
         if (result.stoppedBy == app::StopReason::Interrupted) return false;
+        if (result.stoppedBy == app::StopReason::TimeLimit && options_.settings.sppIsKnown) return false;
         if (const auto joules = energy.joules()) done_.joules = done_.joules.value_or(0) + *joules;
+        if (const auto joules = deviceJoules(); joules && deviceBefore)
+            done_.joulesGpu = done_.joulesGpu.value_or(0) + *joules - *deviceBefore;
         const app::EngineReport after = engine_.report();
         done_.seconds += result.seconds;
+        done_.processorSeconds += app::processorSeconds() - processorBefore;
         done_.deviceSeconds += after.renderDeviceSeconds - before.renderDeviceSeconds;
         done_.rays = done_.rays + app::RayCounts{after.rays.camera - before.rays.camera,
                                                  after.rays.scattered - before.rays.scattered,
@@ -98,6 +108,7 @@ class Measurer {
     app::Engine& engine_;
     const scene::CompiledScene& scene_;
     const std::atomic<bool>& stop_;
+    const EnergyCounter& deviceEnergy_;
     std::ostream silence_;
     app::Progress progress_;
     app::Options options_;
@@ -108,9 +119,9 @@ class Measurer {
 } // namespace
 
 Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
-            std::uint32_t seed, const std::atomic<bool>& stop) {
+            std::uint32_t seed, const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy) {
     settings.seed = seed;
-    Measurer measurer(engine, scene, settings, stop);
+    Measurer measurer(engine, scene, settings, stop, deviceEnergy);
     measurer.warmUp();
     if (!stop) ladder.seconds.empty() ? measurer.toSamples(ladder) : measurer.toSeconds(ladder);
     return measurer.finish();

@@ -7,6 +7,7 @@
 
 #include "Common/App/Engine.h"
 #include "Common/Bench/Config.h"
+#include "Common/Bench/Energy.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::bench {
@@ -15,7 +16,7 @@ namespace rt::bench {
 struct Ladder {
     std::vector<std::uint32_t> spp;
     std::vector<double> seconds;
-    double maxSeconds = 1e30; // no step that would probably end later is begun
+    double maxSeconds = 1e30; // no step that would probably end later is begun, and the first is given up then
 };
 
 struct Snapshot {
@@ -24,8 +25,10 @@ struct Snapshot {
     std::optional<double> timeBudget; // seconds, where that was asked for
     double seconds = 0;               // wall time of sampling alone, warm-up excluded
     double deviceSeconds = 0;         // in kernels
+    double processorSeconds = 0;      // of all threads of this program
     app::RayCounts rays;
-    std::optional<double> joules; // of the processor package
+    std::optional<double> joules;    // of the processor package
+    std::optional<double> joulesGpu; // of the device, whose counter moves in steps
     image::Image image;
 };
 
@@ -36,8 +39,8 @@ struct Run {
 
 // `engine` has the scene; `settings` are complete but for spp and seed. A short render beforehand warms up caches,
 // clocks and shaders that drivers compile late. Samplers that lay out strata for a known number of samples are started
-// anew for each step. When `stop` becomes true, the step in progress is left out.
+// anew for each step. When `stop` becomes true, the step in progress is left out. `deviceEnergy` may be empty.
 Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
-            std::uint32_t seed, const std::atomic<bool>& stop);
+            std::uint32_t seed, const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy = {});
 
 } // namespace rt::bench
