@@ -14,6 +14,9 @@ namespace {
 using image::CurvePoint;
 using image::Summary;
 
+constexpr double kLeastBusySeconds = 0.05; // for clocks of threads that tick a hundred times a second
+constexpr double kLeastDeviceSeconds = 1;  // for steps of a tenth of a second in a device's counter of energy
+
 std::size_t steps(const Measured& measured) {
     std::size_t most = 0;
     for (const Run& run : measured.runs) most = std::max(most, run.snapshots.size());
@@ -32,6 +35,13 @@ std::vector<double> values(const Measured& measured, std::size_t step, Function 
 template <class Function>
 double medianOf(const Measured& measured, std::size_t step, Function get) {
     return image::median(values(measured, step, get));
+}
+
+Figure medianOfKnown(const Measured& measured, std::size_t step, Figure Snapshot::*figure) {
+    std::vector<double> known;
+    for (const Run& run : measured.runs)
+        if (step < run.snapshots.size() && run.snapshots[step].*figure) known.push_back(*(run.snapshots[step].*figure));
+    return known.empty() ? std::nullopt : Figure(image::median(known));
 }
 
 double pixelsOf(const Config& config) {
@@ -59,13 +69,17 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.kernel = last.kernel;
     row.lightShapes = last.lightSampling;
     row.spp = median([](const Run&, const Snapshot& s) { return static_cast<double>(s.spp); });
-    if (last.threads > 0) row.threadsUsed = last.threads;
     const Summary seconds =
         image::summarise(values(measured, step, [](const Run&, const Snapshot& s) { return s.seconds; }));
     row.repeats = static_cast<double>(seconds.count);
     row.seconds = seconds.median;
     row.secondsMin = seconds.min;
     row.secondsMax = seconds.max;
+    if (last.threads > 0) {
+        row.threadsUsed = last.threads;
+        const double processor = median([](const Run&, const Snapshot& s) { return s.processorSeconds; });
+        if (seconds.median >= kLeastBusySeconds) row.busy = processor / (seconds.median * last.threads);
+    }
     row.secondsDevice = median([](const Run&, const Snapshot& s) { return s.deviceSeconds; });
     row.secondsLoad = measured.secondsLoad;
     row.secondsBuild = report(&app::EngineReport::accelBuildSeconds);
@@ -76,42 +90,49 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     row.raysPerSecond = ratio(rays, row.seconds);
     row.raysPerSample = ratio(rays, samples);
     row.nonfinite = report(&app::EngineReport::nonfiniteSamples);
-    for (const Run& run : measured.runs) {
-        if (step >= run.snapshots.size()) continue;
-        row.timeBudget = run.snapshots[step].timeBudget;
-        if (measured.runs.size() == 1 || !row.joules) row.joules = run.snapshots[step].joules;
-    }
+    for (const Run& run : measured.runs)
+        if (step < run.snapshots.size()) row.timeBudget = run.snapshots[step].timeBudget;
+    row.joules = medianOfKnown(measured, step, &Snapshot::joules);
+    if (row.seconds >= kLeastDeviceSeconds) row.joulesGpu = medianOfKnown(measured, step, &Snapshot::joulesGpu);
     return row;
 }
 
+// Half of the 95 % confidence interval of a mean error: too few repeats cannot tell their spread, but tiles can.
+double intervalOf(const Summary& error, const Summary& tileError) {
+    return error.count > 2 ? error.halfWidth95 : 1.96 * tileError.mean / std::sqrt(error.count);
+}
+
 void addError(Row& row, const std::vector<image::ErrorAnalysis>& all) {
-    const auto summary = [&](double image::ErrorAnalysis::*member) {
+    const auto summary = [&](auto get) {
         std::vector<double> numbers;
-        for (const image::ErrorAnalysis& one : all) numbers.push_back(one.*member);
+        numbers.reserve(all.size());
+        for (const image::ErrorAnalysis& one : all) numbers.push_back(get(one));
         return image::summarise(numbers);
     };
-    const Summary mse = summary(&image::ErrorAnalysis::mse), relmse = summary(&image::ErrorAnalysis::relmse);
+    using Error = const image::ErrorAnalysis&;
+    const Summary mse = summary([](Error e) { return e.mse; }), relmse = summary([](Error e) { return e.relmse; });
     row.mse = mse.mean;
+    row.mseCi = intervalOf(mse, summary([](Error e) { return e.mseError; }));
     row.relmse = relmse.mean;
     row.rmse = std::sqrt(std::max(mse.mean, 0.0));
-    if (all.size() > 2) {
-        row.mseCi = mse.halfWidth95;
-        row.relmseCi = relmse.halfWidth95;
-    } else { // too few to tell their spread: that of the tiles
-        row.mseCi = 1.96 * summary(&image::ErrorAnalysis::mseError).mean / std::sqrt(mse.count);
-    }
-    row.mae = summary(&image::ErrorAnalysis::mae).mean;
-    row.psnr = summary(&image::ErrorAnalysis::psnr).mean;
-    row.flip = summary(&image::ErrorAnalysis::flip).mean;
-    row.fireflyShare = summary(&image::ErrorAnalysis::fireflyShare).mean;
-    row.referenceShare = ratio(all.front().referenceMse, row.mse);
+    if (all.size() > 2) row.relmseCi = relmse.halfWidth95;
     row.efficiency = image::efficiency(*row.mse, *row.seconds);
-    double fireflies = 0, worst = 0;
-    for (const image::ErrorAnalysis& one : all) {
-        fireflies += static_cast<double>(one.fireflies) / static_cast<double>(all.size());
-        if (std::abs(one.biasZ) > std::abs(worst)) worst = one.biasZ;
+    row.shareUpTo1 = all.front().upTo1.share; // the reference's
+    if (*row.shareUpTo1 > 0) {
+        const Summary upTo1 = summary([](Error e) { return e.upTo1.mse; });
+        row.mseUpTo1 = upTo1.mean;
+        row.mseUpTo1Ci = intervalOf(upTo1, summary([](Error e) { return e.upTo1.mseError; }));
+        row.efficiencyUpTo1 = image::efficiency(upTo1.mean, *row.seconds);
     }
-    row.fireflies = fireflies;
+    row.mae = summary([](Error e) { return e.mae; }).mean;
+    row.psnr = summary([](Error e) { return e.psnr; }).mean;
+    row.flip = summary([](Error e) { return e.flip; }).mean;
+    row.fireflies = summary([](Error e) { return static_cast<double>(e.fireflies); }).mean;
+    row.fireflyShare = summary([](Error e) { return e.fireflyShare; }).mean;
+    row.referenceShare = ratio(all.front().referenceMse, row.mse);
+    double worst = 0;
+    for (const image::ErrorAnalysis& one : all)
+        if (std::abs(one.biasZ) > std::abs(worst)) worst = one.biasZ;
     row.biasZ = worst;
 }
 
@@ -145,9 +166,13 @@ std::vector<Row> makeRows(const Experiment& experiment, const Measured& measured
 void addErrors(std::vector<Row>& rows, const Measured& measured, const image::Reference& reference) {
     for (std::size_t step = 0; step < rows.size(); ++step) {
         std::vector<image::ErrorAnalysis> all;
-        for (const Run& run : measured.runs)
-            if (step < run.snapshots.size()) all.push_back(image::analyseError(run.snapshots[step].image, reference));
-        addError(rows[step], all);
+        bool whole = true; // no pixel without a sample, as where time is too short
+        for (const Run& run : measured.runs) {
+            if (step >= run.snapshots.size()) continue;
+            whole = whole && run.snapshots[step].spp > 0;
+            all.push_back(image::analyseError(run.snapshots[step].image, reference));
+        }
+        if (whole) addError(rows[step], all);
     }
 }
 

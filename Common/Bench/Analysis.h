@@ -15,12 +15,13 @@ struct Measured {
     Config config;
     double secondsLoad = 0; // of the scene
     std::vector<Run> runs;
+    bool failed = false; // and is not tried again
 };
 
 // A row for each step of the ladder that a run reached, without errors.
 std::vector<Row> makeRows(const Experiment& experiment, const Measured& measured);
 
-// The errors of the rows that makeRows() made of `measured`.
+// The errors of the rows that makeRows() made of `measured`; none where a pixel has no sample in one of the repeats.
 void addErrors(std::vector<Row>& rows, const Measured& measured, const image::Reference& reference);
 
 // Speed-up and gain of all rows of an experiment over its baseline, at the same samples per pixel or the baseline's

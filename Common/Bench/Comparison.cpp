@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "Common/Bench/Report.h"
+#include "Common/Bench/Cells.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/ReadFile.h"
 

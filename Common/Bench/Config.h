@@ -20,7 +20,10 @@ struct Config {
 };
 
 struct Axis {
+    enum class Says { Where, How }; // what is rendered and on what; by which method
+
     std::string_view name; // as in suites and reports
+    Says says;
     std::string (*get)(const Config&);
     void (*set)(Config&, const std::string& value); // throws UsageError saying what is allowed
 };
@@ -29,6 +32,8 @@ const Axis* findAxis(std::string_view name); // null: there is none
 
 // The axes' values, joined: equal for equal configurations.
 std::string keyOf(const Config& config);
+// Of those that say one thing alone.
+std::string keyOf(const Config& config, Axis::Says what);
 
 inline constexpr std::string_view kEngines[] = {"single", "multi", "pipeline", "compute"};
 bool isGpuEngine(std::string_view engine);

@@ -77,7 +77,10 @@ double excess(const image::Reference& reference, std::span<const image::Image* c
         const double mse = std::max(figures.mse - variance, 0.1 * figures.mse);
         const double relmse = std::max(figures.relmse - relative, 0.1 * figures.relmse);
         if (mse > 0) most = std::max(most, variance / (kVarianceShare * mse));
+        const image::MeanSquares upTo1 = image::meanSquaresUpTo1(*image, reference);
+        const double mseUpTo1 = std::max(upTo1.mse, 0.1 * (upTo1.mse + upTo1.referenceMse));
         if (relmse > 0) most = std::max(most, relative / (kVarianceShare * relmse));
+        if (mseUpTo1 > 0) most = std::max(most, upTo1.referenceMse / (kVarianceShare * mseUpTo1));
     }
     return most;
 }

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <functional>
 #include <map>
 #include <set>
 
-#include "Common/Bench/Defaults.h"
+#include "Common/Bench/Cells.h"
 #include "Common/Bench/ReportCharts.h"
+#include "Common/Bench/ReportEfficiency.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -16,20 +15,7 @@
 namespace rt::bench {
 namespace {
 
-constexpr const char* kUnknown = "–";
-
-std::string percent(double value, int digits = 1) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f %%", digits, 100 * value);
-    return text;
-}
-
-std::string whole(const Figure& figure) {
-    if (!figure) return kUnknown;
-    char text[32];
-    std::snprintf(text, sizeof text, "%.0f", *figure);
-    return text;
-}
+constexpr double kBusy = 0.9; // below which a reader should know of it
 
 Figure times(const Figure& figure, double factor) {
     return figure ? Figure(*figure * factor) : std::nullopt;
@@ -43,49 +29,6 @@ std::string seconds(const Row& row) {
     return text;
 }
 
-std::string withInterval(const Figure& value, const Figure& half) {
-    std::string text = threeDigits(value);
-    if (value && half && *value > 0) text += " ±" + percent(*half / *value, 0);
-    return text;
-}
-
-// ---- columns that show something -------------------------------------------------------------------------------------
-
-template <class T>
-struct Column {
-    std::string header;
-    std::function<std::string(const T&)> cell;
-};
-
-template <class T>
-Table makeTable(const std::vector<Column<T>>& columns, const std::vector<const T*>& rows) {
-    Table table;
-    table.rows.resize(rows.size());
-    for (const Column<T>& column : columns) {
-        std::vector<std::string> cells;
-        for (const T* row : rows) cells.push_back(column.cell(*row));
-        if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell == kUnknown; })) continue;
-        table.header.push_back(column.header);
-        for (std::size_t i = 0; i < rows.size(); ++i) table.rows[i].push_back(cells[i]);
-    }
-    return table;
-}
-
-// Axes that have more than one value among the rows; scene and engine always, the height, which follows the width,
-// never.
-template <class T>
-std::vector<Column<T>> axisColumns(const std::vector<const T*>& rows) {
-    std::vector<Column<T>> columns;
-    for (const Axis& axis : axes()) {
-        std::set<std::string> values;
-        for (const T* row : rows) values.insert(axis.get(row->config));
-        if (axis.name == "height") continue;
-        if (values.size() > 1 || axis.name == "scene" || axis.name == "engine")
-            columns.push_back({std::string(axis.name), [&axis](const T& row) { return axis.get(row.config); }});
-    }
-    return columns;
-}
-
 template <class T>
 void append(std::vector<Column<T>>& to, std::vector<Column<T>> more) {
     for (Column<T>& column : more) to.push_back(std::move(column));
@@ -93,24 +36,33 @@ void append(std::vector<Column<T>>& to, std::vector<Column<T>> more) {
 
 Table rowTable(const std::vector<const Row*>& rows) {
     std::vector<Column<Row>> columns = axisColumns(rows);
+    for (Column<Row>& column : columns) // 0 stands for all, however many that are
+        if (column.header == "threads") column.cell = [](const Row& r) { return whole(r.threadsUsed); };
+    // Two errors only where they are two.
+    const bool bright = std::any_of(rows.begin(), rows.end(), [](const Row* row) { return row->shareUpTo1 < 1.0; });
+    const auto upTo1 = [bright](const std::string& text) { return bright ? text : kUnknown; };
+    const bool idle = std::any_of(rows.begin(), rows.end(), [](const Row* r) { return r->busy.value_or(1) < kBusy; });
     append<Row>(columns,
                 {
-                    {"threads", [](const Row& r) { return r.config.threads > 0 ? whole(r.threadsUsed) : kUnknown; }},
                     {"spp", [](const Row& r) { return whole(r.spp); }},
                     {"seconds", seconds},
+                    {"threads busy", [=](const Row& r) { return idle && r.busy ? percent(*r.busy, 0) : kUnknown; }},
                     {"M samples/s", [](const Row& r) { return threeDigits(times(r.samplesPerSecond, 1e-6)); }},
                     {"M rays/s", [](const Row& r) { return threeDigits(times(r.raysPerSecond, 1e-6)); }},
                     {"of ceiling", [](const Row& r) { return r.ceiling ? percent(*r.ceiling, 0) : kUnknown; }},
                     {"mse", [](const Row& r) { return withInterval(r.mse, r.mseCi); }},
+                    {"mse up to 1", [=](const Row& r) { return upTo1(withInterval(r.mseUpTo1, r.mseUpTo1Ci)); }},
                     {"relmse", [](const Row& r) { return withInterval(r.relmse, r.relmseCi); }},
                     {"psnr", [](const Row& r) { return threeDigits(r.psnr); }},
                     {"FLIP", [](const Row& r) { return threeDigits(r.flip); }},
                     {"bias z", [](const Row& r) { return threeDigits(r.biasZ); }},
                     {"fireflies", [](const Row& r) { return whole(r.fireflies); }},
                     {"1/(mse s)", [](const Row& r) { return threeDigits(r.efficiency); }},
+                    {"1/(mse s) up to 1", [=](const Row& r) { return upTo1(threeDigits(r.efficiencyUpTo1)); }},
                     {"speed-up", [](const Row& r) { return threeDigits(r.speedup); }},
                     {"gain", [](const Row& r) { return threeDigits(r.gain); }},
-                    {"joules", [](const Row& r) { return threeDigits(r.joules); }},
+                    {"J, processor", [](const Row& r) { return threeDigits(r.joules); }},
+                    {"J, GPU", [](const Row& r) { return threeDigits(r.joulesGpu); }},
                 });
     return makeTable(columns, rows);
 }
@@ -184,16 +136,23 @@ Table referenceTable(const std::vector<const ReferenceRow*>& rows) {
         rows);
 }
 
-// The published columns beside ours, by samples per pixel; empty where the scene has none.
+bool isOf(const Published& published, const Row& row) {
+    return published.scene == row.config.scene && published.width == row.config.settings.width &&
+           published.height == row.config.settings.height;
+}
+
+// The published columns beside ours, by samples per pixel; empty where there is none for this scene in this size.
 std::vector<Block> publishedBlocks(const Suite& suite, const std::vector<const Row*>& rows, const std::string& scene) {
     std::vector<const Published*> columns;
     for (const Published& published : suite.published)
-        if (published.scene == scene) columns.push_back(&published);
+        if (published.scene == scene &&
+            std::any_of(rows.begin(), rows.end(), [&](const Row* row) { return isOf(published, *row); }))
+            columns.push_back(&published);
     if (columns.empty()) return {};
     std::map<double, std::map<std::string, const Row*>> ours; // by spp and engine
     std::set<std::string> engines;
     for (const Row* row : rows) {
-        if (row->config.scene != scene || !row->spp) continue;
+        if (!row->spp || !isOf(*columns.front(), *row)) continue;
         ours[*row->spp].emplace(row->config.engine, row);
         engines.insert(row->config.engine);
     }
@@ -221,60 +180,37 @@ std::vector<Block> publishedBlocks(const Suite& suite, const std::vector<const R
         }
         table.rows.push_back(cells);
     }
-    return {Heading{3, "Beside what was published: " + scene}, table};
-}
-
-// What tells the configuration from its experiment's others.
-std::string nameOf(const Series& series, const std::vector<const Series*>& others) {
-    std::string name;
-    for (const Axis& axis : axes()) {
-        std::set<std::string> values;
-        for (const Series* other : others) values.insert(axis.get(other->config));
-        if (values.size() > 1 && axis.name != "scene" && axis.name != "height")
-            name += (name.empty() ? "" : ", ") + axis.get(series.config);
-    }
-    return name;
+    return {Heading{3, "Beside what was published: " + scene + ", " + std::to_string(columns.front()->width) + "×" +
+                           std::to_string(columns.front()->height)},
+            table};
 }
 
 // Of each experiment and scene the configuration that comes first to the error that all reach.
 std::vector<Block> winners(const Suite& suite, const Results& results) {
+    const auto isNamed = [](const Axis& axis) { return axis.name != "scene" && axis.name != "height"; };
     Table table{{"experiment", "scene", "least time to equal relmse", "relmse", "seconds", "gain over baseline"}, {}};
     for (const Experiment& experiment : suite.experiments) {
         std::vector<const Series*> own;
         for (const Series& series : results.series)
             if (series.experiment == experiment.name && series.secondsAtEqualError) own.push_back(&series);
         std::map<std::string, std::vector<const Series*>> byScene;
-        for (const Series* series : own) byScene[series->config.scene].push_back(series);
+        std::vector<const Config*> configs;
+        for (const Series* series : own) {
+            byScene[series->config.scene].push_back(series);
+            configs.push_back(&series->config);
+        }
         for (const auto& [scene, all] : byScene) {
             if (all.size() < 2) continue;
             const Series* best = *std::min_element(all.begin(), all.end(), [](const Series* a, const Series* b) {
                 return *a->secondsAtEqualError < *b->secondsAtEqualError;
             });
-            table.rows.push_back({experiment.name, scene, nameOf(*best, own), threeDigits(best->equalError),
-                                  threeDigits(best->secondsAtEqualError), threeDigits(best->gain)});
+            table.rows.push_back({experiment.name, scene, nameOf(best->config, configs, isNamed),
+                                  threeDigits(best->equalError), threeDigits(best->secondsAtEqualError),
+                                  threeDigits(best->gain)});
         }
     }
     if (table.rows.empty()) return {};
     return {Heading{2, "In short"}, table};
-}
-
-// The defaults against the best configuration, experiment by experiment.
-std::vector<Block> defaultsBlocks(const Results& results) {
-    Table table{{"experiment", "engine", "scenes", "geometric mean", "least", "in", "where the best is"}, {}};
-    for (const DefaultsRow& row : compareDefaults(results.rows)) {
-        std::string best;
-        for (const Axis& axis : axes()) {
-            const std::string value = axis.get(row.leastBest);
-            if (axis.name == "scene" || axis.name == "engine" || axis.name == "width" || axis.name == "height")
-                continue;
-            if (value != axis.get(Config())) best += (best.empty() ? "" : ", ") + value;
-        }
-        table.rows.push_back({row.experiment, row.engine, std::to_string(row.scenes),
-                              withInterval(row.mean, row.meanCi), withInterval(row.least, row.leastCi), row.leastScene,
-                              best.empty() ? "the default" : best});
-    }
-    if (table.rows.empty()) return {};
-    return {Heading{2, "What the defaults reach of the best efficiency, 1 / (mse s)"}, table};
 }
 
 void appendExperiment(Document& document, const Experiment& experiment, const Results& results, const Suite& suite) {
@@ -292,12 +228,50 @@ void appendExperiment(Document& document, const Experiment& experiment, const Re
             scenes.push_back(row->config.scene);
     for (const std::string& scene : scenes)
         for (Block& block : publishedBlocks(suite, rows, scene)) document.push_back(std::move(block));
+    for (Block& block : efficiencyBlocks(rows)) document.push_back(std::move(block));
     for (Chart& chart : makeCharts(rows))
         if (!chart.lines.empty()) document.push_back(std::move(chart));
     if (!series.empty()) document.push_back(seriesTable(series));
     for (const PictureGrid& grid : results.grids)
         if (grid.experiment == experiment.name) document.push_back(grid);
     document.push_back(rowTable(rows));
+}
+
+const Table& columnMeanings() {
+    static const Table table{
+        {"column", "what it says"},
+        {
+            {"seconds",
+             "wall time of sampling alone: median of the repeats, ± half of the distance from least to most"},
+            {"threads busy",
+             "processor seconds of this program over seconds × threads: the rest went to other programs, or "
+             "there was too little work for so many"},
+            {"of ceiling",
+             "rays/s, shading included, over what the hardware does with rays alone; shadow rays are cheaper, so "
+             "that it can exceed 100 %"},
+            {"mse",
+             "mean((x − ref)²) over pixels and channels, ± half of a 95 % confidence interval over the repeats or, "
+             "with "
+             "less than three, over tiles of the image"},
+            {"up to 1",
+             "of the pixels alone that the reference has at 1 or less in every channel: without visible lights"},
+            {"one for each setting",
+             "efficiency over that of the row's best setting, whose variance × time stands before; ± by "
+             "the interval of its own mse; error ~ 0: it cannot be told from zero"},
+            {"relmse", "mean((x − ref)² / (ref² + 0.01))"},
+            {"psnr, FLIP", "of what a screen shows: decibels; 0 (the same) to 1"},
+            {"bias z",
+             "image and reference have the same mean: standard deviations, of the worst channel and repeat; beyond ±4 "
+             "one of the two is wrong, or a few bright samples rule the picture"},
+            {"fireflies", "pixels brighter than the reference by more than ten times the rmse"},
+            {"speed-up, gain",
+             "ratio to the baseline of samples/s; of 1 / (mse s) or, where curves are compared, of the seconds "
+             "to equal relmse"},
+            {"slope of mse",
+             "of log mse over log samples, −1 for independent samples; at the end: of the last two steps"},
+            {"s to relmse", "interpolated between steps; ~: extrapolated with slope −1"},
+        }};
+    return table;
 }
 
 void writeFile(const std::filesystem::path& path, const std::string& text) {
@@ -308,15 +282,6 @@ void writeFile(const std::filesystem::path& path, const std::string& text) {
 
 } // namespace
 
-std::string threeDigits(const Figure& figure) {
-    if (!figure) return kUnknown;
-    if (!std::isfinite(*figure)) return "∞";
-    char text[32];
-    const double size = std::abs(*figure);
-    std::snprintf(text, sizeof text, size >= 1000 && size < 1e6 ? "%.0f" : "%.3g", *figure);
-    return text;
-}
-
 Document makeReport(const Results& results, const Suite& suite) {
     Document document{Heading{1, results.title}};
     Table machine{{"", ""}, {}};
@@ -325,7 +290,7 @@ Document makeReport(const Results& results, const Suite& suite) {
     if (!machine.rows.empty()) document.push_back(machine);
     for (const std::string& notice : results.notices) document.push_back(Paragraph{notice});
     for (Block& block : winners(suite, results)) document.push_back(std::move(block));
-    for (Block& block : defaultsBlocks(results)) document.push_back(std::move(block));
+    for (Block& block : defaultsBlocks(results.rows)) document.push_back(std::move(block));
     for (const Experiment& experiment : suite.experiments) appendExperiment(document, experiment, results, suite);
     if (!results.skips.empty()) {
         std::vector<const SkipRow*> rows;
@@ -341,6 +306,10 @@ Document makeReport(const Results& results, const Suite& suite) {
             Paragraph{"Rendered with another seed; their time counts nowhere. Their variance is subtracted from mse, "
                       "rmse and relmse."});
         document.push_back(referenceTable(rows));
+    }
+    if (!results.rows.empty()) {
+        document.push_back(Heading{2, "How to read the tables"});
+        document.push_back(columnMeanings());
     }
     return document;
 }

@@ -1,8 +1,6 @@
 // The report on a run of the benchmark, for people.
 #pragma once
 #include <filesystem>
-#include <string>
-#include <vector>
 
 #include "Common/Bench/Document.h"
 #include "Common/Bench/Results.h"
@@ -17,8 +15,5 @@ void writeReport(const std::filesystem::path& folder, const Results& results, co
 
 // The folder can be written to; throws RenderError before hours are spent.
 void checkReportFolder(const std::filesystem::path& folder);
-
-// Three significant digits, "–" for what is not known.
-std::string threeDigits(const Figure& figure);
 
 } // namespace rt::bench

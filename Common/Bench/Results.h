@@ -1,6 +1,7 @@
 // What a run of the benchmark found: plain rows of texts and numbers, the same in JSON, CSV and the report.
 #pragma once
 #include <cstdint>
+#include <exception>
 #include <optional>
 #include <span>
 #include <string>
@@ -23,15 +24,17 @@ struct Row {
     Figure spp, timeBudget, repeats, threadsUsed;
     Figure seconds, secondsMin, secondsMax;                           // median, least and most over the repeats
     Figure secondsDevice, secondsLoad, secondsBuild, secondsPipeline; // medians
+    Figure busy;                                                      // processor seconds / (seconds threads)
     Figure samplesPerSecond, raysPerSecond, raysPerSample;
     Figure mse, mseCi, rmse, relmse, relmseCi, mae, psnr, flip; // means; Ci: half of the 95 % confidence interval
+    Figure mseUpTo1, mseUpTo1Ci, shareUpTo1;                    // of the pixels that the reference has at 1 or less
     Figure referenceShare;                                      // variance of the reference / mse
     Figure biasZ, fireflies, fireflyShare;                      // of the worst repeat; means
     Figure nonfinite;                                           // samples
-    Figure efficiency;                                          // 1 / (mse seconds)
+    Figure efficiency, efficiencyUpTo1;                         // 1 / (mse seconds)
     Figure speedup;                                             // samples/s over those of the baseline
     Figure gain;                                                // efficiency over that of the baseline
-    Figure joules;                                              // of the processor package
+    Figure joules, joulesGpu;                                   // of the processor package; of the GPU that rendered
     Figure ceiling;                                             // rays/s over what the hardware does with rays alone
 };
 
@@ -87,7 +90,8 @@ struct Results {
     std::string suite, title;
     std::vector<Fact> facts; // machine and versions
     std::vector<std::string> notices;
-    bool complete = true; // false: interrupted
+    bool complete = true;       // false: interrupted
+    std::exception_ptr failure; // the first; the notices tell them all. Not part of the JSON
     std::vector<Row> rows;
     std::vector<Series> series;
     std::vector<SkipRow> skips;

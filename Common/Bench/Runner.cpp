@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
+#include <limits>
 #include <map>
+#include <new>
+#include <set>
 #include <thread>
 #include <tuple>
 
@@ -12,6 +16,7 @@
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 
 namespace rt::bench {
 namespace {
@@ -50,6 +55,8 @@ class SuiteRunner {
     }
 
     Results run() {
+        const Interruptible interruptible(stop_); // reading a large scene
+        readScenes();
         for (const Experiment& experiment : suite_.experiments) {
             if (stop_) break;
             runExperiment(experiment);
@@ -72,11 +79,29 @@ class SuiteRunner {
         hooks_.say(text);
     }
 
+    // What fails is told and left out, so that what else is measured is not lost.
+    template <class Function>
+    bool attempt(const std::string& what, Function work) {
+        try {
+            work();
+            return true;
+        } catch (const Interrupted&) {
+            return false;
+        } catch (const std::exception& error) {
+            const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+            notice(what + ": " + (memory ? "not enough memory" : error.what()));
+            if (!results_.failure) results_.failure = std::current_exception();
+            engines_.clear();
+            return false;
+        }
+    }
+
+    void readScenes() const;
     void runExperiment(const Experiment& experiment);
     std::vector<Group> groupsOf(const Experiment& experiment);
     void runGroup(const Experiment& experiment, Group& group);
     void measureDeviceRate(Config config);
-    bool measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
+    void measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat);
     Ladder ladderFor(const Experiment& experiment, const Config& config);
     void loadScene(const std::string& source);
     const image::Reference* provideReference(const Group& group, std::vector<std::vector<Row>>& rows);
@@ -98,6 +123,22 @@ class SuiteRunner {
     bool referenceSuffices_ = false;
 };
 
+// All of them, before hours pass until the last turns out not to exist.
+void SuiteRunner::readScenes() const {
+    std::set<std::string> read;
+    for (const Experiment& experiment : suite_.experiments)
+        for (const Config& config : combinations(experiment, std::numeric_limits<std::uint32_t>::max())) {
+            if (stop_ || !read.insert(config.scene).second) continue;
+            try {
+                app::loadScene(config.scene);
+            } catch (const Interrupted&) {
+                return;
+            } catch (const InputError& error) {
+                throw InputError("experiment " + experiment.name + ": " + error.what());
+            }
+        }
+}
+
 // Tests and benchmarks use the generated assets even where the user has others, so that figures compare across
 // machines.
 void SuiteRunner::loadScene(const std::string& source) {
@@ -109,7 +150,7 @@ void SuiteRunner::loadScene(const std::string& source) {
     secondsLoad_ = watch.seconds();
     sceneSource_ = source;
     const std::pair key(source, std::string("multi"));
-    if (hooks_.rayCeiling && !ceilings_.count(key)) ceilings_[key] = hooks_.rayCeiling(*scene_);
+    if (hooks_.rayCeiling && !stop_ && !ceilings_.count(key)) ceilings_[key] = hooks_.rayCeiling(*scene_);
 }
 
 std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experiment) {
@@ -128,6 +169,8 @@ std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experime
         if (place == groups.end()) place = groups.insert(groups.end(), Group{config.scene, {}});
         place->measured.push_back({config, 0, {}});
     }
+    if (combinations(experiment, threads).empty())
+        notice(experiment.name + ": needs more threads than the " + std::to_string(threads) + " of this processor.");
     return groups;
 }
 
@@ -137,11 +180,14 @@ void SuiteRunner::runExperiment(const Experiment& experiment) {
     const std::size_t firstRow = results_.rows.size();
     for (Group& group : groups) {
         if (stop_) break;
-        runGroup(experiment, group);
+        attempt(group.scene, [&] { runGroup(experiment, group); });
         group.measured.clear(); // its images
     }
     std::vector<Row> rows(results_.rows.begin() + static_cast<std::ptrdiff_t>(firstRow), results_.rows.end());
     addBaselines(experiment, rows);
+    if (!experiment.baseline.empty() && !rows.empty() && !stop_ &&
+        std::none_of(rows.begin(), rows.end(), [](const Row& row) { return bool(row.speedup); }))
+        notice(experiment.name + ": the baseline was not measured, so there is no speed-up and no gain.");
     std::copy(rows.begin(), rows.end(), results_.rows.begin() + static_cast<std::ptrdiff_t>(firstRow));
 }
 
@@ -157,7 +203,9 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     // Turn by turn, so that a busy machine disturbs all alike.
     for (std::uint32_t repeat = 0; repeat < experiment.repeats; ++repeat)
         for (Measured& measured : group.measured)
-            if (!stop_ && !measureOnce(experiment, measured, repeat)) break;
+            if (!stop_ && !measured.failed)
+                measured.failed = !attempt(experiment.name + ": " + describe(experiment, measured.config),
+                                           [&] { measureOnce(experiment, measured, repeat); });
     std::erase_if(group.measured, [](const Measured& m) {
         return std::all_of(m.runs.begin(), m.runs.end(), [](const Run& run) { return run.snapshots.empty(); });
     });
@@ -165,7 +213,8 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     std::vector<std::vector<Row>> rows;
     for (const Measured& measured : group.measured) rows.push_back(makeRows(experiment, measured));
     const image::Reference* reference = nullptr;
-    if (experiment.error && !group.measured.empty()) reference = provideReference(group, rows);
+    if (experiment.error && !group.measured.empty())
+        attempt("reference of " + group.scene, [&] { reference = provideReference(group, rows); });
     std::vector<Row> all;
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (Row& row : rows[i]) {
@@ -216,18 +265,21 @@ void SuiteRunner::measureDeviceRate(Config config) {
         static_cast<double>(snapshot.rays.camera + snapshot.rays.scattered + snapshot.rays.shadow) / snapshot.seconds;
 }
 
-bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {
+void SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {
     const std::string what = experiment.name + ": " + describe(experiment, measured.config);
     app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
-    if (engine == nullptr) return false;
+    if (engine == nullptr) return;
     if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured.config);
     const Ladder ladder = ladderFor(experiment, measured.config);
-    measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_));
+    measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_,
+                                    engines_.energy(measured.config.engine)));
     const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;
     const std::size_t wanted = ladder.spp.size() + ladder.seconds.size();
     if (snapshots.empty()) {
-        if (!stop_) notice(what + ": nothing within " + format("%g s", experiment.maxSeconds) + ".");
-        return !stop_;
+        if (!stop_)
+            notice(what + ": nothing within " + (wanted == 0 ? "its max_spp" : format("%g s", experiment.maxSeconds)) +
+                   ".");
+        return;
     }
     const Snapshot& last = snapshots.back();
     hooks_.say(what + ": " + std::to_string(last.spp) + " spp in " + format("%.3g s", last.seconds) + ", " +
@@ -235,7 +287,6 @@ bool SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, 
     if (snapshots.size() < wanted && !stop_)
         notice(what + ": ends at " + std::to_string(last.spp) + " spp, as more would take above " +
                format("%g s", experiment.maxSeconds) + ".");
-    return !stop_;
 }
 
 // By the engine that was fastest; null when stopped before there is one. Adds the errors to the rows.

@@ -19,7 +19,8 @@ struct RunnerHooks {
 };
 
 // What was measured when `stop` becomes true is returned, with complete == false. Engines that are not there are left
-// out with a notice. Throws InputError for a scene that does not exist.
+// out with a notice, and so are configurations that fail (Results::failure). Throws InputError, before anything is
+// measured, for a scene that cannot be read.
 Results runSuite(const Suite& suite, Engines& engines, ReferenceStore& references, const RunnerHooks& hooks,
                  const std::atomic<bool>& stop);
 

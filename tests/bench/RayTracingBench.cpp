@@ -1,6 +1,7 @@
 // ray-tracing-bench: flags to a suite, a suite to results, and the engines that it drives.
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -72,10 +73,11 @@ class EngineList {
             for (const auto& [name, kind] : kGpuKinds) kinds_.push_back({name, {}, error.what()});
             return;
         }
+        energy_.emplace(context_->limits().uuid);
         facts_.push_back({"GPU", context_->info().name});
         facts_.push_back({"GPU driver", context_->info().driver});
         for (const auto& [name, kind] : kGpuKinds) {
-            bench::EngineKind added{name, {}, ""};
+            bench::EngineKind added{name, {}, "", [this] { return energy_->joules(); }};
             if (kind == app::GpuEngineKind::Pipeline && !context_->info().tracesRays()) {
                 added.missing = context_->info().name + " lacks " + context_->info().missingForPipeline;
             } else {
@@ -90,6 +92,7 @@ class EngineList {
     static constexpr std::pair<const char*, app::GpuEngineKind> kGpuKinds[] = {
         {"pipeline", app::GpuEngineKind::Pipeline}, {"compute", app::GpuEngineKind::Compute}};
     std::optional<vulkan::VulkanContext> context_;
+    std::optional<bench::NvidiaEnergy> energy_; // of its device
 #endif
     std::vector<bench::EngineKind> kinds_;
     std::vector<bench::Fact> facts_;
@@ -143,7 +146,9 @@ int measure(const bench::BenchOptions& options) {
         hooks.say("written: " + (std::filesystem::path(options.report) / "report.html").string());
     }
     if (!results.complete) return static_cast<int>(ExitCode::Interrupted);
-    if (results.rows.empty()) throw RenderError("nothing was measured: none of the suite's engines is here");
+    if (results.failure) std::rethrow_exception(results.failure);
+    if (results.rows.empty())
+        throw RenderError("nothing was measured" + (results.notices.empty() ? "" : ": " + results.notices.front()));
     return static_cast<int>(ExitCode::Done);
 }
 

@@ -7,11 +7,13 @@
 
 #include "Common/Bench/Chart.h"
 #include "Common/Bench/Comparison.h"
-#include "Common/Bench/Defaults.h"
+#include "Common/Bench/Efficiency.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Bench/Report.h"
+#include "Common/Bench/ReportCharts.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/Convergence.h"
 
 namespace rt::bench {
 namespace {
@@ -47,30 +49,74 @@ Results someResults() {
     return results;
 }
 
-TEST(BenchDefaults, AreComparedWithTheBestOfEachScene) {
+Row rowWith(const std::string& scene, app::SamplerKind sampler, double spp, double mse, double mseUpTo1) {
+    Row row = rowWith(spp, spp, mse);
+    row.config.scene = scene;
+    row.config.settings.sampler = sampler;
+    row.efficiency = image::efficiency(mse, spp);
+    row.mseUpTo1 = mseUpTo1;
+    row.mseUpTo1Ci = 0.05 * mseUpTo1;
+    row.efficiencyUpTo1 = image::efficiency(mseUpTo1, spp);
+    row.shareUpTo1 = 0.9;
+    return row;
+}
+
+const app::SamplerKind kUsual = app::RenderSettings().sampler, kOther = app::SamplerKind::Independent;
+
+// At 16 samples; what the last rows of "a" have alone counts nowhere.
+std::vector<Row> competition() {
     std::vector<Row> rows;
-    const auto add = [&](const std::string& scene, double mse, app::SamplerKind sampler) {
-        for (const double spp : {4.0, 16.0}) {
-            rows.push_back(rowWith(spp, spp, spp == 16 ? mse : 1.0));
-            rows.back().config.scene = scene;
-            rows.back().config.settings.sampler = sampler;
-        }
-    };
-    const app::SamplerKind usual = Config().settings.sampler;
-    add("a", 0.2, usual);
-    add("a", 0.1, app::SamplerKind::Independent); // twice as efficient
-    add("b", 0.1, usual);
-    add("b", 0.4, app::SamplerKind::Independent);
-    add("zero", 0.0, usual);
-    add("zero", 0.1, app::SamplerKind::Independent);
+    for (const double spp : {4.0, 16.0}) {
+        const auto add = [&](const char* scene, app::SamplerKind sampler, double mse, double mseUpTo1) {
+            rows.push_back(rowWith(scene, sampler, spp, mse * 16 / spp, mseUpTo1 * 16 / spp));
+        };
+        add("a", kUsual, 0.2, 0.01);
+        add("a", kOther, 0.1, 0.04); // twice as efficient by all pixels, a quarter by those up to 1
+        add("b", kUsual, 0.1, 0.02);
+        add("b", kOther, 0.4, 0.02);
+        add("exact default", kUsual, 0.0, 0.0);
+        add("exact default", kOther, 0.1, 0.1);
+        add("exact other", kUsual, 0.1, 0.1);
+        add("exact other", kOther, 0.0, 0.0);
+    }
+    rows.push_back(rowWith("a", kUsual, 64, 1, 1));
+    return rows;
+}
+
+TEST(BenchEfficiency, DefaultsAreComparedWithTheBestOfEachSceneByAllPixelsAndByThoseUpTo1) {
+    const std::vector<Row> rows = competition();
     const std::vector<DefaultsRow> found = compareDefaults(rows);
-    ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].scenes, 2);
-    EXPECT_NEAR(*found[0].mean, std::sqrt(0.5), 1e-9);
-    EXPECT_NEAR(*found[0].least, 0.5, 1e-9);
-    EXPECT_EQ(found[0].leastScene, "a");
-    EXPECT_EQ(found[0].leastBest.settings.sampler, app::SamplerKind::Independent);
-    EXPECT_NEAR(*found[0].leastCi, 0.5 * std::hypot(0.03, 0.03), 1e-9);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_STREQ(found[0].pixels->name, "all");
+    EXPECT_EQ(found[0].places, 4);
+    EXPECT_EQ(found[0].reach.places, 2);
+    EXPECT_NEAR(*found[0].reach.mean, std::sqrt(0.5), 1e-9);
+    EXPECT_NEAR(*found[0].reach.least, 0.5, 1e-9);
+    EXPECT_NEAR(*found[0].reach.leastCi, 0.5 * std::hypot(0.03, 0.03), 1e-9);
+    EXPECT_EQ(found[0].reach.leastBest->config.scene, "a");
+    EXPECT_EQ(found[0].reach.leastBest->config.settings.sampler, kOther);
+    EXPECT_STREQ(found[1].pixels->name, "up to 1");
+    EXPECT_NEAR(*found[1].reach.mean, 1, 1e-9);
+    EXPECT_NEAR(*found[1].reach.least, 1, 1e-9);
+}
+
+// What renders another image competes with nothing.
+TEST(BenchEfficiency, SettingsCompeteAtOnePlace) {
+    std::vector<Row> rows = {rowWith("a", kUsual, 4, 0.2, 0.2), rowWith("a", kOther, 4, 0.1, 0.1)};
+    for (const auto change : {+[](Config& c) { c.settings.width = 7; }, +[](Config& c) { c.settings.maxDepth = 3; },
+                              +[](Config& c) { c.threads = 1; }, +[](Config& c) { c.engine = "single"; }}) {
+        rows[1].config = rowWith("a", kOther, 4, 0.1, 0.1).config;
+        EXPECT_EQ(compareDefaults(rows).size(), 2u);
+        change(rows[1].config);
+        EXPECT_TRUE(compareDefaults(rows).empty());
+    }
+}
+
+TEST(BenchEfficiency, TimeBudgetsAreStepsToo) {
+    std::vector<Row> rows = {rowWith("a", kUsual, 900, 0.2, 0.2), rowWith("a", kOther, 1000, 0.1, 0.1)};
+    EXPECT_TRUE(compareDefaults(rows).empty()); // no number of samples in common
+    for (Row& row : rows) row.timeBudget = 4;
+    EXPECT_EQ(compareDefaults(rows).size(), 2u);
 }
 
 std::vector<std::string> fieldsOf(const std::string& line) { // of RFC 4180
@@ -151,6 +197,76 @@ TEST(BenchReport, MarkdownAndHtmlShowTheRows) {
     EXPECT_NE(html.find("<svg"), std::string::npos);
     for (const char* loading : {"src=\"http", "href=", "url(", "<script", "@import"}) // nothing comes from elsewhere
         EXPECT_EQ(html.find(loading), std::string::npos) << loading;
+}
+
+TEST(BenchReport, WhatWasPublishedStandsBesideRowsOfItsSize) {
+    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "spp": 4}], "published":
+        [{"name": "they", "scene": "a", "width": 600, "height": 600, "seconds": {"4": 12}}]})",
+                                   "s");
+    Results results;
+    results.rows = {rowWith("a", kUsual, 4, 0.1, 0.1)};
+    const auto report = [&] { return toMarkdown(makeReport(results, suite), [](std::size_t) { return ""; }); };
+    EXPECT_NE(report().find("they / multi"), std::string::npos);
+    EXPECT_NE(report().find("|   4 |      12 |"), std::string::npos) << report();
+    results.rows[0].config.settings.width = 40;
+    EXPECT_EQ(report().find("they"), std::string::npos);
+}
+
+TEST(BenchReport, AllThreadsAreANumber) {
+    Results results;
+    for (const std::uint32_t threads : {1u, 0u}) {
+        results.rows.push_back(rowWith("a", kUsual, 4, 0.1, 0.1));
+        results.rows.back().config.threads = threads;
+        results.rows.back().threadsUsed = threads == 0 ? 24 : 1;
+    }
+    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "spp": 4}]})", "s");
+    const std::string markdown = toMarkdown(makeReport(results, suite), [](std::size_t) { return ""; });
+    EXPECT_NE(markdown.find("| scene | engine | threads | spp |"), std::string::npos) << markdown;
+    EXPECT_NE(markdown.find("| a     | multi  |      24 |   4 |"), std::string::npos) << markdown;
+}
+
+TEST(BenchReport, SettingsStandSideBySide) {
+    Results results;
+    results.rows = competition();
+    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "spp": 4}]})", "s");
+    const std::string markdown = toMarkdown(makeReport(results, suite), [](std::size_t) { return ""; });
+    const auto lineWith = [&](std::vector<std::string> parts) {
+        std::istringstream lines(markdown);
+        for (std::string line; std::getline(lines, line);)
+            if (std::all_of(parts.begin(), parts.end(),
+                            [&](const std::string& part) { return line.find(part) != std::string::npos; }))
+                return line;
+        return std::string();
+    };
+    EXPECT_NE(lineWith({"| a ", "| all ", "16 spp"}).find("| 0.5 ±3 %  | 1 ±3 %"), std::string::npos) << markdown;
+    EXPECT_NE(lineWith({"| a ", "| up to 1 ", "16 spp"}).find("| 1 ±5 %    | 0.25 ±5 %"), std::string::npos)
+        << markdown;
+    EXPECT_NE(lineWith({"| exact other ", "| all ", "16 spp"}).find("| error ~ 0"), std::string::npos) << markdown;
+    EXPECT_NE(markdown.find("mse up to 1"), std::string::npos);
+    for (Row& row : results.rows) row.shareUpTo1 = 1; // one error, not two
+    EXPECT_EQ(toMarkdown(makeReport(results, suite), [](std::size_t) { return ""; }).find("mse up to 1"),
+              std::string::npos);
+}
+
+TEST(BenchReport, ChartsOfTooManyLinesAreSplitByEngine) {
+    std::vector<Row> rows;
+    for (const std::string_view engine : kEngines)
+        for (const std::uint32_t depth : {1u, 2u, 3u}) {
+            rows.push_back(rowWith("a", kUsual, 4, 0.2, 0.2));
+            rows.back().config.engine = engine;
+            rows.back().config.settings.maxDepth = depth;
+        }
+    std::vector<const Row*> some, all;
+    for (const Row& row : rows) {
+        all.push_back(&row);
+        if (some.size() < 6) some.push_back(&row);
+    }
+    const std::vector<Chart> few = makeCharts(some), many = makeCharts(all);
+    ASSERT_EQ(few.size(), 2u); // over samples, over seconds
+    EXPECT_EQ(few[0].lines.size(), 6u);
+    ASSERT_EQ(many.size(), 8u);
+    EXPECT_EQ(many[2].title, "a, multi");
+    EXPECT_EQ(many[2].lines.size(), 3u);
 }
 
 TEST(BenchReport, ChartsLeaveOutWhatLogarithmsCannotShow) {

@@ -1,8 +1,11 @@
 // Measurements with an engine whose samples are known.
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +15,7 @@
 #include "Common/Bench/Measurement.h"
 #include "Common/Bench/ReferenceStore.h"
 #include "Common/Bench/Runner.h"
+#include "Common/Core/Error.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
@@ -56,7 +60,8 @@ TEST(BenchMeasurement, SnapshotsHoldTheImageAfterExactlyThatManySamples) {
 TEST(BenchMeasurement, StopsAndLimits) {
     FakeEngine engine;
     EXPECT_TRUE(measure(engine, *someScene(), small(), {{1, 3}, {}, 0}, 0, kGoOn).snapshots.size() ==
-                1u); // 3 take too long
+                1u);                                                                               // 3 take too long
+    EXPECT_TRUE(measure(engine, *someScene(), small(), {{2}, {}, 0}, 0, kGoOn).snapshots.empty()); // and 2, in two goes
     std::atomic<bool> stop{false};
     std::uint32_t resets = 0;
     engine.onSample = [&](std::uint32_t spp) { stop = stop || (spp == 17 && ++resets > 0); };
@@ -70,6 +75,18 @@ TEST(BenchMeasurement, TimeBudgetsGiveWhatTheTimeAllows) {
     ASSERT_EQ(run.snapshots.size(), 2u);
     EXPECT_EQ(run.snapshots[0].timeBudget, 0.005);
     EXPECT_GE(run.snapshots[1].spp, run.snapshots[0].spp);
+}
+
+// A device that consumes a joule between two looks.
+TEST(BenchMeasurement, DeviceEnergyIsTheCountersRise) {
+    FakeEngine engine;
+    double joules = 1000;
+    const EnergyCounter counter = [&] { return joules++; };
+    const auto run = measure(engine, *someScene(), small(), {{1, 3}, {}, 1e30}, 0, kGoOn, counter);
+    ASSERT_EQ(run.snapshots.size(), 2u);
+    EXPECT_EQ(run.snapshots[0].joulesGpu, 1.0);
+    EXPECT_EQ(run.snapshots[1].joulesGpu, 2.0);
+    EXPECT_FALSE(measure(engine, *someScene(), small(), {{1}, {}, 1e30}, 0, kGoOn).snapshots[0].joulesGpu);
 }
 
 TEST(BenchReference, IsAsGoodAsWhatIsMeasuredAsksFor) {
@@ -161,6 +178,10 @@ TEST(BenchRunner, RowsForEachCombinationAndStep) {
     for (const Row& row : results.rows) {
         EXPECT_EQ(row.repeats, 3);
         ASSERT_TRUE(row.mse && row.efficiency && row.gain && row.speedup);
+        EXPECT_EQ(row.shareUpTo1, 1.0); // of the fake engine's pixels: both errors are the same
+        EXPECT_EQ(row.mseUpTo1, row.mse);
+        EXPECT_EQ(row.mseUpTo1Ci, row.mseCi);
+        EXPECT_EQ(row.efficiencyUpTo1, row.efficiency);
         EXPECT_NEAR(*row.mse, 1.0 / 12 / *row.spp, 0.3 / 12 / *row.spp);
         EXPECT_GT(*row.mseCi, 0);
         EXPECT_LT(std::abs(*row.biasZ), 4);
@@ -191,6 +212,124 @@ TEST(BenchRunner, KeepsWhatWasMeasuredBeforeAnInterruption) {
     const Results results = runSuite(someSuite(), engines, store, {[](const std::string&) {}, {}}, stop);
     EXPECT_FALSE(results.complete);
     EXPECT_FALSE(results.rows.empty());
+}
+
+TEST(BenchRunner, AFailureLosesNothingElse) {
+    std::vector<EngineKind> kinds = fakeKinds();
+    int made = 0;
+    kinds.push_back({"compute",
+                     [&](std::uint32_t) -> std::unique_ptr<app::Engine> {
+                         ++made;
+                         throw RenderError("the device is lost");
+                     },
+                     ""});
+    Engines engines(kinds);
+    ReferenceStore store({}, false);
+    const Results results = runSuite(someSuite(), engines, store, {[](const std::string&) {}, {}}, kGoOn);
+    EXPECT_TRUE(results.complete);
+    EXPECT_EQ(results.rows.size(), 8u); // those of the other engine
+    EXPECT_TRUE(std::all_of(results.rows.begin(), results.rows.end(), [](const Row& row) { return bool(row.mse); }));
+    EXPECT_EQ(made, 4); // no repeat is tried in vain
+    ASSERT_EQ(results.notices.size(), 4u);
+    EXPECT_NE(results.notices[0].find("the device is lost"), std::string::npos);
+    EXPECT_THROW(std::rethrow_exception(results.failure), RenderError);
+}
+
+TEST(BenchRunner, EverySceneIsReadBeforeAnythingIsMeasured) {
+    Suite suite = someSuite();
+    suite.experiments.push_back(suite.experiments.front());
+    suite.experiments.back().values.front().second = {"no-such-scene"};
+    int made = 0;
+    Engines engines({{"multi", [&](std::uint32_t) { return ++made, std::make_unique<FakeEngine>(); }, ""}});
+    ReferenceStore store({}, false);
+    EXPECT_THROW(runSuite(suite, engines, store, {[](const std::string&) {}, {}}, kGoOn), InputError);
+    EXPECT_EQ(made, 0);
+}
+
+TEST(BenchRunner, NoticesSayWhyThereIsNothing) {
+    const auto noticesOf = [](const std::string& axes) {
+        Engines engines(fakeKinds());
+        ReferenceStore store({}, false);
+        const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "scene": "one-weekend-default",
+            "width": 16, "error": false, )" +
+                                           axes + "}]}",
+                                       "s.json");
+        std::string all;
+        for (const std::string& notice :
+             runSuite(suite, engines, store, {[](const std::string&) {}, {}}, kGoOn).notices)
+            all += notice;
+        return all;
+    };
+    EXPECT_EQ(noticesOf(R"("spp": 1)"), "");
+    EXPECT_NE(noticesOf(R"("spp": 4, "max_spp": {"multi": 2})").find("max_spp"), std::string::npos);
+    EXPECT_NE(noticesOf(R"("spp": 1, "threads": 4096)").find("more threads"), std::string::npos);
+    EXPECT_NE(noticesOf(R"("spp": 1, "baseline": {"sampler": "independent"})").find("baseline"), std::string::npos);
+}
+
+TEST(BenchAnalysis, ThreadsAreBusyWhereTheProcessorRanThem) {
+    Measured measured;
+    bench::Run& run = measured.runs.emplace_back();
+    run.report.threads = 2;
+    for (const double seconds : {0.01, 2.0}) {
+        Snapshot& snapshot = run.snapshots.emplace_back();
+        snapshot.seconds = seconds;
+        snapshot.processorSeconds = 1.5 * seconds;
+    }
+    const std::vector<Row> rows = makeRows(someSuite().experiments.front(), measured);
+    EXPECT_FALSE(rows[0].busy); // too short to tell
+    EXPECT_DOUBLE_EQ(rows[1].busy.value(), 0.75);
+    EXPECT_GT(app::processorSeconds(), 0);
+}
+
+TEST(BenchAnalysis, APictureWithHolesHasNoError) {
+    Measured measured;
+    for (const std::uint64_t spp : {2, 0}) {
+        Snapshot& snapshot = measured.runs.emplace_back().snapshots.emplace_back();
+        snapshot.spp = spp;
+        snapshot.seconds = 1;
+        snapshot.image = image::Image(16, 16, 3);
+    }
+    const image::Reference reference{image::Image(16, 16, 3), image::Image(16, 16, 3)};
+    std::vector<Row> rows = makeRows(someSuite().experiments.front(), measured);
+    addErrors(rows, measured, reference);
+    EXPECT_FALSE(rows[0].mse);
+    measured.runs.back().snapshots[0].spp = 2;
+    addErrors(rows, measured, reference);
+    EXPECT_EQ(rows[0].mse, 0.0);
+}
+
+TEST(BenchRunner, ReadingALargeSceneIsCalledOff) {
+    const Suite suite = parseSuite(R"({"version": 1, "experiments": [{"name": "e", "scene": "white-spheres:10000000",
+        "spp": 1, "error": false}]})",
+                                   "s.json");
+    Engines engines(fakeKinds());
+    ReferenceStore store({}, false);
+    std::atomic<bool> stop{true};
+    EXPECT_FALSE(runSuite(suite, engines, store, {[](const std::string&) {}, {}}, stop).complete);
+    stop = false;
+    std::thread other([&] { stop = true; }); // about when it begins
+    const Results results = runSuite(suite, engines, store, {[](const std::string&) {}, {}}, stop);
+    other.join();
+    EXPECT_FALSE(results.complete);
+    EXPECT_FALSE(results.failure);
+}
+
+TEST(BenchAnalysis, EnergyIsTheMedianOfTheRepeatsThatKnowIt) {
+    Measured measured;
+    for (const std::optional<double> joules : {std::optional(30.0), std::optional<double>(), std::optional(10.0)}) {
+        bench::Run run;
+        for (const double seconds : {0.5, 2.0}) {
+            Snapshot& snapshot = run.snapshots.emplace_back();
+            snapshot.seconds = seconds;
+            snapshot.joules = joules;
+            snapshot.joulesGpu = joules;
+        }
+        measured.runs.push_back(run);
+    }
+    const std::vector<Row> rows = makeRows(someSuite().experiments.front(), measured);
+    EXPECT_EQ(rows[0].joules, 20.0);
+    EXPECT_FALSE(rows[0].joulesGpu); // too short for a counter that moves in steps
+    EXPECT_EQ(rows[1].joulesGpu, 20.0);
 }
 
 TEST(BenchAnalysis, ComparesAtEqualTimeAndAtEqualError) {
@@ -242,6 +381,17 @@ TEST(BenchEnergy, ReadsPackagesAndCountersThatWrap) {
     ASSERT_TRUE(meter.joules());
     EXPECT_NEAR(*meter.joules(), 0.05 + 0.2, 1e-9); // a part of a package is not counted twice
     EXPECT_FALSE(EnergyMeter(folder.path() / "nowhere").joules());
+}
+
+TEST(BenchEnergy, DevicesAreNamedAsTheirDriverDoes) {
+    std::array<std::uint8_t, 16> uuid{};
+    for (std::size_t i = 0; i < uuid.size(); ++i) uuid[i] = static_cast<std::uint8_t>(17 * i);
+    EXPECT_EQ(nvidiaUuid(uuid), "GPU-00112233-4455-6677-8899-aabbccddeeff");
+}
+
+TEST(BenchEnergy, NoSuchDeviceIsSilentlyAbsent) {
+    EXPECT_FALSE(NvidiaEnergy({}).joules());
+    EXPECT_EQ(app::SharedLibrary({"no-such-library.so.1"}).find<int()>("main"), nullptr);
 }
 
 } // namespace
