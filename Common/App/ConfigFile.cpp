@@ -1,36 +1,25 @@
 #include "Common/App/ConfigFile.h"
 
 #include <filesystem>
-#include <sstream>
 
-#include <nlohmann/json.hpp>
-
+#include "Common/App/ConfigText.h"
+#include "Common/App/OptionValues.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 
 namespace rt::app {
 namespace {
 
-std::string textOf(const nlohmann::json& value, const std::string& name) {
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_number() || value.is_boolean()) return value.dump();
-    throw CLI::ConfigError(name + ": must be a string, a number, true, false or an array of these");
-}
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 
-std::vector<CLI::ConfigItem> itemsOf(const std::string& text) {
-    const nlohmann::json root = nlohmann::json::parse(text);
-    std::vector<CLI::ConfigItem> items;
-    for (const auto& [name, value] : root.items()) {
-        CLI::ConfigItem item;
-        item.name = name;
-        if (value.is_array()) {
-            for (const auto& element : value) item.inputs.push_back(textOf(element, name));
-        } else {
-            item.inputs.push_back(textOf(value, name));
-        }
-        items.push_back(item);
-    }
-    return items;
+std::string readAll(std::istream& input, const std::string& file) {
+    std::string text(kMostBytes + 1, '\0');
+    input.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (input.bad()) throw UsageError("--config " + file + ": cannot be read");
+    text.resize(static_cast<std::size_t>(input.gcount()));
+    if (text.size() > kMostBytes)
+        throw UsageError("--config " + file + ": must be of at most " + std::to_string(kMostBytes) + " bytes");
+    return text;
 }
 
 } // namespace
@@ -41,27 +30,30 @@ std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const 
         if (named) throw UsageError("--no-config: contradicts --config");
         return {};
     }
-    std::ostringstream text;
-    text << input.rdbuf();
-    const std::string content = text.str();
-    const std::size_t first = content.find_first_not_of(" \t\r\n");
     std::vector<CLI::ConfigItem> items;
-    if (first != std::string::npos && content[first] == '{') {
-        items = itemsOf(content);
-    } else {
-        std::istringstream lines(content);
-        items = ConfigBase::from_config(lines);
-    }
-    std::erase_if(items, [&](const CLI::ConfigItem& item) { return leftOut_.count("--" + item.name) > 0; });
-    for (CLI::ConfigItem& item : items) {
-        if (!item.parents.empty()) throw CLI::ConfigError("[" + item.parents.front() + "]: there are no sections");
-        const CLI::Option* option = app_.get_option_no_throw((item.name.size() == 1 ? "-" : "--") + item.name);
-        if (option == nullptr) throw CLI::ConfigError("\"" + item.name + "\" is no flag; --help lists them all");
-        if (option->count() == 0) supplied_.insert(option->get_name());
-        const bool oneValue = option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast;
+    for (const ConfigEntry& entry : readConfigText(readAll(input, path()), path())) {
+        if (leftOut_.count("--" + entry.name) > 0) continue;
+        const CLI::Option* option = app_.get_option_no_throw((entry.name.size() == 1 ? "-" : "--") + entry.name);
+        const std::string named = entry.place + ": \"" + excerpt(entry.name) + "\" ";
+        if (option == nullptr) throw UsageError(named + "is no flag; --help lists them all");
+        if (!option->get_configurable()) throw UsageError(named + "can be given on the command line only");
+        CLI::ConfigItem item;
+        item.name = entry.name;
+        item.inputs = entry.values;
+        const bool isSwitch = option->get_expected_max() == 0;
+        const bool oneValue = isSwitch || option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeLast;
         if (oneValue && item.inputs.size() > 1) item.inputs = {CLI::detail::join(item.inputs, ",")};
+        if (isSwitch && item.inputs.front() != "true" && item.inputs.front() != "false")
+            refuseValue(entry.place + ": " + option->get_name(), item.inputs.front(), "true or false");
+        if (option->count() == 0) places_["--" + option->get_single_name()] = entry.place + ": ";
+        items.push_back(std::move(item));
     }
     return items;
+}
+
+std::string ConfigFile::placeOf(const std::string& flag) const {
+    const auto place = places_.find(flag);
+    return place != places_.end() ? place->second : "";
 }
 
 std::string userConfigFile() {

@@ -1,5 +1,6 @@
-// A configuration file in TOML, INI or JSON: {"spp": 500, "sampler": "stratified"}. Keys are the names of the flags.
+// A configuration file: TOML, INI or JSON whose keys are the names of the flags.
 #pragma once
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -12,16 +13,18 @@ class ConfigFile : public CLI::ConfigBase {
   public:
     explicit ConfigFile(const CLI::App& app) : app_(app) {}
 
-    // Nothing with --no-config; without the flags that leaveOut() named.
+    // Nothing with --no-config; without the flags that leaveOut() named. Throws UsageError.
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
 
     void leaveOut(const std::string& flag) { leftOut_.insert(flag); }
-    bool supplied(const std::string& flag) const { return supplied_.count(flag) > 0; }
+    // "FILE:LINE: ", or without the line, where the flag's value comes from the file; else empty.
+    std::string placeOf(const std::string& flag) const;
+    std::string path() const { return app_.get_option("--config")->as<std::string>(); }
 
   private:
     const CLI::App& app_;
     std::set<std::string> leftOut_;
-    mutable std::set<std::string> supplied_; // mutable: the base class reads through a const member
+    mutable std::map<std::string, std::string> places_; // mutable: the base class reads through a const member
 };
 
 // The user's own file, $XDG_CONFIG_HOME/ray-tracing/config.toml or config.json; empty when there is none.

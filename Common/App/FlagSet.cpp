@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <limits>
 
-#include <nlohmann/json.hpp>
-
 #include "Common/App/ConfigFile.h"
 #include "Common/Core/Error.h"
 
@@ -45,8 +43,7 @@ CLI::Option* FlagSet::add(const std::string& flags, const std::string& type, con
         try {
             read(flag, text);
         } catch (const UsageError& error) {
-            if (!config_->supplied(flag)) throw;
-            throw UsageError(configPath() + ": " + error.what());
+            throw UsageError(config_->placeOf(flag) + error.what());
         }
     };
     return app_.add_option_function<std::string>(flags, callback, help)->type_name(type);
@@ -65,9 +62,9 @@ CLI::Option* FlagSet::addFile(const std::string& flags, std::string& target, con
 
 CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string>& target, const std::string& help) {
     const std::string flag = firstSpelling(flags);
-    const auto callback = [&target, flag](const std::vector<std::string>& files) {
+    const auto callback = [this, &target, flag](const std::vector<std::string>& files) {
         for (const std::string& file : files)
-            if (file.empty()) refuseValue(flag, file, "the name of a file");
+            if (file.empty()) refuseValue(config_->placeOf(flag) + flag, file, "the name of a file");
         target = files;
     };
     return app_.add_option_function<std::vector<std::string>>(flags, callback, help)
@@ -86,8 +83,10 @@ CLI::Option* FlagSet::addSeconds(const std::string& flags, std::optional<double>
 
 void FlagSet::refuse(const std::string& flag, const std::string& why) {
     // Takes any number of values, so that the flag is blamed and not what follows it.
-    const auto callback = [flag, why](const std::vector<std::string>&) { throw UsageError(flag + ": " + why); };
-    app_.add_option_function<std::vector<std::string>>(flag, callback)->expected(0, -1)->group("")->configurable(false);
+    const auto callback = [this, flag, why](const std::vector<std::string>&) {
+        throw UsageError(config_->placeOf(flag) + flag + ": " + why);
+    };
+    app_.add_option_function<std::vector<std::string>>(flag, callback)->expected(0, -1)->group("");
 }
 
 void FlagSet::readEnvironment(const std::string& flag, const std::string& variable) {
@@ -105,10 +104,6 @@ void FlagSet::applyEnvironment() {
     }
 }
 
-std::string FlagSet::configPath() const {
-    return app_.get_option("--config")->as<std::string>();
-}
-
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
@@ -120,11 +115,7 @@ bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
         out << version.what() << '\n';
         return false;
     } catch (const CLI::FileError&) {
-        throw UsageError("--config " + configPath() + ": cannot be read");
-    } catch (const CLI::ConfigError& error) {
-        throw UsageError(configPath() + ": " + oneLine(error.what()));
-    } catch (const nlohmann::json::exception& error) {
-        throw UsageError(configPath() + ": " + oneLine(error.what()));
+        throw UsageError("--config " + config_->path() + ": cannot be read");
     } catch (const CLI::ParseError& error) {
         throw UsageError(oneLine(error.what()));
     }

@@ -64,7 +64,6 @@ class FlagSet {
 
   private:
     void applyEnvironment();
-    std::string configPath() const;
 
     struct Variable {
         std::string flag, name;

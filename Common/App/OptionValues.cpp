@@ -7,8 +7,13 @@
 
 namespace rt::app {
 
+std::string excerpt(const std::string& text) {
+    constexpr std::size_t kMost = 60;
+    return text.size() <= kMost ? text : text.substr(0, kMost - 3) + "...";
+}
+
 void refuseValue(const std::string& flag, const std::string& text, const std::string& allowed) {
-    throw UsageError(flag + " " + (text.empty() ? "''" : text) + ": must be " + allowed);
+    throw UsageError(flag + " " + (text.empty() ? "''" : excerpt(text)) + ": must be " + allowed);
 }
 
 std::string alternatives(const std::vector<std::string>& names) {

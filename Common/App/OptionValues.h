@@ -9,6 +9,9 @@
 
 namespace rt::app {
 
+// As much of a text as an error quotes.
+std::string excerpt(const std::string& text);
+
 [[noreturn]] void refuseValue(const std::string& flag, const std::string& text, const std::string& allowed);
 
 // "a", "a or b", "a, b or c".

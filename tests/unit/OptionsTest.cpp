@@ -348,24 +348,40 @@ TEST_F(OptionsTest, TheUsersConfigurationIsReadUnlessRefused) {
     writeFile("ray-tracing/config.toml", "spp = 17\n");
     EXPECT_EQ(render({}).settings.spp, 17u);
     writeFile("ray-tracing/config.toml", "spp = zero\n");
-    EXPECT_NE(error({}).find("config.toml: --spp zero: must be"), std::string::npos);
+    EXPECT_NE(error({}).find("config.toml:1: --spp zero: must be"), std::string::npos);
 }
 
 TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
     const std::string missing = (home_ / "missing.json").string();
     EXPECT_EQ(error({"--config", missing}), "--config " + missing + ": cannot be read");
-    for (const char* text : {"{\"spp\": 5", "{\"spp\": {\"a\": 1}}", "{\"samples_per_pixel\": 5}", "{\"spp\": 0}",
-                             "{\"list-scenes\": true}", "[1]x = 3", "frames = 3"}) {
+    for (const char* text :
+         {"{\"spp\": 5", "{\"spp\": {\"a\": 1}}", "{\"samples_per_pixel\": 5}", "{\"spp\": 0}",
+          "{\"list-scenes\": true}", "{\"spp\": []}", "{\"quiet\": 1}", "{\"spp\": 5, \"spp\": 6}"}) {
         const std::string file = writeFile("bad", text);
-        EXPECT_EQ(error({"--config", file}).rfind(file + ": ", 0), 0u) << text << " -> " << error({"--config", file});
+        EXPECT_EQ(error({"--config", file}).rfind(file + ":", 0), 0u) << text << " -> " << error({"--config", file});
     }
-    const std::string unknown = writeFile("unknown", "spp = 5\nframes = 3\n");
-    EXPECT_EQ(error({"--config", unknown}), unknown + ": \"frames\" is no flag; --help lists them all");
-    const std::string section = writeFile("section", "[image]\nspp = 5\n");
-    EXPECT_EQ(error({"--config", section}), section + ": [image]: there are no sections");
-    const std::string file = writeFile("good.json", "{}");
-    EXPECT_EQ(error({"--config", file}), "no error");
-    EXPECT_EQ(error({"--config", file, "--no-config"}), "--no-config: contradicts --config");
+    const std::string file = writeFile("lines", "");
+    const auto second = [&](const std::string& line) { // the error of a line, which is the file's second
+        writeFile("lines", "# mine\n" + line + "\nwidth = 64\n");
+        const std::string message = error({"--config", file});
+        EXPECT_EQ(message.rfind(file + ":2: ", 0), 0u) << line << " -> " << message;
+        return message.substr(std::min(message.size(), (file + ":2: ").size()));
+    };
+    EXPECT_EQ(second("frames = 3"), "\"frames\" is no flag; --help lists them all");
+    EXPECT_EQ(second("x = 3"), "\"x\" is no flag; --help lists them all");
+    EXPECT_EQ(second("list-scenes = true"), "\"list-scenes\" can be given on the command line only");
+    EXPECT_EQ(second("quiet = maybe"), "--quiet maybe: must be true or false");
+    EXPECT_EQ(second("device = 0"), "--device: a flag of ray-tracing-gpu");
+    EXPECT_EQ(second("output = \"\""), "--output '': must be the name of a file");
+    EXPECT_EQ(second("spp = [5, 6]").rfind("--spp 5,6: must be a whole number", 0), 0u);
+    EXPECT_LT(second("spp = " + std::string(100'000, '7')).size(), 200u);
+    writeFile("lines", std::string(2'000'000, ' '));
+    EXPECT_EQ(error({"--config", file}), "--config " + file + ": must be of at most 1048576 bytes");
+    const std::string folder = home_.string();
+    EXPECT_EQ(error({"--config", folder}), "--config " + folder + ": cannot be read");
+    const std::string good = writeFile("good.json", "{}");
+    EXPECT_EQ(error({"--config", good}), "no error");
+    EXPECT_EQ(error({"--config", good, "--no-config"}), "--no-config: contradicts --config");
 }
 
 TEST_F(OptionsTest, HelpAndVersion) {
