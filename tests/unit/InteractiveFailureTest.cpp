@@ -1,0 +1,116 @@
+// Scenes and engines that cannot be had, and engines that fail, in a window that goes on.
+#include <fstream>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "Common/Core/Error.h"
+#include "tests/unit/InteractiveFixture.h"
+
+namespace rt::app {
+namespace {
+
+class FailingEngine : public FakeEngine {
+  public:
+    RenderStatus renderSome(const Budget&) override { throw RenderError("the device was lost"); }
+};
+
+class InteractiveFailureTest : public InteractiveFixture {};
+
+TEST_F(InteractiveFailureTest, ASceneThatCannotBeLoadedLeavesTheOldOne) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const auto scene = session.state().scene;
+    std::ofstream(folder_ / "bad.json") << "{\"camera\": 12";
+    session.open((folder_ / "bad.json").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_NE(session.state().error.find("bad.json"), std::string::npos);
+    EXPECT_EQ(session.state().scene, scene);
+    EXPECT_FALSE(session.state().fatal);
+    session.open("no-such-scene");
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 2; }));
+    EXPECT_EQ(session.state().scene, scene);
+    session.open("one-weekend-default");
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.sceneSerial == 2 && isFinished(s); }));
+    EXPECT_EQ(session.state().scene->id, "one-weekend-default");
+    EXPECT_EQ(session.state().source, "one-weekend-default");
+}
+
+TEST_F(InteractiveFailureTest, ARememberedSceneThatIsGoneGivesWayToAnother) {
+    InteractiveSession::Setup with = setup(4);
+    with.scene.source = (folder_ / "gone.json").string();
+    with.fallbackScene = "one-weekend-default";
+    InteractiveSession session(std::move(with));
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_EQ(session.state().source, "one-weekend-default");
+    EXPECT_NE(session.state().error.find("gone.json"), std::string::npos);
+    EXPECT_EQ(session.state().fatal, nullptr);
+}
+
+TEST_F(InteractiveFailureTest, WhatCannotStartIsFatal) {
+    InteractiveSession::Setup wrong = setup(4);
+    wrong.scene.source = "no-such-scene";
+    const InteractiveSession session(wrong);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.fatal != nullptr; }));
+    EXPECT_THROW(std::rethrow_exception(session.state().fatal), InputError);
+
+    InteractiveSession::Setup noEngine = setup(4);
+    noEngine.makeEngine = [](const EngineChoice&) -> std::unique_ptr<Engine> { throw RenderError("no device"); };
+    const InteractiveSession other(noEngine);
+    ASSERT_TRUE(reaches(other, [](const SessionState& s) { return s.fatal != nullptr; }));
+}
+
+TEST_F(InteractiveFailureTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
+    InteractiveSession::Setup s = setup(4);
+    int made = 0;
+    s.makeEngine = [&made](const EngineChoice&) -> std::unique_ptr<Engine> {
+        if (++made == 1) return std::make_unique<FailingEngine>();
+        return std::make_unique<FakeEngine>();
+    };
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Failed; }));
+    EXPECT_EQ(session.state().error, "the device was lost");
+    session.render();
+    EXPECT_TRUE(reaches(session, isFinished));
+    EXPECT_EQ(made, 2);
+}
+
+TEST_F(InteractiveFailureTest, AnEngineThatCannotBeHadLeavesTheOneBeforeAtWork) {
+    // Has no pipeline for the film: that comes to light before the engine is exchanged.
+    class NoPipelineEngine : public FakeEngine {
+        void reset(const scene::CameraDesc&, const RenderSettings&) override { throw RenderError("no pipeline"); }
+    };
+    InteractiveSession::Setup s = setup(1'000'000);
+    int made = 0;
+    s.makeEngine = [&made](const EngineChoice& choice) -> std::unique_ptr<Engine> {
+        ++made;
+        if (choice.device == "missing") throw RenderError("no such device");
+        if (choice.kind == GpuEngineKind::Pipeline) return std::make_unique<NoPipelineEngine>();
+        return std::make_unique<SlowEngine>();
+    };
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.status.samplesDone > 0; }));
+    const std::uint64_t before = session.state().status.samplesDone;
+    EngineChoice choice;
+    choice.device = "missing";
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.engineFailures == 1; }));
+    choice = {};
+    choice.kind = GpuEngineKind::Pipeline;
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.engineFailures == 2; }));
+    EXPECT_EQ(session.state().error, "no pipeline");
+    EXPECT_EQ(session.state().engine, EngineChoice());
+    EXPECT_GE(session.state().status.samplesDone, before); // the film went on
+    EXPECT_TRUE(reaches(session, [&](const SessionState& state) {
+        return state.activity == Activity::Rendering && state.status.samplesDone > before;
+    }));
+    session.choose({}); // is at work already
+    choice.kind = GpuEngineKind::Compute;
+    session.choose(choice);
+    ASSERT_TRUE(reaches(session, [&](const SessionState& state) { return state.engine == choice; }));
+    EXPECT_EQ(made, 4);
+}
+
+} // namespace
+} // namespace rt::app

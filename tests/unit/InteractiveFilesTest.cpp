@@ -1,0 +1,97 @@
+// What a window writes, and what it compares its films with.
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "Common/Image/ImageIo.h"
+#include "tests/unit/InteractiveFixture.h"
+
+namespace rt::app {
+namespace {
+
+class InteractiveFilesTest : public InteractiveFixture {};
+
+TEST_F(InteractiveFilesTest, SavesWhatItShows) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const std::string exr = (folder_ / "a.exr").string();
+    session.save({.files = {(folder_ / "a.png").string(), exr}});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 2; }));
+    EXPECT_EQ(image::readImage(exr).data, session.state().picture.image->data);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.png"));
+    session.save({.files = {(folder_ / "no/such/folder/a.png").string()}});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_EQ(session.state().activity, Activity::Finished);
+}
+
+TEST_F(InteractiveFilesTest, RunsThatEndGoIntoTheHistory) {
+    RunHistory history(folder_ / "history.jsonl");
+    InteractiveSession::Setup s = setup(20);
+    s.history = &history;
+    {
+        InteractiveSession session(s);
+        ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.historySerial == 1; }));
+    }
+    const std::vector<RunRecord>& records = history.records();
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0].scene, "cornell-box-lights");
+    EXPECT_EQ(records[0].spp, 20u);
+    EXPECT_EQ(records[0].width, 24u);
+    EXPECT_GT(records[0].renderSeconds, 0);
+    EXPECT_GT(records[0].samplesPerSecond, 0);
+}
+
+TEST_F(InteractiveFilesTest, ErrorsAreTakenAgainstAReferenceOfTheSameView) {
+    RunHistory history(folder_ / "history.jsonl");
+    InteractiveSession::Setup s = setup(20);
+    s.history = &history;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.renderReference(40);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return isFinished(state) && state.referenceFits; }));
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return !state.curve.empty(); }));
+    const SessionState state = session.state();
+    EXPECT_FALSE(state.isReferenceRender);
+    EXPECT_EQ(state.settings.spp, 20u);
+    EXPECT_EQ(state.curve.back().spp, 20);
+    EXPECT_GT(state.curve.back().relmse, 0);
+    ASSERT_TRUE(
+        reaches(session, [](const SessionState& st) { return st.historySerial == 2; })); // the reference is no run
+    EXPECT_TRUE(history.records().back().hasReference);
+    EXPECT_EQ(history.records().back().relmse, state.curve.back().relmse);
+
+    scene::CameraDesc camera = state.scene->camera;
+    camera.verticalFov += 1;
+    session.moveCamera(camera, state.sceneSerial);
+    EXPECT_TRUE(reaches(
+        session, [](const SessionState& st) { return isFinished(st) && !st.referenceFits && st.curve.empty(); }));
+    session.moveCamera(state.scene->camera, state.sceneSerial); // back to what the reference shows
+    EXPECT_TRUE(reaches(session, [](const SessionState& st) { return isFinished(st) && st.referenceFits; }));
+}
+
+TEST_F(InteractiveFilesTest, ReferencesAreReadFromLinearFilesOfTheSameSize) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    image::writeImage(folder_ / "right.pfm", image::Image(24, 24));
+    image::writeImage(folder_ / "wrong.pfm", image::Image(25, 24));
+    session.loadReference((folder_ / "wrong.pfm").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_NE(session.state().error.find("25x24"), std::string::npos);
+    EXPECT_TRUE(session.state().reference.empty());
+    session.loadReference((folder_ / "right.pfm").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.referenceFits && !s.curve.empty(); }));
+}
+
+TEST_F(InteractiveFilesTest, StopGivesAReferenceUp) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.renderReference(1'000'000);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.isReferenceRender; }));
+    session.stop();
+    EXPECT_TRUE(reaches(session, [](const SessionState& s) { return isFinished(s) && !s.isReferenceRender; }));
+    EXPECT_TRUE(session.state().reference.empty());
+    EXPECT_EQ(session.state().settings.spp, 4u);
+}
+
+} // namespace
+} // namespace rt::app

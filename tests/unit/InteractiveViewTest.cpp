@@ -1,0 +1,48 @@
+// What a window shows of a film besides its picture.
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/unit/InteractiveFixture.h"
+
+namespace rt::app {
+namespace {
+
+class InteractiveViewTest : public InteractiveFixture {};
+
+TEST_F(InteractiveViewTest, ShowsFeaturesAndWhatAPixelHolds) {
+    InteractiveSession session(setup(20));
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_FALSE(session.state().picture.isDisplay);
+    session.view({ViewMode::Albedo, 1, true});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.picture.isDisplay; }));
+    SessionState state = session.state();
+    EXPECT_EQ(state.picture.image->data, std::vector<float>(24 * 24 * 3, 0.25f)); // of the fake engine
+    EXPECT_NE(state.picture.radiance->data, state.picture.image->data);
+    ASSERT_TRUE(state.picture.samples && state.picture.variance);
+    EXPECT_EQ(state.picture.samples->data, std::vector<float>(24 * 24, 20.0f));
+    session.view({ViewMode::Noise, 1, false});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.samples; }));
+    EXPECT_TRUE(session.state().picture.isDisplay);
+    session.view({ViewMode::Error, 1, false}); // without a reference it is the picture
+    EXPECT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.isDisplay; }));
+    EXPECT_EQ(session.state().activity, Activity::Finished); // a view renders nothing anew
+}
+
+TEST_F(InteractiveViewTest, FocusIsThePlaneThroughWhatIsSeen) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.pickFocus(0, 12);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.focusSerial == 1; }));
+    const double half = std::tan(0.5 * session.state().scene->camera.verticalFov * 3.14159265358979323846 / 180);
+    const double right = half * (1.0 / 24 - 1), up = half * (25.0 / 24 - 1);
+    EXPECT_NEAR(session.state().focusDistance, 8 / std::sqrt(1 + right * right + up * up), 1e-6);
+    session.pickFocus(1000, 1000); // outside: nothing
+    session.save({.files = {(folder_ / "a.png").string()}});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.messageSerial == 1; }));
+    EXPECT_EQ(session.state().focusSerial, 1u);
+}
+
+} // namespace
+} // namespace rt::app
