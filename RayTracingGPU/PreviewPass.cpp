@@ -21,12 +21,14 @@ namespace {
 using shared::vec3;
 
 constexpr const char* kWhat = "Preparing the preview";
-constexpr std::uint32_t kConstantsBinding = 1; // as in Bindings.glsl
-constexpr std::uint32_t kGroup = 64;           // as in Preview.comp
-constexpr std::uint32_t kShapeConstant = 14;   // as in Preview.glsl
-constexpr std::uint32_t kMostLights = 16;      // whose light is added up for each pixel
-constexpr float kNear = 1e-4f;                 // of the distance of focus: nearer surfaces are cut
-constexpr float kLeastAmbient = 0.05f;         // so that nothing is wholly dark
+constexpr std::uint32_t kConstantsBinding = 1;  // as in Bindings.glsl
+constexpr std::uint32_t kGroup = 64;            // as in Preview.comp
+constexpr std::uint32_t kShapeConstant = 14;    // as in Preview.glsl
+constexpr std::uint32_t kBandPixels = 1u << 20; // that are drawn at a time, from some of the primitives
+constexpr std::uint32_t kWhole = 36;            // vertices: a multiple of those of every primitive
+constexpr std::uint32_t kMostLights = 16;       // whose light is added up for each pixel
+constexpr float kNear = 1e-4f;                  // of the distance of focus: nearer surfaces are cut
+constexpr float kLeastAmbient = 0.05f;          // so that nothing is wholly dark
 constexpr VkShaderStageFlags kStages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
@@ -79,7 +81,9 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
       features_(previewFeatures(scene.compiled().features)),
       constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, vulkan::Memory::Device,
                  "constants"),
-      renderPass_(makePreviewRenderPass(context.device())) {
+      clearing_(makePreviewRenderPass(context.device(), true)),
+      goingOn_(makePreviewRenderPass(context.device(), false)),
+      vertices_(context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU, 1) {
     if (!context.info().draws) throw RenderError(context.info().name + " cannot draw: there is no preview");
     listDraws();
     createPipelines(cache);
@@ -148,7 +152,7 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
     // Of a cube around a sphere the far faces are drawn: they are there when the camera is in the cube, too.
     rasterization.cull = shape == shared::kSphere ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
     rasterization.depth = &depth;
-    return vulkan::makeGraphicsPipeline(device, cache.get(), layout_.get(), renderPass_.get(), stages, rasterization,
+    return vulkan::makeGraphicsPipeline(device, cache.get(), layout_.get(), clearing_.get(), stages, rasterization,
                                         kWhat);
 }
 
@@ -173,36 +177,83 @@ void PreviewPass::uploadConstants(const scene::CameraDesc& camera, std::uint32_t
     launch_.clipW = row(rows[2]);
 }
 
-void PreviewPass::record(VkCommandBuffer commands) {
-    const auto bind = [&](VkPipelineBindPoint point, VkPipeline pipeline) {
-        vkCmdBindPipeline(commands, point, pipeline);
-        vkCmdBindDescriptorSets(commands, point, layout_.get(), 0, 1, &bindings_.get(), 0, nullptr);
-    };
-    vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
-    target_.begin(commands, renderPass_.get());
-    VkPipeline bound = VK_NULL_HANDLE;
-    for (const Draw& draw : draws_) {
-        const VkPipeline pipeline = drawing_[draw.shape].get();
-        if (pipeline != bound) bind(VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-        bound = pipeline;
-        vkCmdDraw(commands, draw.vertexCount, draw.instanceCount, draw.firstVertex, draw.firstInstance);
+void PreviewPass::bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const {
+    vkCmdBindPipeline(commands, point, pipeline);
+    vkCmdBindDescriptorSets(commands, point, layout_.get(), 0, 1, &bindings_.get(), 0, nullptr);
+}
+
+// Of a draw's vertices, one instance after the other, `most` or so from `done` on; returns how many.
+std::uint64_t PreviewPass::recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done,
+                                      std::uint64_t most) const {
+    const auto instance = static_cast<std::uint32_t>(done / draw.vertexCount);
+    const auto vertex = static_cast<std::uint32_t>(done % draw.vertexCount);
+    if (vertex == 0 && most >= draw.vertexCount) {
+        const std::uint64_t count = std::min<std::uint64_t>(draw.instanceCount - instance, most / draw.vertexCount);
+        vkCmdDraw(commands, draw.vertexCount, static_cast<std::uint32_t>(count), draw.firstVertex,
+                  draw.firstInstance + instance);
+        return count * draw.vertexCount;
     }
-    target_.end(commands);
-    vulkan::barrier(commands);
-    bind(VK_PIPELINE_BIND_POINT_COMPUTE, finishing_.get());
-    const std::uint32_t pixels = target_.extent().width * target_.extent().height;
-    vkCmdDispatch(commands, (pixels + kGroup - 1) / kGroup, 1, 1);
-    vulkan::barrier(commands);
+    const std::uint64_t whole = std::max<std::uint64_t>(1, most / kWhole) * kWhole;
+    const std::uint64_t count = std::min<std::uint64_t>(draw.vertexCount - vertex, whole);
+    vkCmdDraw(commands, static_cast<std::uint32_t>(count), 1, draw.firstVertex + vertex, draw.firstInstance + instance);
+    return count;
+}
+
+void PreviewPass::drawBand(const Band& band) {
+    std::size_t next = 0;   // the draw that is next
+    std::uint64_t done = 0; // of its vertices
+    VkRenderPass renderPass = clearing_.get();
+    do {
+        const std::uint64_t most = vertices_.suggest(kWindowLaunchSeconds);
+        std::uint64_t recorded = 0;
+        const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
+            target_.begin(commands, renderPass, band);
+            vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
+            VkPipeline bound = VK_NULL_HANDLE;
+            while (next < draws_.size() && recorded < most) {
+                const Draw& draw = draws_[next];
+                const VkPipeline pipeline = drawing_[draw.shape].get();
+                if (pipeline != bound) bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+                bound = pipeline;
+                const std::uint64_t count = recordDraw(commands, draw, done, most - recorded);
+                recorded += count;
+                done += count;
+                if (done < std::uint64_t{draw.vertexCount} * draw.instanceCount) continue;
+                done = 0;
+                ++next;
+            }
+            vkCmdEndRenderPass(commands);
+        });
+        vertices_.measured(recorded, seconds);
+        renderPass = goingOn_.get();
+    } while (next < draws_.size());
+}
+
+void PreviewPass::finishBand(const Band& band) {
+    const std::uint32_t width = target_.extent().width;
+    launch_.firstPixel = band.first * width;
+    context_.run([&](VkCommandBuffer commands) {
+        target_.copy(commands, band);
+        vulkan::barrier(commands);
+        bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, finishing_.get());
+        vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
+        vkCmdDispatch(commands, (band.count * width + kGroup - 1) / kGroup, 1, 1);
+        vulkan::barrier(commands);
+    });
 }
 
 app::Preview PreviewPass::render(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
     if (target_.extent().width != width || target_.extent().height != height) {
         target_ = {};
-        target_ = PreviewTarget(context_, renderPass_.get(), {width, height});
+        target_ = PreviewTarget(context_, clearing_.get(), {width, height});
         launch_.pixels = target_.pixels().address();
     }
     uploadConstants(camera, width, height);
-    context_.run([this](VkCommandBuffer commands) { record(commands); });
+    for (Band band{0, std::max(1u, kBandPixels / width)}; band.first < height; band.first += band.count) {
+        band.count = std::min(band.count, height - band.first);
+        drawBand(band);
+        finishBand(band);
+    }
     std::vector<float> pixels(std::size_t{4} * width * height);
     vulkan::download(context_, target_.pixels(), std::as_writable_bytes(std::span(pixels)));
     app::Preview preview{image::Image(width, height, 3), image::Image(width, height, 1)};

@@ -9,11 +9,13 @@
 #include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/GpuScene.h"
+#include "RayTracingGPU/Launches.h"
 #include "RayTracingGPU/PreviewTarget.h"
 
 namespace rt::gpu {
 
-// Of one scene, whose buffers its shaders read. A device that cannot draw (DeviceInfo::draws) cannot have one.
+// Of one scene, whose buffers its shaders read. A device that cannot draw (DeviceInfo::draws) cannot have one. However large the
+// scene and the image, the device is asked for a short while's work at a time.
 class PreviewPass {
   public:
     // `scene` must outlive it.
@@ -35,7 +37,10 @@ class PreviewPass {
     void createPipelines(const vulkan::PipelineCache& cache);
     vulkan::Handle<VkPipeline> createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape);
     void uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
-    void record(VkCommandBuffer commands);
+    void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
+    void drawBand(const Band& band);
+    std::uint64_t recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done, std::uint64_t most) const;
+    void finishBand(const Band& band);
 
     vulkan::VulkanContext& context_;
     const GpuScene& scene_;
@@ -47,10 +52,11 @@ class PreviewPass {
 
     vulkan::DescriptorSet bindings_;
     vulkan::Handle<VkPipelineLayout> layout_;
-    vulkan::Handle<VkRenderPass> renderPass_;
+    vulkan::Handle<VkRenderPass> clearing_, goingOn_;   // compatible render passes
     std::array<vulkan::Handle<VkPipeline>, 3> drawing_; // by shape: kSphere, kQuad, kTriangle
     vulkan::Handle<VkPipeline> finishing_;
     PreviewTarget target_;
+    LaunchSize vertices_; // of a submission, whose samples they are
 };
 
 } // namespace rt::gpu

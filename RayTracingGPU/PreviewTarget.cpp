@@ -14,20 +14,22 @@ constexpr const char* kWhat = "Preparing the preview";
 
 } // namespace
 
-vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device) {
+vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears) {
     std::array<VkAttachmentDescription, 2> attachments{};
     for (VkAttachmentDescription& attachment : attachments) {
         attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-        attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        attachment.loadOp = clears ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+        attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     }
     attachments[0].format = kPreviewColor;
-    attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     attachments[0].finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     attachments[1].format = vulkan::kDepthFormat;
-    attachments[1].storeOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     attachments[1].finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
+    if (!clears) {
+        for (VkAttachmentDescription& attachment : attachments) attachment.initialLayout = attachment.finalLayout;
+    }
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
@@ -47,7 +49,7 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device) {
                        VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
                        kDrawing,
                        VK_ACCESS_MEMORY_WRITE_BIT,
-                       kWriting | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+                       kWriting | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                        0};
     dependencies[1] = {0,        VK_SUBPASS_EXTERNAL,         kDrawing, VK_PIPELINE_STAGE_TRANSFER_BIT,
                        kWriting, VK_ACCESS_TRANSFER_READ_BIT, 0};
@@ -97,12 +99,12 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
     pixels_ = vulkan::Buffer(context, bytes, 0, vulkan::Memory::Device, "the preview");
 }
 
-void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass) const {
+void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass, const Band& band) const {
     const std::array<VkClearValue, 2> zero{}; // nothing drawn, infinitely far
     VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     info.renderPass = renderPass;
     info.framebuffer = framebuffer_.get();
-    info.renderArea = {{0, 0}, extent_};
+    info.renderArea = {{0, static_cast<std::int32_t>(band.first)}, {extent_.width, band.count}};
     info.clearValueCount = static_cast<std::uint32_t>(zero.size());
     info.pClearValues = zero.data();
     vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
@@ -111,11 +113,12 @@ void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass) con
     vkCmdSetScissor(commands, 0, 1, &info.renderArea);
 }
 
-void PreviewTarget::end(VkCommandBuffer commands) const {
-    vkCmdEndRenderPass(commands);
+void PreviewTarget::copy(VkCommandBuffer commands, const Band& band) const {
     VkBufferImageCopy region{};
+    region.bufferOffset = VkDeviceSize{band.first} * extent_.width * 4 * sizeof(float);
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {extent_.width, extent_.height, 1};
+    region.imageOffset.y = static_cast<std::int32_t>(band.first);
+    region.imageExtent = {extent_.width, band.count, 1};
     vkCmdCopyImageToBuffer(commands, color_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.get(), 1, &region);
 }
 

@@ -9,21 +9,26 @@ namespace rt::gpu {
 
 inline constexpr VkFormat kPreviewColor = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-// Clears both attachments and leaves the colours ready to be copied.
-vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device);
+// Clears both attachments, or goes on with what a pass before has left in them; leaves the colours ready to be copied.
+vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears);
+
+// Rows of the image.
+struct Band {
+    std::uint32_t first = 0, count = 0;
+};
 
 class PreviewTarget {
   public:
     PreviewTarget() = default;
-    // Throws RenderError where the device does not draw such a large image.
+    // For either of the render passes. Throws RenderError where the device does not draw such a large image.
     PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent);
 
     VkExtent2D extent() const { return extent_; }
     const vulkan::Buffer& pixels() const { return pixels_; } // four floats each
-    // Begins the render pass, with viewport and scissor of the whole image.
-    void begin(VkCommandBuffer commands, VkRenderPass renderPass) const;
-    // Ends it and copies what was drawn to pixels().
-    void end(VkCommandBuffer commands) const;
+    // Begins the render pass, with the viewport of the whole image and the band's part of it.
+    void begin(VkCommandBuffer commands, VkRenderPass renderPass, const Band& band) const;
+    // Copies what was drawn to pixels(), once the render pass has ended.
+    void copy(VkCommandBuffer commands, const Band& band) const;
 
   private:
     VkExtent2D extent_{};

@@ -1,4 +1,5 @@
-// Finishes the preview: the sky where nothing was drawn, and media in front of what was.
+// Finishes some rows of the preview: the sky where nothing was drawn, and media in front of what was. The last group reaches
+// into the next rows, which are still to be drawn.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Preview.glsl"
@@ -8,7 +9,7 @@ layout(local_size_x = 64) in;
 void main() {
     SceneRef scene;
     scene.unused = 0u;
-    uint index = gl_GlobalInvocationID.x;
+    uint index = launch.firstPixel + gl_GlobalInvocationID.x;
     uint width = constants.params.width;
     if (index >= width * constants.params.height) return;
     Ray ray = previewRay(uvec2(index % width, index / width));

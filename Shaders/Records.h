@@ -209,7 +209,7 @@ struct PreviewLaunch {
     vec3 ambient; // radiance from all around
     float near;
     uint lightCount;
-    uint unused; // as in TreeArrays
+    uint firstPixel; // of the rows that Preview.comp finishes
 };
 
 // ---- shader binding table -------------------------------------------------------------------------------------------

@@ -138,6 +138,19 @@ TEST(PreviewTest, InstancesAreWhereTheRayTracerMeetsThem) {
     EXPECT_GE(depthAgreement(preview.depth, firstHits(scene, scene->camera).depth), 0.99);
 }
 
+// Two bands of rows, and so many primitives that they are drawn some at a time: how many is found out while the first image is
+// drawn, so that the second one is put together from other pieces.
+TEST(PreviewTest, APictureInPiecesIsThePicture) {
+    const Scene scene = app::compile(app::loadScene("white-spheres:3000"), true);
+    constexpr std::uint32_t kLargeWidth = 1300, kLargeHeight = 1000;
+    const auto engine = makeEngine(scene);
+    const app::Preview first = engine->renderPreview(scene->camera, kLargeWidth, kLargeHeight);
+    const app::Preview second = engine->renderPreview(scene->camera, kLargeWidth, kLargeHeight);
+    EXPECT_EQ(first.picture.data, second.picture.data);
+    EXPECT_EQ(first.depth.data, second.depth.data);
+    EXPECT_GE(depthAgreement(first.depth, firstHits(scene, scene->camera, kLargeWidth, kLargeHeight).depth), 0.97);
+}
+
 // ---- colours ---------------------------------------------------------------------------------------------------------
 
 // Under a white sky a white surface has radiance 1.05 (0.5 + 0.5 cos) with the angle that it is seen at: textures, instances'
