@@ -293,8 +293,8 @@ void App::drawInterface() {
     if (settings_.showComparison) {
         panels.push_back({"Comparison", Panel::Place::Bottom, true, [this] { drawComparisonPanel(gui_); }});
     }
-    const auto area = imgui_.layOut(
-        panels, [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
+    const Rect area = layOut(
+        panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
     picture_.place(area);
     picture_.handlePointer();
     drawOverlay(gui_, area, imgui_.scale());

@@ -8,7 +8,7 @@
 #include "Common/App/CameraController.h"
 #include "Common/App/GuiSettings.h"
 #include "Common/App/InteractiveSession.h"
-#include "Common/Gui/ImGuiLayer.h"
+#include "Common/Gui/Layout.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Common/Core/Paths.h"
+#include "Common/Gui/Fonts.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Vulkan/Check.h"
 
@@ -14,16 +14,11 @@
 #include <imgui_impl_glfw.h>
 #include <imgui_impl_vulkan.h>
 #endif
-#ifdef IMGUI_HAS_DOCK
-#include <imgui_internal.h>
-#endif
 
 namespace rt::gui {
 namespace {
 
-constexpr float kFontSize = 15;      // at scale 1
-constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
-constexpr float kBottomShare = 0.4f; // of the height
+constexpr float kFontSize = 15; // at scale 1
 // Latin, dashes, arrows, mathematical signs.
 constexpr ImWchar kGlyphs[] = {0x20, 0xff, 0x2010, 0x2027, 0x2190, 0x2193, 0x2212, 0x2212, 0x2248, 0x2248, 0};
 
@@ -31,39 +26,7 @@ void checkImGui(VkResult result) {
     vulkan::check(result, "Drawing the interface");
 }
 
-std::vector<FontFile> findFonts() {
-    namespace fs = std::filesystem;
-    const FontFile candidates[] = {
-        {"Inter", "/usr/share/fonts/opentype/inter/Inter-Regular.otf"},
-        {"DejaVu Sans", "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"},
-        {"DejaVu Sans", "/usr/share/fonts/TTF/DejaVuSans.ttf"},
-        {"Noto Sans", "/usr/share/fonts/truetype/noto/NotoSans-Regular.ttf"},
-        {"Roboto", "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf"},
-        {"Liberation Sans", "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf"},
-        {"DejaVu Sans Condensed", "/usr/share/fonts/truetype/dejavu/DejaVuSansCondensed.ttf"},
-        {"DejaVu Serif", "/usr/share/fonts/truetype/dejavu/DejaVuSerif.ttf"},
-        {"DejaVu Sans Mono", "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf"},
-        {"Segoe UI", "C:/Windows/Fonts/segoeui.ttf"},
-        {"Arial", "C:/Windows/Fonts/arial.ttf"},
-        {"Arial", "/System/Library/Fonts/Supplemental/Arial.ttf"},
-    };
-    std::vector<FontFile> fonts;
-    for (const FontFile& font : candidates) {
-        std::error_code none;
-        const bool known =
-            std::any_of(fonts.begin(), fonts.end(), [&](const FontFile& f) { return f.name == font.name; });
-        if (!known && fs::is_regular_file(font.file, none)) fonts.push_back(font);
-    }
-    fonts.push_back({"ImGui", {}});
-    return fonts;
-}
-
 } // namespace
-
-const std::vector<FontFile>& availableFonts() {
-    static const std::vector<FontFile> fonts = findFonts();
-    return fonts;
-}
 
 ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPass renderPass, std::uint32_t imageCount,
                        const std::filesystem::path& layoutFile)
@@ -188,115 +151,6 @@ void ImGuiLayer::beginFrame(std::span<const int> pressed) {
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
 }
-
-#ifdef IMGUI_HAS_DOCK
-
-Rect ImGuiLayer::layOut(std::span<const Panel> panels, const std::function<void()>& header,
-                        const std::function<void()>& status) {
-    const ImGuiViewport* viewport = ImGui::GetMainViewport();
-    const ImGuiID space = ImGui::GetID("space");
-    const float statusHeight = ImGui::GetFrameHeight() + 4;
-    if (ImGui::DockBuilderGetNode(space) == nullptr) {
-        ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace | ImGuiDockNodeFlags_PassthruCentralNode);
-        ImGui::DockBuilderSetNodeSize(space, viewport->Size);
-        ImGuiID center = space;
-        const float share = std::min(0.45f, kSideWidth * style_.scale / std::max(1.0f, viewport->Size.x));
-        ImGuiID side = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, share, nullptr, &center);
-        const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, kBottomShare, nullptr, &center);
-        const ImGuiID top = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, 0.16f, nullptr, &side);
-        ImGui::DockBuilderDockWindow("Render control", top);
-        for (const Panel& panel : panels) {
-            ImGui::DockBuilderDockWindow(panel.title, panel.place == Panel::Place::Side ? side : bottom);
-        }
-        ImGui::DockBuilderFinish(space);
-    }
-    ImGui::SetNextWindowPos(viewport->Pos);
-    ImGui::SetNextWindowSize({viewport->Size.x, std::max(1.0f, viewport->Size.y - statusHeight)});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-    ImGui::Begin("##space", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDocking |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus | ImGuiWindowFlags_NoMove);
-    ImGui::PopStyleVar();
-    ImGui::DockSpace(space, {0, 0}, ImGuiDockNodeFlags_PassthruCentralNode);
-    ImGui::End();
-    if (!panels.empty()) {
-        if (ImGui::Begin("Render control")) header();
-        ImGui::End();
-    }
-    for (const Panel& panel : panels) {
-        if (ImGui::Begin(panel.title)) panel.draw();
-        ImGui::End();
-    }
-    ImGui::SetNextWindowPos({viewport->Pos.x, viewport->Pos.y + viewport->Size.y - statusHeight});
-    ImGui::SetNextWindowSize({viewport->Size.x, statusHeight});
-    ImGui::Begin("##status", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings);
-    status();
-    ImGui::End();
-    const ImGuiDockNode* center = ImGui::DockBuilderGetCentralNode(space);
-    if (center == nullptr) return {0, 0, viewport->Size.x, viewport->Size.y - statusHeight};
-    return {center->Pos.x - viewport->Pos.x, center->Pos.y - viewport->Pos.y, center->Size.x, center->Size.y};
-}
-
-#else
-
-Rect ImGuiLayer::layOut(std::span<const Panel> panels, const std::function<void()>& header,
-                        const std::function<void()>& status) {
-    const ImGuiViewport* viewport = ImGui::GetMainViewport();
-    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-    const float statusHeight = std::min(ImGui::GetTextLineHeight() + padding.y, viewport->Size.y);
-    const float height = std::max(1.0f, viewport->Size.y - statusHeight);
-    const bool hasSide =
-        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.place == Panel::Place::Side; });
-    const float side = hasSide ? std::min(kSideWidth * style_.scale, 0.6f * viewport->Size.x) : 0.0f;
-    Rect rest{side, 0, std::max(1.0f, viewport->Size.x - side), height};
-
-    if (hasSide) {
-        ImGui::SetNextWindowPos(viewport->Pos);
-        ImGui::SetNextWindowSize({side, height});
-        ImGui::Begin("##side", nullptr, kFixed);
-        header();
-        // The panels scroll below a header that stays.
-        ImGui::BeginChild("##panels", {0, 0}, false);
-        for (const Panel& panel : panels) {
-            if (panel.place != Panel::Place::Side) continue;
-            if (ImGui::CollapsingHeader(panel.title, panel.initiallyOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
-                ImGui::PushID(panel.title);
-                ImGui::Indent(4 * style_.scale);
-                panel.draw();
-                ImGui::Unindent(4 * style_.scale);
-                ImGui::PopID();
-                ImGui::Spacing();
-            }
-        }
-        ImGui::EndChild();
-        ImGui::End();
-    }
-    for (const Panel& panel : panels) {
-        if (panel.place != Panel::Place::Bottom) continue;
-        const float share = std::floor(kBottomShare * height);
-        rest.height -= share;
-        ImGui::SetNextWindowPos({viewport->Pos.x + side, viewport->Pos.y + rest.height});
-        ImGui::SetNextWindowSize({rest.width, share});
-        ImGui::Begin(panel.title, nullptr, kFixed);
-        panel.draw();
-        ImGui::End();
-    }
-    ImGui::SetNextWindowPos({viewport->Pos.x, viewport->Pos.y + height});
-    ImGui::SetNextWindowSize({viewport->Size.x, statusHeight});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding.x, 0.5f * padding.y});
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
-    ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
-    ImGui::PopStyleVar(2);
-    status();
-    ImGui::End();
-    return rest;
-}
-
-#endif
 
 void ImGuiLayer::endFrame() {
     ImGui::Render();

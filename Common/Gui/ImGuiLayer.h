@@ -1,8 +1,7 @@
-// Dear ImGui in a window. What differs between its versions is in the source of this file and nowhere else.
+// Dear ImGui in a window. What differs between its versions is in the sources of this file and of Layout.h, and nowhere else.
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -16,32 +15,11 @@
 
 namespace rt::gui {
 
-struct FontFile {
-    std::string name;
-    std::filesystem::path file; // empty: ImGui's own, of fixed size
-};
-// Those that this machine has; ImGui's own comes last.
-const std::vector<FontFile>& availableFonts();
-
 struct Style {
     app::ColorMode colorMode = app::ColorMode::Dark;
     float scale = 1;
     std::string font;
     bool operator==(const Style&) const = default;
-};
-
-// A part of the interface. Docked where ImGui docks, else at a fixed place.
-struct Panel {
-    enum class Place { Side, Bottom };
-    const char* title;
-    Place place;
-    bool initiallyOpen;
-    std::function<void()> draw;
-};
-
-struct Rect {
-    float x = 0, y = 0, width = 0, height = 0;
-    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
 class ImGuiLayer {
@@ -57,10 +35,6 @@ class ImGuiLayer {
     float scale() const { return style_.scale; }
     // `pressed`: keys that went down since the frame before, as GLFW numbers them, also those that are up again.
     void beginFrame(std::span<const int> pressed);
-    // Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the
-    // side, `status` in a line at the bottom.
-    Rect layOut(std::span<const Panel> panels, const std::function<void()>& header,
-                const std::function<void()>& status);
     void endFrame();
     void draw(VkCommandBuffer commands); // what endFrame left
 

@@ -1,7 +1,7 @@
 // The panels of the window: each shows a part of the state and changes a part of the settings; App sends what has changed.
 #pragma once
 #include "Common/Gui/Gui.h"
-#include "Common/Gui/ImGuiLayer.h"
+#include "Common/Gui/Layout.h"
 
 namespace rt::gui {
 

@@ -6,7 +6,7 @@
 
 #include "Common/Gui/FilmPass.h"
 #include "Common/Gui/Gui.h"
-#include "Common/Gui/ImGuiLayer.h"
+#include "Common/Gui/Layout.h"
 
 namespace rt::gui {
 

@@ -5,7 +5,7 @@
 #include <vulkan/vulkan.h>
 
 #include "Common/Gui/GraphicsDevice.h"
-#include "Common/Gui/ImGuiLayer.h"
+#include "Common/Gui/Layout.h"
 #include "Common/Image/Image.h"
 
 namespace rt::gui {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "Common/Gui/Fonts.h"
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/Widgets.h"
 

@@ -1,0 +1,130 @@
+#include "Common/Gui/Layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <imgui.h>
+#ifdef IMGUI_HAS_DOCK
+#include <imgui_internal.h>
+#endif
+
+namespace rt::gui {
+namespace {
+
+constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
+constexpr float kBottomShare = 0.4f; // of the height
+constexpr float kHeaderStays = 25;   // heights of the font: in lower windows the header scrolls with the panels
+
+} // namespace
+
+#ifdef IMGUI_HAS_DOCK
+
+Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
+            const std::function<void()>& status) {
+    const ImGuiViewport* viewport = ImGui::GetMainViewport();
+    const ImGuiID space = ImGui::GetID("space");
+    const float statusHeight = ImGui::GetFrameHeight() + 4;
+    if (ImGui::DockBuilderGetNode(space) == nullptr) {
+        ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace | ImGuiDockNodeFlags_PassthruCentralNode);
+        ImGui::DockBuilderSetNodeSize(space, viewport->Size);
+        ImGuiID center = space;
+        const float share = std::min(0.45f, kSideWidth * scale / std::max(1.0f, viewport->Size.x));
+        ImGuiID side = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, share, nullptr, &center);
+        const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, kBottomShare, nullptr, &center);
+        const ImGuiID top = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, 0.16f, nullptr, &side);
+        ImGui::DockBuilderDockWindow("Render control", top);
+        for (const Panel& panel : panels) {
+            ImGui::DockBuilderDockWindow(panel.title, panel.place == Panel::Place::Side ? side : bottom);
+        }
+        ImGui::DockBuilderFinish(space);
+    }
+    ImGui::SetNextWindowPos(viewport->Pos);
+    ImGui::SetNextWindowSize({viewport->Size.x, std::max(1.0f, viewport->Size.y - statusHeight)});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::Begin("##space", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDocking |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus | ImGuiWindowFlags_NoMove);
+    ImGui::PopStyleVar();
+    ImGui::DockSpace(space, {0, 0}, ImGuiDockNodeFlags_PassthruCentralNode);
+    ImGui::End();
+    if (!panels.empty()) {
+        if (ImGui::Begin("Render control")) header();
+        ImGui::End();
+    }
+    for (const Panel& panel : panels) {
+        if (ImGui::Begin(panel.title)) panel.draw();
+        ImGui::End();
+    }
+    ImGui::SetNextWindowPos({viewport->Pos.x, viewport->Pos.y + viewport->Size.y - statusHeight});
+    ImGui::SetNextWindowSize({viewport->Size.x, statusHeight});
+    ImGui::Begin("##status", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoDocking | ImGuiWindowFlags_NoSavedSettings);
+    status();
+    ImGui::End();
+    const ImGuiDockNode* center = ImGui::DockBuilderGetCentralNode(space);
+    if (center == nullptr) return {0, 0, viewport->Size.x, viewport->Size.y - statusHeight};
+    return {center->Pos.x - viewport->Pos.x, center->Pos.y - viewport->Pos.y, center->Size.x, center->Size.y};
+}
+
+#else
+
+Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
+            const std::function<void()>& status) {
+    const ImGuiViewport* viewport = ImGui::GetMainViewport();
+    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+    const ImVec2 padding = ImGui::GetStyle().WindowPadding;
+    const float statusHeight = std::min(ImGui::GetTextLineHeight() + padding.y, viewport->Size.y);
+    const float height = std::max(1.0f, viewport->Size.y - statusHeight);
+    const bool hasSide =
+        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.place == Panel::Place::Side; });
+    const float side = hasSide ? std::min(kSideWidth * scale, 0.6f * viewport->Size.x) : 0.0f;
+    Rect rest{side, 0, std::max(1.0f, viewport->Size.x - side), height};
+
+    if (hasSide) {
+        ImGui::SetNextWindowPos(viewport->Pos);
+        ImGui::SetNextWindowSize({side, height});
+        ImGui::Begin("##side", nullptr, kFixed);
+        const bool headerStays = height > kHeaderStays * ImGui::GetFontSize();
+        if (headerStays) header();
+        ImGui::BeginChild("##panels", {0, 0}, false);
+        if (!headerStays) header();
+        for (const Panel& panel : panels) {
+            if (panel.place != Panel::Place::Side) continue;
+            if (ImGui::CollapsingHeader(panel.title, panel.initiallyOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+                ImGui::PushID(panel.title);
+                ImGui::Indent(4 * scale);
+                panel.draw();
+                ImGui::Unindent(4 * scale);
+                ImGui::PopID();
+                ImGui::Spacing();
+            }
+        }
+        ImGui::EndChild();
+        ImGui::End();
+    }
+    for (const Panel& panel : panels) {
+        if (panel.place != Panel::Place::Bottom) continue;
+        const float share = std::floor(kBottomShare * height);
+        rest.height -= share;
+        ImGui::SetNextWindowPos({viewport->Pos.x + side, viewport->Pos.y + rest.height});
+        ImGui::SetNextWindowSize({rest.width, share});
+        ImGui::Begin(panel.title, nullptr, kFixed);
+        panel.draw();
+        ImGui::End();
+    }
+    ImGui::SetNextWindowPos({viewport->Pos.x, viewport->Pos.y + height});
+    ImGui::SetNextWindowSize({viewport->Size.x, statusHeight});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {padding.x, 0.5f * padding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::Begin("##status", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
+    ImGui::PopStyleVar(2);
+    status();
+    ImGui::End();
+    return rest;
+}
+
+#endif
+
+} // namespace rt::gui

@@ -1,0 +1,27 @@
+// Where the parts of the interface are.
+#pragma once
+#include <functional>
+#include <span>
+
+namespace rt::gui {
+
+// A part of the interface. Docked where ImGui docks, else at a fixed place.
+struct Panel {
+    enum class Place { Side, Bottom };
+    const char* title;
+    Place place;
+    bool initiallyOpen;
+    std::function<void()> draw;
+};
+
+struct Rect {
+    float x = 0, y = 0, width = 0, height = 0;
+    bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
+};
+
+// Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the side,
+// `status` in a line at the bottom; `scale` is that of the interface.
+Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
+            const std::function<void()>& status);
+
+} // namespace rt::gui
