@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #ifdef _WIN32
 #include <io.h>
@@ -170,6 +171,52 @@ FileLock::FileLock(const std::filesystem::path& file) {
 FileLock::~FileLock() {
     close(static_cast<int>(handle_));
 }
+
+#endif
+
+#ifdef __linux__
+
+namespace {
+
+std::function<void()> rescueFromLoss;
+
+// Xlib would go on to exit(), which takes libraries apart that other threads are still in.
+[[noreturn]] void rescueAndEnd() {
+    if (const auto rescue = std::exchange(rescueFromLoss, nullptr)) rescue();
+    std::_Exit(static_cast<int>(ExitCode::Failure));
+}
+int onConnectionLoss(void*) {
+    rescueAndEnd();
+}
+int onError(void*, void*) { // of requests to a window that is gone
+    rescueAndEnd();
+}
+
+// In the Xlib that the window library has loaded, where there is one.
+template <class Handler>
+void setHandler(const char* setter, Handler* handler) {
+    const SharedLibrary xlib{"libX11.so.6"};
+    if (auto* const set = xlib.find<Handler*(Handler*)>(setter)) set(handler);
+}
+
+} // namespace
+
+WindowLossGuard::WindowLossGuard(std::function<void()> rescue) {
+    rescueFromLoss = std::move(rescue);
+    setHandler("XSetIOErrorHandler", onConnectionLoss);
+    setHandler("XSetErrorHandler", onError);
+}
+
+WindowLossGuard::~WindowLossGuard() {
+    setHandler<decltype(onConnectionLoss)>("XSetIOErrorHandler", nullptr);
+    setHandler<decltype(onError)>("XSetErrorHandler", nullptr);
+    rescueFromLoss = nullptr;
+}
+
+#else
+
+WindowLossGuard::WindowLossGuard(std::function<void()>) {}
+WindowLossGuard::~WindowLossGuard() = default;
 
 #endif
 

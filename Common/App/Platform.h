@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 
 namespace rt::app {
@@ -45,6 +46,17 @@ class FileLock {
 
   private:
     std::intptr_t handle_;
+};
+
+// While it exists: when the window system ends or takes the window away, whereupon its library would end the program, `rescue`
+// is called, which must leave the window system alone, and the program ends with exit code 1. One at a time; to be made when
+// there is a window.
+class WindowLossGuard {
+  public:
+    explicit WindowLossGuard(std::function<void()> rescue);
+    ~WindowLossGuard();
+    WindowLossGuard(const WindowLossGuard&) = delete;
+    WindowLossGuard& operator=(const WindowLossGuard&) = delete;
 };
 
 } // namespace rt::app

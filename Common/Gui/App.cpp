@@ -1,10 +1,13 @@
 #include "Common/Gui/App.h"
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
+#include <iostream>
 
 #include "Common/App/Interrupt.h"
 #include "Common/App/Outputs.h"
+#include "Common/App/Platform.h"
 #include "Common/App/Stopwatch.h"
 #include "Common/Gui/EnginePanel.h"
 #include "Common/Gui/ImGuiLayer.h"
@@ -22,7 +25,8 @@
 namespace rt::gui {
 namespace {
 
-constexpr double kIdleSeconds = 0.25; // between two looks when nothing happens
+constexpr double kIdleSeconds = 0.25; // between two frames when nothing happens
+constexpr double kBusySeconds = 0.01; // between two looks for something new of a session at work
 constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
 constexpr double kLongestStep = 0.1;  // seconds of flight in one frame
 
@@ -38,7 +42,7 @@ std::optional<app::SaveRequest> endFiles(const app::Options& options, const app:
 
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
                                             const app::GuiSettings& settings, const GraphicsDevice& device,
-                                            app::RunHistory& history) {
+                                            app::RunHistory& history, std::atomic<bool>& isNews) {
     app::InteractiveSession::Setup setup;
     setup.options = options;
     setup.makeEngine = program.makeEngine;
@@ -53,7 +57,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.sliceSeconds = options.program == app::kGpuProgram && !device.isSoftware() ? 0.008 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
-    setup.onChange = [] { Window::wake(); };
+    setup.onChange = [&isNews] { isNews = true; };
     return setup;
 }
 
@@ -71,7 +75,7 @@ class App {
           sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
           sentRayTracing_(settings_.rayTracing),
           sentEnd_(endFiles(options, settings_)),
-          session_(sessionSetup(options, program, settings_, device_, history_)),
+          session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
                program.devices} {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
@@ -81,6 +85,7 @@ class App {
 
   private:
     bool isAwake();
+    void wait();
     void turn();
     void takeState();
     void sendChanges();
@@ -88,6 +93,7 @@ class App {
     void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(double seconds);
     void drawInterface();
+    void rescue();
 
     app::Options options_;
     KeptSettings kept_;
@@ -106,6 +112,7 @@ class App {
     app::ViewRequest sentView_;
     const image::Image* shownHeld_ = nullptr;
     std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
+    std::atomic<bool> isNews_{false};         // there is something new of the session
     app::InteractiveSession session_;
     Gui gui_;
     PictureArea picture_{gui_};
@@ -116,13 +123,14 @@ class App {
     app::Stopwatch sinceInput_, sinceFrame_;
     TurnMeter meter_;
     bool flying_ = false;
+    app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
 };
 
 ExitCode App::run() {
     app::Interrupt interrupt;
     interrupt.defer(); // there may be something to write
     while (!window_.shouldClose() && !interrupt.requested()) {
-        window_.waitEvents(isAwake() ? 0 : kIdleSeconds);
+        wait();
         turn();
     }
     window_.hide(); // what follows may take a while
@@ -136,6 +144,17 @@ ExitCode App::run() {
 bool App::isAwake() {
     if (window_.takeInput()) sinceInput_ = {};
     return flying_ || sinceInput_.seconds() < kAwakeSeconds;
+}
+
+// For input, for something new of the session, or for the time of another frame. The session's threads leave the window system
+// alone, which therefore ends the program, where it does, on this thread.
+void App::wait() {
+    const bool isBusy = gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty();
+    const app::Stopwatch watch;
+    while (!isAwake() && !isNews_ && watch.seconds() < kIdleSeconds)
+        window_.waitEvents(isBusy ? kBusySeconds : kIdleSeconds);
+    window_.waitEvents(0);
+    isNews_ = false;
 }
 
 void App::turn() {
@@ -299,6 +318,12 @@ void App::drawInterface() {
     picture_.handlePointer();
     drawOverlay(gui_, area, imgui_.scale());
     drawHelp(gui_);
+}
+
+void App::rescue() {
+    std::cerr << options_.program << ": the window system has taken the window away" << std::endl;
+    kept_.store();
+    session_.close();
 }
 
 } // namespace

@@ -31,6 +31,10 @@ KeptSettings::KeptSettings(const app::Options& options)
     stored_ = settings;
 }
 
+KeptSettings::~KeptSettings() {
+    if (settings != stored_) store();
+}
+
 void KeptSettings::keep(const Window& window) {
     const WindowPlace place = window.place();
     settings.windowMaximised = place.maximised;
@@ -41,6 +45,10 @@ void KeptSettings::keep(const Window& window) {
         settings.windowHeight = place.height;
         settings.windowPlaced = place.hasPosition;
     }
+    store();
+}
+
+void KeptSettings::store() {
     stored_ = settings;
     sinceStored_ = {};
     if (file_.empty()) return;

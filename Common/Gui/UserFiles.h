@@ -19,11 +19,15 @@ WindowPlace placeOf(const app::GuiSettings& settings);
 class KeptSettings {
   public:
     explicit KeptSettings(const app::Options& options);
+    ~KeptSettings(); // stores what is not stored yet
+    KeptSettings(const KeptSettings&) = delete;
+    KeptSettings& operator=(const KeptSettings&) = delete;
 
     app::GuiSettings settings;
 
-    void keep(const Window& window);        // now
-    void keepChanges(const Window& window); // seldom, where there are any
+    void keep(const Window& window);        // with the window's place, now
+    void keepChanges(const Window& window); // likewise, but seldom, where there are any
+    void store();                           // as they are
 
   private:
     std::filesystem::path file_; // empty: nowhere

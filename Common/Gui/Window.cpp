@@ -119,9 +119,6 @@ void Window::waitEvents(double seconds) {
     else
         glfwWaitEventsTimeout(seconds);
 }
-void Window::wake() {
-    glfwPostEmptyEvent();
-}
 bool Window::takeInput() {
     return std::exchange(input_, false);
 }

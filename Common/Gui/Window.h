@@ -37,7 +37,6 @@ class Window {
     void setTitle(const std::string& title);
     // Handles what has happened; waits for it at most this long.
     void waitEvents(double seconds);
-    static void wake(); // ends waitEvents; from any thread
     // Whether anything has come from the user since the last call.
     bool takeInput();
     // Keys that went down since the last call, as GLFW numbers them, with its modifiers.

@@ -92,10 +92,7 @@ void Desktop::TearDown() {
         kill(program_, SIGKILL);
         waitFor(program_);
     }
-    if (screen_ > 0) {
-        kill(screen_, SIGTERM);
-        waitFor(screen_);
-    }
+    endScreen();
     if (!HasFailure()) fs::remove_all(folder_);
 }
 
@@ -103,11 +100,12 @@ void Desktop::start(const std::string& program, const std::vector<std::string>& 
     std::vector<std::string> all = {
         std::string(RT_PROGRAM_DIR) + "/" + program, "--no-config", "--validation", "--width", "48", "--spp", "4"};
     all.insert(all.end(), arguments.begin(), arguments.end());
-    program_ = spawn(all,
-                     {{"DISPLAY", display_},
-                      {"XDG_CONFIG_HOME", (folder_ / "config").string()},
-                      {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}},
-                     folder_ / "program.log");
+    std::vector<std::pair<std::string, std::string>> environment = {
+        {"DISPLAY", display_},
+        {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+        {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}};
+    environment.insert(environment.end(), environment_.begin(), environment_.end());
+    program_ = spawn(all, environment, folder_ / "program.log");
     window_.clear();
     ASSERT_TRUE(eventually([&] {
         if (!isRunning()) return true;
@@ -173,6 +171,17 @@ void Desktop::resize(int width, int height) {
 
 void Desktop::minimise(bool minimised) {
     setMinimised(display_, std::stoul(window_), minimised);
+}
+
+void Desktop::destroyWindow() {
+    test::destroyWindow(display_, std::stoul(window_));
+}
+
+void Desktop::endScreen() {
+    if (screen_ <= 0) return;
+    kill(screen_, SIGTERM);
+    waitFor(screen_);
+    screen_ = -1;
 }
 
 bool Desktop::drop(const std::vector<std::string>& files) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,7 @@ class Desktop : public testing::Test {
     // Closes the window by Ctrl+Q; the exit code tells of validation's messages, too.
     int quit();
     int endBySignal(int signal); // the exit code
+    int waitForEnd();            // of the program, by itself: the exit code
     bool isRunning();
     std::string log() const; // what the program has written
 
@@ -33,6 +35,8 @@ class Desktop : public testing::Test {
     std::string title();
     void resize(int width, int height);
     void minimise(bool minimised);
+    void destroyWindow(); // as no program should do to another
+    void endScreen();     // as at the end of a user's session
     // Drops files on the window as another program would; whether they were taken.
     bool drop(const std::vector<std::string>& files);
     std::uint64_t residentBytes() const;
@@ -43,9 +47,9 @@ class Desktop : public testing::Test {
 
     std::filesystem::path folder_; // of this test: settings, pictures, files
 
-  private:
-    int waitForEnd();
+    std::vector<std::pair<std::string, std::string>> environment_; // of the programs, besides
 
+  private:
     std::string display_; // ":99"
     int screen_ = -1;     // processes
     int program_ = -1;

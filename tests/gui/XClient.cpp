@@ -131,4 +131,11 @@ void setMinimised(const std::string& display, unsigned long window, bool minimis
     XSync(connection.get(), False);
 }
 
+void destroyWindow(const std::string& display, unsigned long window) {
+    const Connection connection(XOpenDisplay(display.c_str()));
+    if (!connection) return;
+    XDestroyWindow(connection.get(), window);
+    XSync(connection.get(), False);
+}
+
 } // namespace rt::test

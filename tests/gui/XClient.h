@@ -1,4 +1,4 @@
-// What xdotool cannot do: another program that files are dragged from, and a window manager's part in minimising.
+// What xdotool cannot do: another program that files are dragged from, a window manager's part in minimising, and violence.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,5 +10,7 @@ bool dropFiles(const std::string& display, unsigned long window, const std::vect
 
 // As the only window manager of the display.
 void setMinimised(const std::string& display, unsigned long window, bool minimised);
+
+void destroyWindow(const std::string& display, unsigned long window);
 
 } // namespace rt::test

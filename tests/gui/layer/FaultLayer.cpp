@@ -1,0 +1,146 @@
+// A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about otherwise.
+// RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the third call of the one
+// return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a line on standard error.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+namespace {
+
+std::mutex mutex;
+struct Below { // the next layer
+    VkInstance instance;
+    PFN_vkGetInstanceProcAddr get;
+};
+std::map<void*, Below> instances; // by dispatch table, as are devices
+std::map<void*, PFN_vkGetDeviceProcAddr> devices;
+std::map<std::string, int> calls; // so far
+
+void* tableOf(const void* dispatchable) {
+    void* table = nullptr;
+    std::memcpy(&table, dispatchable, sizeof table);
+    return table;
+}
+
+// Of a device, or of one of its queues, whose table is the same.
+template <class Function>
+Function next(const void* dispatchable, VkDevice device, const char* name) {
+    const std::scoped_lock lock(mutex);
+    return reinterpret_cast<Function>(devices.at(tableOf(dispatchable))(device, name));
+}
+
+// What this call of the function is to return, if not what it does.
+std::optional<VkResult> fault(const std::string& function) {
+    const std::scoped_lock lock(mutex);
+    const std::string key = function + ":" + std::to_string(++calls[function]) + "=";
+    const char* list = std::getenv("RT_FAULTS");
+    const char* found = list != nullptr ? std::strstr(list, key.c_str()) : nullptr;
+    if (found == nullptr) return std::nullopt;
+    const int result = std::atoi(found + key.size());
+    std::fprintf(stderr, "fault %s%d\n", key.c_str(), result);
+    return static_cast<VkResult>(result);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR swapchain, std::uint64_t timeout,
+                                       VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
+    const std::optional<VkResult> wrong = fault("vkAcquireNextImageKHR");
+    if (wrong && *wrong < 0) return *wrong;
+    const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, device, "vkAcquireNextImageKHR")(
+        device, swapchain, timeout, semaphore, fence, index);
+    return result == VK_SUCCESS ? wrong.value_or(result) : result;
+}
+
+VkDevice presenting = VK_NULL_HANDLE; // the device that has a swapchain: there is one
+
+VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
+    // Semaphores are waited for whatever the result.
+    const VkResult result = next<PFN_vkQueuePresentKHR>(queue, presenting, "vkQueuePresentKHR")(queue, info);
+    return fault("vkQueuePresentKHR").value_or(result);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                               const VkAllocationCallbacks* allocator, VkSwapchainKHR* swapchain) {
+    presenting = device;
+    if (const auto wrong = fault("vkCreateSwapchainKHR")) return *wrong;
+    return next<PFN_vkCreateSwapchainKHR>(device, device, "vkCreateSwapchainKHR")(device, info, allocator, swapchain);
+}
+
+// ---- what makes it a layer -------------------------------------------------------------------------------------------
+
+template <class Info>
+Info* link(const void* chain, VkStructureType type) {
+    for (auto* info = static_cast<const Info*>(chain); info != nullptr; info = static_cast<const Info*>(info->pNext))
+        if (info->sType == type && info->function == VK_LAYER_LINK_INFO) return const_cast<Info*>(info);
+    return nullptr;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info, const VkAllocationCallbacks* allocator,
+                                              VkInstance* instance) {
+    auto* chain = link<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    const PFN_vkGetInstanceProcAddr below = chain->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    chain->u.pLayerInfo = chain->u.pLayerInfo->pNext;
+    const auto create = reinterpret_cast<PFN_vkCreateInstance>(below(VK_NULL_HANDLE, "vkCreateInstance"));
+    const VkResult result = create(info, allocator, instance);
+    const std::scoped_lock lock(mutex);
+    if (result == VK_SUCCESS) instances[tableOf(*instance)] = {*instance, below};
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                                            const VkAllocationCallbacks* allocator, VkDevice* device) {
+    auto* chain = link<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    const VkLayerDeviceLink& below = *chain->u.pLayerInfo;
+    chain->u.pLayerInfo = below.pNext;
+    const VkInstance instance = [&] {
+        const std::scoped_lock lock(mutex);
+        return instances.at(tableOf(physical)).instance;
+    }();
+    const auto create =
+        reinterpret_cast<PFN_vkCreateDevice>(below.pfnNextGetInstanceProcAddr(instance, "vkCreateDevice"));
+    const VkResult result = create(physical, info, allocator, device);
+    const std::scoped_lock lock(mutex);
+    if (result == VK_SUCCESS) devices[tableOf(*device)] = below.pfnNextGetDeviceProcAddr;
+    return result;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
+    const std::string function = name;
+    if (function == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    if (function == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
+    if (function == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
+    if (function == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    const std::scoped_lock lock(mutex);
+    return devices.at(tableOf(device))(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {
+    const std::string function = name;
+    if (function == "vkGetInstanceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getInstanceProcAddr);
+    if (function == "vkCreateInstance") return reinterpret_cast<PFN_vkVoidFunction>(createInstance);
+    if (function == "vkCreateDevice") return reinterpret_cast<PFN_vkVoidFunction>(createDevice);
+    if (function == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    if (function == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
+    if (function == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
+    if (function == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    if (instance == VK_NULL_HANDLE) return nullptr;
+    const std::scoped_lock lock(mutex);
+    return instances.at(tableOf(instance)).get(instance, name);
+}
+
+} // namespace
+
+extern "C" VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
+    version->loaderLayerInterfaceVersion = 2;
+    version->pfnGetInstanceProcAddr = getInstanceProcAddr;
+    version->pfnGetDeviceProcAddr = getDeviceProcAddr;
+    version->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}
