@@ -15,6 +15,7 @@ namespace rt::gui {
 namespace {
 
 constexpr std::size_t kMostRows = 200;
+constexpr float kNarrow = 24, kLeastHeight = 7; // of the panel; of table and chart: in heights of the font
 // Told apart with any colour vision (Okabe and Ito).
 constexpr ImU32 kCpuColor = IM_COL32(230, 159, 0, 255);
 constexpr ImU32 kGpuColor = IM_COL32(86, 180, 233, 255);
@@ -58,16 +59,16 @@ void drawRow(const RunRecord& r) {
     ImGui::SameLine();
     ImGui::TextUnformatted(((isGpuRun(r) ? "GPU " : "CPU ") + r.engine).c_str());
     tooltip((r.time + ", " + r.device).c_str());
-    cell(r.scene);
-    cell(std::to_string(r.width) + " x " + std::to_string(r.height));
-    cell(r.lightSampling + ", " + r.sampler);
     cell(std::to_string(r.spp));
     cell(shortDuration(r.renderSeconds));
-    cell(withPrefix(r.samplesPerSecond));
-    cell(withPrefix(r.raysPerSecond));
     cell((r.hasReference || r.relmse <= 0 ? "" : "~") + scientific(r.relmse));
     tooltip(r.hasReference ? "Against a reference" : "The film's own estimate: an upper bound for Sobol and strata");
     cell(r.efficiency() > 0 ? withPrefix(r.efficiency()) : "-");
+    cell(withPrefix(r.samplesPerSecond));
+    cell(withPrefix(r.raysPerSecond));
+    cell(r.lightSampling + ", " + r.sampler);
+    cell(std::to_string(r.width) + " x " + std::to_string(r.height));
+    cell(r.scene);
     cell(r.device);
 }
 
@@ -77,8 +78,8 @@ void drawTable(const std::vector<const RunRecord*>& runs, ImVec2 size) {
                                        ImGuiTableFlags_NoSavedSettings;
     if (!ImGui::BeginTable("##runs", 11, kFlags, size)) return;
     ImGui::TableSetupScrollFreeze(1, 1);
-    for (const char* title : {"Engine", "Scene", "Size", "Estimator", "SPP", "Time", "Samples/s", "Rays/s", "relMSE",
-                              "Efficiency", "Device"}) {
+    for (const char* title : {"Engine", "SPP", "Time", "relMSE", "Efficiency", "Samples/s", "Rays/s", "Estimator",
+                              "Size", "Scene", "Device"}) {
         ImGui::TableSetupColumn(title);
     }
     ImGui::TableHeadersRow();
@@ -130,23 +131,25 @@ void drawReference(Gui& gui) {
     if (!state.reference.empty() && !state.referenceFits) text += " (of another view or size)";
     if (state.isReferenceRender) text = "Reference: being rendered";
     if (state.relmse) text += std::string("   relMSE ") + (state.curve.empty() ? "~" : "") + scientific(*state.relmse);
-    ImGui::AlignTextToFramePadding();
+    ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
     int spp = static_cast<int>(gui.referenceSpp);
     if (ImGui::InputInt("##referencespp", &spp, 0))
         gui.referenceSpp = static_cast<std::uint32_t>(std::clamp(spp, 16, 1 << 24));
     tooltip("Samples per pixel of the reference");
-    ImGui::SameLine(0, space);
+    besideIfItFits(buttonWidth("Render reference"));
     if (button("Render reference",
                "With these samples per pixel, the present scene, camera and size. Stop gives it up.",
                !state.isReferenceRender)) {
         gui.session.renderReference(gui.referenceSpp);
     }
-    ImGui::SameLine(0, space);
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 9);
+    const float field = ImGui::GetFontSize() * 10;
+    besideIfItFits(field + space + buttonWidth("Load"));
+    ImGui::SetNextItemWidth(field);
     const bool entered = inputText("##referencefile", ".exr, .hdr or .pfm file", gui.referencePath);
-    ImGui::SameLine(0, space);
+    besideIfItFits(buttonWidth("Load"));
     if ((button("Load", "A linear image of the present size", !gui.referencePath.empty()) || entered) &&
         !gui.referencePath.empty()) {
         gui.session.loadReference(gui.referencePath);
@@ -175,29 +178,36 @@ std::vector<ChartSeries> makeSeries(Gui& gui, const std::vector<const RunRecord*
     return series;
 }
 
+void drawChart(Gui& gui, const std::vector<const RunRecord*>& runs, ImVec2 size) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    gui.chart = {corner.x, corner.y, size.x, size.y};
+    drawLogLogChart("##chart", "seconds", "relMSE", makeSeries(gui, runs), size);
+}
+
 } // namespace
 
 void drawComparisonPanel(Gui& gui) {
     const std::vector<const RunRecord*> runs = chosenRuns(gui);
     const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float space = ImGui::GetStyle().ItemSpacing.x;
-    const float chart = std::floor(0.4f * all.x);
-    ImGui::BeginChild("##left", {all.x - chart - space, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
+    const bool isNarrow = all.x < kNarrow * font; // the chart is below, not beside
+    const ImVec2 chart = isNarrow ? ImVec2{0, kLeastHeight * font} : ImVec2{std::floor(0.4f * all.x), all.y};
+    ImGui::BeginChild("##left", {isNarrow ? 0 : all.x - chart.x - space, 0}, false);
     drawReference(gui);
     ImGui::Checkbox("This scene only", &gui.onlyThisScene);
-    ImGui::SameLine(0, 2 * space);
+    besideIfItFits(buttonWidth("Export CSV"));
     if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
-    ImGui::SameLine(0, space);
+    besideIfItFits(buttonWidth("Export PNG"));
     if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(speedUp(runs).c_str());
     ImGui::PopTextWrapPos();
-    drawTable(runs, {0, std::max(1.0f, ImGui::GetContentRegionAvail().y)});
+    drawTable(runs, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
+    if (isNarrow) drawChart(gui, runs, {ImGui::GetContentRegionAvail().x, chart.y});
     ImGui::EndChild();
+    if (isNarrow) return;
     ImGui::SameLine(0, space);
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    gui.chart = {corner.x, corner.y, chart, ImGui::GetContentRegionAvail().y};
-    drawLogLogChart("##chart", "seconds", "relMSE", makeSeries(gui, runs), {chart, ImGui::GetContentRegionAvail().y});
+    drawChart(gui, runs, chart);
 }
 
 } // namespace rt::gui

@@ -16,9 +16,9 @@ using Devices = std::vector<EngineDevice>;
 constexpr app::Named<app::Policy> kPolicyNames[] = {{"Multi core: par", app::Policy::Par},
                                                     {"Multi core: par_unseq", app::Policy::ParUnseq},
                                                     {"Single core: seq", app::Policy::Seq}};
-constexpr app::Named<GpuEngineKind> kKindNames[] = {{"auto", GpuEngineKind::Auto},
-                                                    {"pipeline: Vulkan ray tracing", GpuEngineKind::Pipeline},
-                                                    {"compute: a tree of our own", GpuEngineKind::Compute}};
+constexpr app::Named<GpuEngineKind> kKindNames[] = {{"Automatic", GpuEngineKind::Auto},
+                                                    {"Ray tracing pipeline", GpuEngineKind::Pipeline},
+                                                    {"Compute shaders", GpuEngineKind::Compute}};
 
 Devices::const_iterator find(const Devices& devices, const std::string& request) {
     return std::find_if(devices.begin(), devices.end(), [&](const EngineDevice& d) { return d.request == request; });
@@ -39,8 +39,8 @@ void drawProcessor(EngineChoice& engine) {
 void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
     row("Engine",
         "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
-        "own, "
-        "which needs no such pipeline. auto takes the one that serves the device best. The picture is the same");
+        "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
+        "same");
     std::string shown = app::nameOf(kKindNames, engine.kind);
     if (engine.kind == GpuEngineKind::Auto && state.engine == engine) shown += " (" + state.report.engine + ")";
     if (!ImGui::BeginCombo("##engine", shown.c_str())) return;

@@ -35,6 +35,8 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},
     {"Ctrl + plus, minus", "larger, smaller interface"},
     {"Arrows, Tab, Enter", "walk through controls and use them"},
+    {"Ctrl + click, on a slider", "type its value"},
+    {"Escape", "leave a field, a menu, the controls"},
 };
 
 } // namespace

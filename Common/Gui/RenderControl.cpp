@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "Common/Gui/Panels.h"
@@ -42,26 +43,27 @@ std::string timeLeft(const app::SessionState& state) {
     const double rate = static_cast<double>(status.samplesDone) / state.renderSeconds;
     const auto left =
         static_cast<double>(status.samplesTotal - std::min(status.samplesTotal, status.samplesDone)) / rate;
-    return shortDuration(left) + " left";
+    return roughDuration(left) + " left";
 }
 
 } // namespace
 
 void drawRenderControl(Gui& gui) {
     const app::SessionState& state = gui.state;
-    const float space = ImGui::GetStyle().ItemSpacing.x;
-    const float width = (ImGui::GetContentRegionAvail().x - 3 * space) / 4;
+    const float space = ImGui::GetStyle().ItemSpacing.x, all = ImGui::GetContentRegionAvail().x;
+    const float columns = 4 * buttonWidth("Render") + 3 * space <= all ? 4.0f : 2.0f;
+    const float width = std::floor((all - (columns - 1) * space) / columns);
     const bool isPreview = state.picture.isPreview;
     const bool rendering = !isPreview && state.activity == Activity::Rendering;
     const bool paused = !isPreview && state.activity == Activity::Paused;
     if (button("Render", "Renders from the beginning, or goes on after a pause (Space)", !rendering, width)) {
         isPreview ? gui.setRayTracing(true) : gui.session.render();
     }
-    ImGui::SameLine(0, space);
+    besideIfItFits(width);
     if (button("Pause", "Holds the render; Render goes on (Space)", rendering, width)) gui.session.pause();
-    ImGui::SameLine(0, space);
+    besideIfItFits(width);
     if (button("Stop", "Ends the render; what there is of it stays", rendering || paused, width)) gui.session.stop();
-    ImGui::SameLine(0, space);
+    besideIfItFits(width);
     if (button("Reset", "Throws the samples away and renders from the beginning", !isPreview, width)) {
         gui.session.reset();
     }
@@ -81,19 +83,21 @@ void drawRenderControl(Gui& gui) {
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
     if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview)
         line += ", " + left;
-    ImGui::TextDisabled("%s", line.c_str());
+    note(line);
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
+        ImGui::PushTextWrapPos(0);
         ImGui::Text("Last rendering time: %.1f ms", 1000 * run.seconds.render);
         tooltip("Wall time of sampling alone, as in the statistics of a render without a window");
         ImGui::Text("%s, %llu spp", durationText(run.seconds.render).c_str(), static_cast<unsigned long long>(run.spp));
-        ImGui::TextDisabled("%s", ("load " + shortDuration(run.seconds.load) + ", build " +
-                                   shortDuration(run.accelBuild) + ", pipeline " + shortDuration(run.pipeline))
-                                      .c_str());
+        ImGui::PopTextWrapPos();
+        note("load " + shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
+             ", render " + shortDuration(run.seconds.render));
+        tooltip(("Build: the scene's tree " + shortDuration(run.accelBuild) + ", pipelines of shaders " +
+                 shortDuration(run.pipeline))
+                    .c_str());
     } else {
-        ImGui::TextDisabled("Last rendering time: none yet");
-        ImGui::TextDisabled(" ");
-        ImGui::TextDisabled(" ");
+        note("Last rendering time: none yet\n\n");
     }
     ImGui::Separator();
 }

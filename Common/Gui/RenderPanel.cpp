@@ -98,10 +98,9 @@ void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
               "surface (projected), or on its area; automatic chooses",
               kFlatNames, settings.triangleLight);
     }
-    checkbox("Unidirectional light",
-             "One-sided lights: flat lights emit from their front only. Off: from both sides. A light whose scene says "
-             "which "
-             "side it emits from is not concerned.",
+    checkbox("One-sided lights",
+             "Flat lights emit from their front only, the predecessors' 'unidirectional light'. Off: from both sides. "
+             "A light whose scene says which side it emits from is not concerned",
              request.oneSidedLights);
 }
 

@@ -161,6 +161,16 @@ bool checkbox(const char* label, const char* tip, bool& value) {
     return changed;
 }
 
+void besideIfItFits(float width) {
+    const float space = ImGui::GetStyle().ItemSpacing.x;
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ImGui::GetItemRectMax().x + space + width <= right) ImGui::SameLine(0, space);
+}
+
+float buttonWidth(const char* label) {
+    return ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x;
+}
+
 bool button(const char* label, const char* tip, bool enabled, float width) {
     if (!enabled) ImGui::BeginDisabled();
     const bool pressed = ImGui::Button(label, {width, 0});
@@ -188,8 +198,13 @@ std::string durationText(double seconds) {
 }
 
 std::string shortDuration(double seconds) {
-    if (seconds < 1) return format("%.3g ms", seconds * 1000);
+    if (seconds < 1) return format("%.3g ms", std::round(seconds * 1e5) / 100); // nothing below 0.01 ms
     if (seconds < 60) return format("%.2f s", seconds);
+    return roughDuration(seconds);
+}
+
+std::string roughDuration(double seconds) {
+    if (seconds < 60) return format("%.0f s", std::ceil(seconds));
     const auto all = static_cast<long long>(std::min(seconds, 1e12));
     if (all < 3600) return format("%lld:%02lld min", all / 60, all % 60);
     return format("%lld:%02lld:%02lld h", all / 3600, all / 60 % 60, all % 60);

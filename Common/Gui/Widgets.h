@@ -46,6 +46,10 @@ bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], 
     return changed;
 }
 
+// What follows, which is so wide, stands beside the item before if there is room, else below.
+void besideIfItFits(float width);
+// How wide a button of that label is.
+float buttonWidth(const char* label);
 // A button that is grey where it has nothing to do.
 bool button(const char* label, const char* tip, bool enabled, float width = 0);
 
@@ -54,6 +58,7 @@ std::string withPrefix(double value);
 std::string bytesText(std::uint64_t bytes);
 // "0 h 0 min 1 s 234 ms"
 std::string durationText(double seconds);
-std::string shortDuration(double seconds); // "12.3 ms", "4.56 s", "1:23:45"
+std::string shortDuration(double seconds); // "12.3 ms", "4.56 s", "1:23:45 h"
+std::string roughDuration(double seconds); // "5 s", "1:23:45 h"
 
 } // namespace rt::gui
