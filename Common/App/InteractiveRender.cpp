@@ -238,6 +238,7 @@ RunRecord InteractiveSession::makeRecord() const {
 void InteractiveSession::publish() {
     if (isPreviewing()) return;
     const Stopwatch watch;
+    const auto viewBefore = featureView_;
     const image::Film& film = engine_->film();
     auto radiance = std::make_shared<image::Image>(film.resolve());
     Picture picture;
@@ -269,7 +270,7 @@ void InteractiveSession::publish() {
         state.curve = curve_;
     });
     noteAnswer();
-    publishSeconds_ = watch.seconds();
+    if (featureView_ == viewBefore) publishSeconds_ = watch.seconds(); // a view that was made now does not come again
     publishedSamples_ = status_.samplesDone;
     sincePublished_ = {};
 }

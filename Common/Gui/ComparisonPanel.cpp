@@ -15,7 +15,7 @@ namespace rt::gui {
 namespace {
 
 constexpr std::size_t kMostRows = 200;
-constexpr float kNarrow = 24, kLeastHeight = 7; // of the panel; of table and chart: in heights of the font
+constexpr float kNarrow = 34, kLeastHeight = 7; // of the panel; of table and chart: in heights of the font
 // Told apart with any colour vision (Okabe and Ito).
 constexpr ImU32 kCpuColor = IM_COL32(230, 159, 0, 255);
 constexpr ImU32 kGpuColor = IM_COL32(86, 180, 233, 255);
@@ -130,10 +130,14 @@ void drawReference(Gui& gui) {
     std::string text = state.reference.empty() ? "Reference: none" : "Reference: " + state.reference;
     if (!state.reference.empty() && !state.referenceFits) text += " (of another view or size)";
     if (state.isReferenceRender) text = "Reference: being rendered";
-    if (state.relmse) text += std::string("   relMSE ") + (state.curve.empty() ? "~" : "") + scientific(*state.relmse);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
+    if (state.relmse) {
+        const std::string error = (state.curve.empty() ? "relMSE ~" : "relMSE ") + scientific(*state.relmse);
+        besideIfItFits(ImGui::CalcTextSize(error.c_str()).x);
+        ImGui::TextUnformatted(error.c_str());
+    }
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
     int spp = static_cast<int>(gui.referenceSpp);
     if (ImGui::InputInt("##referencespp", &spp, 0))

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "Common/Gui/Panels.h"
+#include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
@@ -9,7 +10,7 @@ namespace {
 constexpr double kToastSeconds = 5;
 constexpr double kPatience = 0.3; // seconds before the user is told what takes so long
 
-void drawBox(const char* name, const Rect& area, float y, float pivot, const std::string& text, bool isError) {
+void drawBox(const char* name, const Rect& area, float y, float pivot, const std::string& text, const ImVec4& color) {
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                         ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
                                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
@@ -17,9 +18,9 @@ void drawBox(const char* name, const Rect& area, float y, float pivot, const std
     ImGui::SetNextWindowBgAlpha(0.92f);
     ImGui::Begin(name, nullptr, kFlags);
     ImGui::PushTextWrapPos(std::max(80.0f, 0.8f * area.width));
-    if (isError) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4{0.95f, 0.38f, 0.33f, 1});
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextUnformatted(text.c_str());
-    if (isError) ImGui::PopStyleColor();
+    ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     ImGui::End();
 }
@@ -33,12 +34,14 @@ void drawOverlay(const Gui& gui, const Rect& area, float scale) {
         ImGui::EndTooltip();
     }
     const float margin = 12 * scale;
+    const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
     if (!gui.state.stage.empty() && gui.state.stageSeconds > kPatience) {
         const std::string text = gui.state.stage + " ... " + shortDuration(gui.state.stageSeconds);
-        drawBox("##stage", area, area.y + margin, 0, text, false);
+        drawBox("##stage", area, area.y + margin, 0, text, plain);
     }
     if (!gui.toast.empty() && ImGui::GetTime() - gui.toastTime < kToastSeconds) {
-        drawBox("##toast", area, area.y + area.height - margin, 1, gui.toast, gui.toastIsError);
+        drawBox("##toast", area, area.y + area.height - margin, 1, gui.toast,
+                gui.toastIsError ? errorColor(gui.settings.colorMode) : plain);
     }
 }
 

@@ -83,7 +83,7 @@ void drawRenderControl(Gui& gui) {
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
     if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview)
         line += ", " + left;
-    note(line);
+    ImGui::TextDisabled("%s", line.c_str()); // a long one is cut: nothing moves
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
         ImGui::PushTextWrapPos(0);
@@ -97,7 +97,8 @@ void drawRenderControl(Gui& gui) {
                  shortDuration(run.pipeline))
                     .c_str());
     } else {
-        note("Last rendering time: none yet\n\n");
+        for (const char* text : {"Last rendering time: none yet", " ", " "})
+            note(text); // nothing moves when there is one
     }
     ImGui::Separator();
 }

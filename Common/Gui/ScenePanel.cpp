@@ -3,6 +3,7 @@
 #include <string>
 
 #include "Common/Gui/Panels.h"
+#include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/BuiltinScenes.h"
 
@@ -106,7 +107,7 @@ void drawScenePanel(Gui& gui) {
     }
     if (gui.state.scene) {
         for (const std::string& notice : gui.state.scene->notices) {
-            ImGui::PushStyleColor(ImGuiCol_Text, ImVec4{0.90f, 0.62f, 0.10f, 1});
+            ImGui::PushStyleColor(ImGuiCol_Text, noticeColor(gui.settings.colorMode));
             ImGui::PushTextWrapPos(0);
             ImGui::TextUnformatted(("Notice: " + notice).c_str());
             ImGui::PopTextWrapPos();

@@ -7,7 +7,7 @@ namespace {
 
 // Of which every colour of a mode is made.
 struct Palette {
-    ImVec4 text, dim, window, field, line, accent, accentText;
+    ImVec4 text, dim, window, field, line, accent, accentText, error, notice;
 };
 
 const Palette kDark{{0.90f, 0.91f, 0.92f, 1},
@@ -16,16 +16,21 @@ const Palette kDark{{0.90f, 0.91f, 0.92f, 1},
                     {0.185f, 0.195f, 0.22f, 1},
                     {0.28f, 0.29f, 0.33f, 1},
                     {0.27f, 0.53f, 0.88f, 1},
-                    {1, 1, 1, 1}};
+                    {1, 1, 1, 1},
+                    {0.95f, 0.38f, 0.33f, 1},
+                    {0.90f, 0.62f, 0.10f, 1}};
 const Palette kLight{{0.10f, 0.11f, 0.13f, 1},
                      {0.42f, 0.44f, 0.48f, 1},
                      {0.955f, 0.96f, 0.965f, 1},
                      {0.87f, 0.88f, 0.895f, 1},
                      {0.74f, 0.76f, 0.79f, 1},
                      {0.16f, 0.44f, 0.83f, 1},
-                     {1, 1, 1, 1}};
-const Palette kHighContrast{{1, 1, 1, 1}, {0.86f, 0.86f, 0.86f, 1}, {0, 0, 0, 1}, {0.10f, 0.10f, 0.10f, 1},
-                            {1, 1, 1, 1}, {1.0f, 0.85f, 0.0f, 1},   {0, 0, 0, 1}};
+                     {1, 1, 1, 1},
+                     {0.70f, 0.10f, 0.08f, 1},
+                     {0.52f, 0.33f, 0, 1}};
+const Palette kHighContrast{{1, 1, 1, 1},          {0.86f, 0.86f, 0.86f, 1}, {0, 0, 0, 1}, {0.10f, 0.10f, 0.10f, 1},
+                            {1, 1, 1, 1},          {1.0f, 0.85f, 0.0f, 1},   {0, 0, 0, 1}, {1.0f, 0.5f, 0.45f, 1},
+                            {1.0f, 0.85f, 0.0f, 1}};
 
 const Palette& palette(app::ColorMode mode) {
     switch (mode) {
@@ -107,6 +112,13 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode) {
     c[ImGuiCol_TextSelectedBg] = faded(p.accent, 0.45f);
     c[ImGuiCol_NavHighlight] = p.accent;
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.5f};
+}
+
+ImVec4 errorColor(app::ColorMode mode) {
+    return palette(mode).error;
+}
+ImVec4 noticeColor(app::ColorMode mode) {
+    return palette(mode).notice;
 }
 
 Rgb surroundColor(app::ColorMode mode) {

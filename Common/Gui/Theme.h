@@ -3,10 +3,15 @@
 #include "Common/App/GuiSettings.h"
 
 struct ImGuiStyle;
+struct ImVec4;
 
 namespace rt::gui {
 
 void applyTheme(ImGuiStyle& style, app::ColorMode mode);
+
+// Of texts that tell of a failure, and of something to know.
+ImVec4 errorColor(app::ColorMode mode);
+ImVec4 noticeColor(app::ColorMode mode);
 
 // What surrounds the picture, sRGB.
 struct Rgb {
