@@ -15,6 +15,7 @@
 #include "Common/Gui/PictureArea.h"
 #include "Common/Gui/Presenter.h"
 #include "Common/Gui/SavePaths.h"
+#include "Common/Gui/SessionLink.h"
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/Snapshot.h"
 #include "Common/Gui/TurnMeter.h"
@@ -30,19 +31,10 @@ constexpr double kBusySeconds = 0.01; // between two looks for something new of 
 constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
 constexpr double kLongestStep = 0.1;  // seconds of flight in one frame
 
-// Those that the program was asked for when it was started.
-app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings) {
-    return {options.outputs, options.aovs, options.stats, settings.exposure, settings.tonemap};
-}
-
-std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings) {
-    if (options.outputs.empty() && options.stats.empty()) return std::nullopt;
-    return filesOf(options, settings);
-}
-
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
-                                            const app::GuiSettings& settings, const GraphicsDevice& device,
+                                            app::GuiSettings& settings, const GraphicsDevice& device,
                                             app::RunHistory& history, std::atomic<bool>& isNews) {
+    settings.engine = servedChoice(settings.engine, program.devices, options); // what this machine has
     app::InteractiveSession::Setup setup;
     setup.options = options;
     setup.makeEngine = program.makeEngine;
@@ -71,10 +63,6 @@ class App {
           presenter_(device_, window_),
           imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options.program)),
           history_(app::RunHistory::userFile()),
-          sentRequest_(settings_.request),
-          sentEngine_(settings_.engine = servedChoice(settings_.engine, program.devices, options)),
-          sentRayTracing_(settings_.rayTracing),
-          sentEnd_(endFiles(options, settings_)),
           session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
                program.devices} {
@@ -87,8 +75,6 @@ class App {
     bool isAwake();
     void wait();
     void turn();
-    void takeState();
-    void sendChanges();
     void save();
     void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
     void drawFrame(double seconds);
@@ -105,20 +91,12 @@ class App {
     Thumbnails thumbnails_{device_, presenter_.renderPass()};
     app::RunHistory history_;
     app::CameraController camera_;
-    app::RenderRequest sentRequest_;
-    app::EngineChoice sentEngine_;
-    bool sentRayTracing_;
-    scene::CameraDesc sentCamera_;
-    app::ViewRequest sentView_;
-    const image::Image* shownHeld_ = nullptr;
-    std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
-    std::atomic<bool> isNews_{false};         // there is something new of the session
+    std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
     Gui gui_;
     PictureArea picture_{gui_};
+    SessionLink link_{options_, gui_, presenter_};
 
-    std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
-    std::uint64_t engineFailures_ = 0;
     std::vector<std::string> dropped_;
     app::Stopwatch sinceInput_, sinceFrame_;
     TurnMeter meter_;
@@ -159,7 +137,7 @@ void App::wait() {
 
 void App::turn() {
     const app::Stopwatch busy;
-    takeState();
+    link_.take();
     if (!dropped_.empty()) {
         gui_.openScene(dropped_.front());
         dropped_.clear();
@@ -173,7 +151,7 @@ void App::turn() {
         return;
     }
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
-    sendChanges();
+    link_.send();
     if (gui_.saveRequested) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
@@ -185,77 +163,6 @@ void App::turn() {
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);
     kept_.keepChanges(window_);
-}
-
-void App::takeState() {
-    gui_.state = session_.state();
-    const app::SessionState& state = gui_.state;
-    if (state.fatal) std::rethrow_exception(state.fatal);
-    if (state.engineFailures != engineFailures_) {
-        engineFailures_ = state.engineFailures;
-        settings_.engine = state.engine;
-    }
-    if (state.sceneSerial != sceneSerial_) {
-        sceneSerial_ = state.sceneSerial;
-        camera_.setHome(state.scene->camera);
-        sentCamera_ = state.scene->camera;
-        window_.setTitle(state.scene->title + " - " + options_.program);
-    }
-    if (!state.source.empty()) settings_.scene = state.source;
-    if (state.focusSerial != focusSerial_) {
-        focusSerial_ = state.focusSerial;
-        camera_.focusAt(state.focusDistance, 1);
-    }
-    if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
-        gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to compare with any more
-    }
-    if (state.picture.image && state.picture.serial != pictureSerial_) {
-        pictureSerial_ = state.picture.serial;
-        presenter_.setPicture(state.picture.image);
-    }
-    if (!options_.reference.empty() && state.picture.spp > 0) { // there is something to compare with
-        session_.loadReference(options_.reference);
-        options_.reference.clear();
-    }
-    if (state.errorSerial != errorSerial_) {
-        errorSerial_ = state.errorSerial;
-        gui_.say(state.error, true);
-    }
-    if (state.messageSerial != messageSerial_) {
-        messageSerial_ = state.messageSerial;
-        gui_.say(state.message, false);
-    }
-}
-
-void App::sendChanges() {
-    if (settings_.request != sentRequest_) {
-        sentRequest_ = settings_.request;
-        session_.change(sentRequest_);
-    }
-    if (settings_.engine != sentEngine_) {
-        sentEngine_ = settings_.engine;
-        session_.choose(sentEngine_);
-    }
-    if (settings_.rayTracing != sentRayTracing_) {
-        sentRayTracing_ = settings_.rayTracing;
-        session_.preview(!sentRayTracing_);
-    }
-    if (gui_.viewRequest != sentView_) {
-        sentView_ = gui_.viewRequest;
-        session_.view(sentView_);
-    }
-    if (const app::SaveRequest end = filesOf(options_, settings_); sentEnd_ && end != *sentEnd_) {
-        sentEnd_ = end;
-        session_.writeAtEnd(end);
-    }
-    if (gui_.held.get() != shownHeld_) {
-        shownHeld_ = gui_.held.get();
-        if (gui_.held) presenter_.setHeld(gui_.held);
-    }
-    if (sceneSerial_ > 0 && camera_.camera() != sentCamera_) {
-        sentCamera_ = camera_.camera();
-        session_.moveCamera(sentCamera_, sceneSerial_);
-    }
 }
 
 void App::save() {

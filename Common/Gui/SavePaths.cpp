@@ -43,4 +43,13 @@ std::vector<std::string> savePaths(const std::string& folder, const app::Session
     }
 }
 
+app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings) {
+    return {options.outputs, options.aovs, options.stats, settings.exposure, settings.tonemap};
+}
+
+std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings) {
+    if (options.outputs.empty() && options.stats.empty()) return std::nullopt;
+    return filesOf(options, settings);
+}
+
 } // namespace rt::gui

@@ -1,0 +1,90 @@
+#include "Common/Gui/SessionLink.h"
+
+#include <exception>
+
+#include "Common/Gui/SavePaths.h"
+
+namespace rt::gui {
+
+SessionLink::SessionLink(const app::Options& options, Gui& gui, Presenter& presenter)
+    : options_(options),
+      gui_(gui),
+      presenter_(presenter),
+      reference_(options.reference),
+      sentRequest_(gui.settings.request),
+      sentEngine_(gui.settings.engine),
+      sentRayTracing_(gui.settings.rayTracing),
+      sentEnd_(endFiles(options, gui.settings)) {}
+
+void SessionLink::take() {
+    gui_.state = gui_.session.state();
+    const app::SessionState& state = gui_.state;
+    if (state.fatal) std::rethrow_exception(state.fatal);
+    if (state.engineFailures != engineFailures_) {
+        engineFailures_ = state.engineFailures;
+        gui_.settings.engine = state.engine;
+    }
+    if (state.sceneSerial != sceneSerial_) {
+        sceneSerial_ = state.sceneSerial;
+        gui_.camera.setHome(state.scene->camera);
+        sentCamera_ = state.scene->camera;
+        gui_.window.setTitle(state.scene->title + " - " + options_.program);
+    }
+    if (!state.source.empty()) gui_.settings.scene = state.source;
+    if (state.focusSerial != focusSerial_) {
+        focusSerial_ = state.focusSerial;
+        gui_.camera.focusAt(state.focusDistance, 1);
+    }
+    if (gui_.viewRequest.mode == app::ViewMode::Error && !state.referenceFits && !state.isReferenceRender) {
+        gui_.viewRequest.mode = app::ViewMode::Picture; // there is nothing to compare with any more
+    }
+    if (state.picture.image && state.picture.serial != pictureSerial_) {
+        pictureSerial_ = state.picture.serial;
+        presenter_.setPicture(state.picture.image);
+    }
+    if (!reference_.empty() && state.picture.spp > 0) { // there is something to compare with
+        gui_.session.loadReference(reference_);
+        reference_.clear();
+    }
+    if (state.errorSerial != errorSerial_) {
+        errorSerial_ = state.errorSerial;
+        gui_.say(state.error, true);
+    }
+    if (state.messageSerial != messageSerial_) {
+        messageSerial_ = state.messageSerial;
+        gui_.say(state.message, false);
+    }
+}
+
+void SessionLink::send() {
+    if (gui_.settings.request != sentRequest_) {
+        sentRequest_ = gui_.settings.request;
+        gui_.session.change(sentRequest_);
+    }
+    if (gui_.settings.engine != sentEngine_) {
+        sentEngine_ = gui_.settings.engine;
+        gui_.session.choose(sentEngine_);
+    }
+    if (gui_.settings.rayTracing != sentRayTracing_) {
+        sentRayTracing_ = gui_.settings.rayTracing;
+        gui_.session.preview(!sentRayTracing_);
+    }
+    if (gui_.viewRequest != sentView_) {
+        sentView_ = gui_.viewRequest;
+        gui_.session.view(sentView_);
+    }
+    if (const app::SaveRequest end = filesOf(options_, gui_.settings); sentEnd_ && end != *sentEnd_) {
+        sentEnd_ = end;
+        gui_.session.writeAtEnd(end);
+    }
+    if (gui_.held.get() != shownHeld_) {
+        shownHeld_ = gui_.held.get();
+        if (gui_.held) presenter_.setHeld(gui_.held);
+    }
+    if (sceneSerial_ > 0 && gui_.camera.camera() != sentCamera_) {
+        sentCamera_ = gui_.camera.camera();
+        gui_.session.moveCamera(sentCamera_, sceneSerial_);
+    }
+}
+
+} // namespace rt::gui

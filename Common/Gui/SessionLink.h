@@ -1,0 +1,40 @@
+// Between the interface and the session that renders: what has come about there is shown, what was changed here is sent, each
+// of it once.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "Common/App/Options.h"
+#include "Common/Gui/Gui.h"
+#include "Common/Gui/Presenter.h"
+
+namespace rt::gui {
+
+class SessionLink {
+  public:
+    // The session has been given the settings as they are.
+    SessionLink(const app::Options& options, Gui& gui, Presenter& presenter);
+
+    void take(); // the state of a frame, with what follows from it. Throws what is fatal to the session
+    void send();
+
+  private:
+    const app::Options& options_;
+    Gui& gui_;
+    Presenter& presenter_;
+    std::string reference_; // to be loaded when there is something to compare with; empty: none or done
+
+    std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
+    std::uint64_t engineFailures_ = 0;
+
+    app::RenderRequest sentRequest_;
+    app::EngineChoice sentEngine_;
+    bool sentRayTracing_;
+    scene::CameraDesc sentCamera_;
+    app::ViewRequest sentView_;
+    const image::Image* shownHeld_ = nullptr;
+    std::optional<app::SaveRequest> sentEnd_; // none where the program was not asked for files
+};
+
+} // namespace rt::gui
