@@ -39,11 +39,12 @@ bool drawChoice(Gui& gui, const scene::BuiltinScene& scene, bool selected) {
 
 void drawSceneCombo(Gui& gui) {
     const std::string title = gui.state.scene ? gui.state.scene->title : "...";
-    row("Scene", "Keys 1 to 9 choose the first nine, Page Up and Page Down the one before and behind");
+    ImGui::SetNextItemWidth(-1); // without a label: titles are long
     const float font = ImGui::GetFontSize();
     const ImVec2 most{36 * font, 0.8f * ImGui::GetMainViewport()->Size.y};
     ImGui::SetNextWindowSizeConstraints({std::min(most.x, 0.9f * ImGui::GetMainViewport()->Size.x), 0}, most);
-    if (!ImGui::BeginCombo("##scene", title.c_str())) return;
+    const bool isOpen = ImGui::BeginCombo("##scene", title.c_str());
+    if (!isOpen) return tooltip("Keys 1 to 9 choose the first nine, Page Up and Page Down the one before and behind");
     for (const scene::BuiltinScene& scene : scene::builtinScenes()) {
         const bool selected = findBuiltin(gui.state.source) == &scene;
         if (drawChoice(gui, scene, selected)) gui.openScene(std::string(scene.id));
