@@ -11,6 +11,26 @@ namespace {
 
 using namespace rt::shared;
 
+// A sample that is not a number is dropped and counted, and stays in the divisor.
+RT_FN void addSample(const PathState& path, vec3& total, KernelCounters& counters) {
+    counters.scattered += path.vertex - 1u;
+    if (isFinite(path.radiance)) {
+        total += path.radiance;
+    } else {
+        ++counters.nonfinite;
+    }
+}
+
+// Adds what the shadow ray brings, if it arrives.
+template <std::uint32_t kFeatures>
+RT_FN void traceShadow(const CpuScene& scene, const DirectLight& direct, PathState& path, KernelCounters& counters) {
+    if (!(direct.distance > 0.0f)) return;
+    ++counters.shadow;
+    if (!isOccluded(scene, shadowRay(path, direct), direct.distance)) addDirectLight(kFeatures, scene, direct, path);
+}
+
+// ---- one path after the other ---------------------------------------------------------------------------------------
+
 // Advances the path by one vertex. False: it has ended and path.radiance is its estimate.
 template <std::uint32_t kFeatures>
 RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTable& numbers, PathState& path,
@@ -20,31 +40,155 @@ RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTabl
     DirectLight direct = noDirectLight();
     const bool goesOn =
         pathVertex(kFeatures, scene, context.params, smp, numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
-    if (direct.distance > 0.0f) {
-        ++counters.shadow;
-        if (!isOccluded(scene, shadowRay(path, direct), direct.distance))
-            addDirectLight(kFeatures, scene, direct, path);
-    }
+    traceShadow<kFeatures>(scene, direct, path, counters);
     return goesOn;
 }
 
 template <std::uint32_t kFeatures>
-void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum,
-                 KernelCounters& counters) {
-    vec3 total(sum[0], sum[1], sum[2]);
-    Sampler smp = makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
-    NumberTable numbers(smp, task.count, kFeatures);
-    for (std::uint32_t i = 0; i < task.count; ++i, ++smp.index) {
+RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, std::uint32_t count, vec3& total,
+                        KernelCounters& counters) {
+    NumberTable numbers(smp, count, kFeatures);
+    for (std::uint32_t i = 0; i < count; ++i, ++smp.index) {
         PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
         while (pathStep<kFeatures>(context, smp, numbers, path, counters)) {
         }
-        counters.scattered += path.vertex - 1u;
-        // A sample that is not a number is dropped and counted, and stays in the divisor.
-        if (isFinite(path.radiance)) {
-            total += path.radiance;
-        } else {
-            ++counters.nonfinite;
+        addSample(path, total, counters);
+    }
+}
+
+// ---- all paths of a pixel side by side ------------------------------------------------------------------------------
+// For scenes in which paths wait for memory: what one waits for arrives during the turns of the others.
+
+constexpr std::uint32_t kPaths = image::Film::kBlock;
+
+// A path, and the vertex at which it is.
+struct Flight {
+    PathState path;
+    Vertex vertex;
+    DirectLight direct;
+};
+
+// Some of the paths, by their places among all.
+struct FlightList {
+    std::uint32_t count = 0;
+    std::uint32_t places[kPaths] = {};
+    void add(std::uint32_t place) { places[count++] = place; }
+    const std::uint32_t* begin() const { return places; }
+    const std::uint32_t* end() const { return places + count; }
+};
+
+RT_FN Sampler samplerOf(Sampler first, std::uint32_t place) {
+    first.index += place;
+    return first;
+}
+
+// The first half of pathVertex(): what the path meets, up to where it scatters. False: it ends there.
+template <std::uint32_t kFeatures>
+RT_FN bool arrive(const CpuScene& scene, const RenderParams& params, const Sampler& smp, const VertexNumbers& numbers,
+                  Flight& f) {
+    PathState& s = f.path;
+    const Hit hit = traceRay(scene, s.ray);
+    uint medium = kNone;
+    float t = hit.t < 0.0f ? kInfinity : hit.t;
+    if (has(kFeatures, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
+    s.vertex++;
+    if (has(kFeatures, kFeatureVolumes) && medium != kNone) {
+        if (s.vertex >= params.maxDepth) return false;
+        f.vertex = mediumVertex(kFeatures, scene, s, t, medium);
+    } else {
+        if (hit.t < 0.0f) {
+            addSky(kFeatures, scene, params, s);
+            return false;
         }
+        const Surface surface = makeSurface(kFeatures, scene, s.ray, hit);
+        const Material material = loadMaterial(scene, surface.material);
+        addEmission(kFeatures, scene, params, surface, material, hit.t, s);
+        if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
+        f.vertex = surfaceVertex(kFeatures, scene, s, surface, material);
+    }
+    f.vertex.numbers = numbers;
+    s.last = lightContext(params, f.vertex);
+    return true;
+}
+
+// The choice among lights in a tree, which all paths go down level by level.
+template <std::uint32_t kFeatures>
+RT_FN void chooseLights(const CpuScene& scene, const Sampler& first, Flight* flights, const FlightList& list) {
+    TreeDescent descents[kPaths];
+    FlightList descending;
+    for (const std::uint32_t i : list) {
+        const Vertex& v = flights[i].vertex;
+        if (isDeltaVertex(kFeatures, v)) continue;
+        descents[i] = beginDescent(selectionNumbers(kFeatures, scene.globals, samplerOf(first, i), v));
+        descending.add(i);
+    }
+    while (descending.count > 0) {
+        FlightList next;
+        for (const std::uint32_t i : descending) {
+            LightContext& context = flights[i].path.last;
+            TreeDescent& d = descents[i];
+            descend(scene, context.position, context.normal, d);
+            if (d.child != kNone) expectLightChild(scene, d.child);
+            if (isAtNode(d)) {
+                next.add(i);
+            } else {
+                const TreeChoice drawn = endDescent(d);
+                context.total = drawn.total;
+                context.chosen = {drawn.light, drawn.probability, 0.0f};
+            }
+        }
+        descending = next;
+    }
+}
+
+template <std::uint32_t kFeatures>
+RT_CALL void tracePathsSideBySide(const KernelContext& context, uvec2 pixel, const Sampler& first, std::uint32_t count,
+                                  vec3& total, KernelCounters& counters) {
+    const CpuScene& scene = *context.scene;
+    const RenderParams& params = context.params;
+    NumberTable numbers(first, count, kFeatures);
+    Flight flights[kPaths];
+    FlightList going;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Sampler smp = samplerOf(first, i);
+        flights[i].path = startPath(kFeatures, params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
+        going.add(i);
+    }
+    while (going.count > 0) {
+        FlightList arrived;
+        for (const std::uint32_t i : going) {
+            Flight& f = flights[i];
+            const Sampler smp = samplerOf(first, i);
+            if (arrive<kFeatures>(scene, params, smp, numbers.vertexNumbers(smp, f.path.vertex), f)) arrived.add(i);
+        }
+        chooseLights<kFeatures>(scene, first, flights, arrived);
+        going.count = 0;
+        for (const std::uint32_t i : arrived) {
+            Flight& f = flights[i];
+            f.direct = noDirectLight();
+            if (scatter(kFeatures | kLightChosen, scene, params, samplerOf(first, i), f.vertex, f.path, f.direct))
+                going.add(i);
+        }
+        for (const std::uint32_t i : arrived) {
+            traceShadow<kFeatures>(scene, flights[i].direct, flights[i].path, counters);
+        }
+    }
+    for (std::uint32_t i = 0; i < count; ++i) addSample(flights[i].path, total, counters);
+}
+
+// ---- pixels and tiles -----------------------------------------------------------------------------------------------
+
+template <std::uint32_t kFeatures>
+void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum,
+                 KernelCounters& counters) {
+    const RenderParams& params = context.params;
+    const Sampler first = makeSampler(params, pixel.y * params.width + pixel.x, task.replicate, task.first);
+    vec3 total(sum[0], sum[1], sum[2]);
+    const bool descends = params.lightSampling == kSampleMis && params.lightSelection == kSelectContribution;
+    if (descends && usesLightTree(kFeatures, context.scene->globals.lightCount)) {
+        tracePathsSideBySide<kFeatures>(context, pixel, first, task.count, total, counters);
+    } else {
+        tracePaths<kFeatures>(context, pixel, first, task.count, total, counters);
     }
     for (int c = 0; c < 3; ++c) sum[c] = total[c];
 }

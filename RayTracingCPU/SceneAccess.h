@@ -90,6 +90,15 @@ RT_FN void expectLights(SceneRef scene, uint node) {
         accel::prefetch(light + sizeof(Light) - 1);
     }
 }
+// The same of what a descent has got to: a node's six lines, or a light.
+RT_FN void expectLightChild(SceneRef scene, uint child) {
+    const bool isNode = (child & kLightLeaf) == 0u;
+    const char* record = isNode ? reinterpret_cast<const char*>(scene.lightNodes + child)
+                                : reinterpret_cast<const char*>(scene.lights + (child & ~kLightLeaf));
+    const std::size_t bytes = isNode ? sizeof(LightNode) : sizeof(Light);
+    for (std::size_t i = 0; i < bytes; i += 64) accel::prefetch(record + i);
+    accel::prefetch(record + bytes - 1);
+}
 RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
     return scene.lightPlaces[scene.globals.lightCount + node];
 }

@@ -11,8 +11,10 @@ RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 norma
     vec3 v = c.center - position;
     float radius = abs(c.radius);
     float d2 = dot(v, v);
-    float inverse2 = 1.0f / max(d2, 0.25f * (radius * radius));
-    float inverse = sqrt(inverse2);
+    // Roots and quotients that do not wait for each other: a descent does one node after the other.
+    float reach2 = max(d2, 0.25f * (radius * radius));
+    float inverse2 = 1.0f / reach2;
+    float inverse = inverse2 * sqrt(reach2);
     float surface = isSurface(normal) ? 1.0f : 0.0f;
     float receiver = surface * (meanClamped(dot(normal, v), radius) * inverse) + (1.0f - surface);
     // The cosines under which the flat lights emit: their mean, as seen from the middle, and their maximum, with the
@@ -21,8 +23,9 @@ RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 norma
     float along = -dot(c.axis, v);
     float cosine = along * inverse;
     float sine = sqrt(max(d2 * 1.000001f - along * along, 0.0f)) * inverse; // not below the exact one
-    float fillSine = clamp(c.radius * inverse, 0.0f, 1.0f);
-    float fillCosine = sqrt((1.0f - fillSine) * (1.0f + fillSine));
+    float fill = max(c.radius, 0.0f);
+    float fillSine = min(fill * inverse, 1.0f);
+    float fillCosine = min(sqrt(max(d2 - fill * fill, 0.0f)) * inverse, 1.0f);
     float spreadSine = sqrt((1.0f - c.spreadCosine) * (1.0f + c.spreadCosine));
     float wideCosine = c.spreadCosine * fillCosine - spreadSine * fillSine;
     float wideSine = spreadSine * fillCosine + c.spreadCosine * fillSine;

@@ -12,19 +12,23 @@
 
 RT_SHARED_BEGIN
 
+struct LightChoice {
+    uint light;        // kNone: nothing to choose
+    float probability; // > 0 otherwise
+    float u;           // the number that chose, stretched to [0,1) for further use
+};
+
+// Added to `features` by those who have completed the context and made the choice before: it is LightContext::chosen.
+const uint kLightChosen = 1u << kFeatureBits;
+
 // Where lights are seen from. The point and the normal (zero in a medium) that selection and sampling used must also be
 // those that a density is asked for, or the weights of multiple importance sampling would not sum to one.
 struct LightContext {
     vec3 position;
     vec3 normal;
-    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy; // the selection in force: kSelect...
-};
-
-struct LightChoice {
-    uint light;        // kNone: nothing to choose
-    float probability; // > 0 otherwise
-    float u;           // the number that chose, stretched to [0,1) for further use
+    float total;        // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy;        // the selection in force: kSelect...
+    LightChoice chosen; // with kLightChosen, else undefined
 };
 
 // A table that `contribution` does not weigh light by light.
@@ -90,6 +94,7 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
 // Chooses among the lights proper by u.x, or in a tree by both numbers, and completes `context` with what
 // lightProbability needs.
 RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
+    if (has(features, kLightChosen)) return context.chosen;
     context.total = 0.0f;
     if (count > 0u && context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
     if (count > 0u && context.policy == kSelectUniform) return chooseUniformly(count, u.x);

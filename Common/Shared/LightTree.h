@@ -53,45 +53,76 @@ struct TreeChoice {
     float total; // weight of the root: 0 where no light at all can contribute
 };
 
-// Uses the numbers one after the other: each is stretched by choices until a thousandth is left of it, then the next
-// one serves; after both, hashes of them.
-RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, vec3 normal) {
-    TreeChoice choice;
-    choice.light = kNone;
-    choice.probability = 1.0f;
-    choice.total = 0.0f;
-    uint node = 0u;
-    uint used = 0u;
-    float u = numbers.x;
-    float left = 1.0f;
-    for (;;) {
-        expectLights(scene, node);
-        ClusterWeights w = loadClusterWeights(scene, node, position, normal);
-        ClusterSums sums = sumsOf(w);
-        float total = sums.before[kLightNodeChildren];
-        if (used == 0u && node == 0u) choice.total = total;
-        if (!(total > 0.0f)) return choice;
-        // The last child whose sum is not above the target: one of some weight, since the target is below the total.
-        float target = u * total;
-        uint chosen = 0u;
-        for (uint i = 1u; i < kLightNodeChildren; i++) chosen += sums.before[i] <= target ? 1u : 0u;
-        uint child = loadLightCluster(scene, node, chosen).child;
-        float share = w.weight[chosen] / total;
-        choice.probability *= share;
-        u = clamp((target - sums.before[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);
-        if ((child & kLightLeaf) != 0u) {
-            choice.light = child & ~kLightLeaf;
-            return choice;
-        }
-        node = child;
-        left *= share;
-        if (left < 1.0e-3f) {
-            used++;
-            left = 1.0f;
-            u = used == 1u ? numbers.y
-                           : toUniform(hash3(uvec3(floatBitsToUint(numbers.x), floatBitsToUint(numbers.y), used)).x);
-        }
+// On the way from the root to a light. Uses the numbers one after the other: each is stretched by choices until a thousandth
+// is left of it, then the next one serves; after both, hashes of them.
+struct TreeDescent {
+    uint child; // as in LightNode; kNone: it has ended where no light can contribute
+    float probability;
+    float total; // as in TreeChoice
+    float u;
+    float left;
+    uint used; // numbers
+    vec2 numbers;
+};
+
+RT_FN TreeDescent beginDescent(vec2 numbers) {
+    TreeDescent d;
+    d.child = 0u;
+    d.probability = 1.0f;
+    d.total = 0.0f;
+    d.u = numbers.x;
+    d.left = 1.0f;
+    d.used = 0u;
+    d.numbers = numbers;
+    return d;
+}
+
+RT_FN bool isAtNode(RT_IN(TreeDescent) d) {
+    return (d.child & kLightLeaf) == 0u;
+}
+
+// From a node to one of its children.
+RT_FN void descend(SceneRef scene, vec3 position, vec3 normal, RT_INOUT(TreeDescent) d) {
+    uint node = d.child;
+    ClusterWeights w = loadClusterWeights(scene, node, position, normal);
+    ClusterSums sums = sumsOf(w);
+    float total = sums.before[kLightNodeChildren];
+    if (node == 0u) d.total = total;
+    d.child = kNone;
+    if (!(total > 0.0f)) return;
+    // The last child whose sum is not above the target: one of some weight, since the target is below the total.
+    float target = d.u * total;
+    uint chosen = 0u;
+    for (uint i = 1u; i < kLightNodeChildren; i++) chosen += sums.before[i] <= target ? 1u : 0u;
+    d.child = loadLightCluster(scene, node, chosen).child;
+    float share = w.weight[chosen] / total;
+    d.probability *= share;
+    d.u = clamp((target - sums.before[chosen]) / w.weight[chosen], 0.0f, 0.999999940395355f);
+    d.left *= share;
+    if (d.left < 1.0e-3f) {
+        d.used++;
+        d.left = 1.0f;
+        d.u = d.numbers.y;
+        if (d.used > 1u)
+            d.u = toUniform(hash3(uvec3(floatBitsToUint(d.numbers.x), floatBitsToUint(d.numbers.y), d.used)).x);
     }
+}
+
+RT_FN TreeChoice endDescent(RT_IN(TreeDescent) d) {
+    TreeChoice choice;
+    choice.light = d.child == kNone ? kNone : d.child & ~kLightLeaf;
+    choice.probability = d.probability;
+    choice.total = d.total;
+    return choice;
+}
+
+RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, vec3 normal) {
+    TreeDescent d = beginDescent(numbers);
+    while (isAtNode(d)) {
+        expectLights(scene, d.child);
+        descend(scene, position, normal, d);
+    }
+    return endDescent(d);
 }
 
 // Probability with which chooseFromTree draws `light`: the product of the shares on the way from it to the root.

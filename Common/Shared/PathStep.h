@@ -323,7 +323,7 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
 RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     bool delta = isDeltaVertex(features, v);
-    s.last = lightContext(params, v);
+    if (!has(features, kLightChosen)) s.last = lightContext(params, v);
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
     if (lights && params.lightSampling == kSampleMis) direct = sampleDirectLight(features, scene, params, smp, v, s);
 
