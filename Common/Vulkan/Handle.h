@@ -1,12 +1,17 @@
 // Ownership of one Vulkan object.
 #pragma once
+#include <atomic>
 #include <utility>
 
 #include <vulkan/vulkan.h>
 
 namespace rt::vulkan {
 
-// Destroys the object with its device's function, unless empty.
+// The last device that was lost or does not answer. What it has is left to the operating system: drivers have been seen to
+// block or to crash when asked to free it.
+inline std::atomic<VkDevice> abandonedDevice{VK_NULL_HANDLE};
+
+// Destroys the object with its device's function, unless empty or of an abandoned device.
 template <class T>
 class Handle {
   public:
@@ -20,7 +25,7 @@ class Handle {
         return *this;
     }
     ~Handle() {
-        if (object_ != T{}) destroy_(device_, object_, nullptr);
+        if (object_ != T{} && device_ != abandonedDevice) destroy_(device_, object_, nullptr);
     }
 
     T get() const { return object_; }

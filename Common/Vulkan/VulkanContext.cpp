@@ -65,7 +65,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
 }
 
 VulkanContext::~VulkanContext() {
-    if (hangs_) {
+    if (device_ == abandonedDevice) {
         instance_.abandon();
         return;
     }
@@ -165,6 +165,8 @@ void VulkanContext::queryLimits() {
 }
 
 void VulkanContext::run(const std::function<void(VkCommandBuffer)>& record) {
+    // Its commands may still be in use.
+    if (device_ == abandonedDevice) throw DeviceLostError("Running on " + info_.name + ": the device was lost before");
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
@@ -178,16 +180,17 @@ void VulkanContext::submit(VkCommandBuffer commands) {
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     const VkFence fence = fence_.get();
-    check(vkQueueSubmit(queue_, 1, &submit, fence), "Running on " + info_.name);
+    const std::string what = "Running on " + info_.name;
+    const auto checkRun = [&](VkResult result) {
+        if (result == VK_TIMEOUT || result == VK_ERROR_DEVICE_LOST) abandonedDevice = device_;
+        if (result == VK_TIMEOUT) throw DeviceLostError(what + ": no answer for a minute; a newer driver may help");
+        check(result, what);
+    };
+    checkRun(vkQueueSubmit(queue_, 1, &submit, fence));
     const bool patient = info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    const VkResult result = vkWaitForFences(device_, 1, &fence, VK_TRUE,
-                                            patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
-    if (result == VK_TIMEOUT) {
-        hangs_ = true;
-        throw DeviceLostError("Running on " + info_.name + ": no answer for a minute; a newer driver may help");
-    }
-    check(result, "Running on " + info_.name);
-    check(vkResetFences(device_, 1, &fence), "Running on " + info_.name);
+    checkRun(vkWaitForFences(device_, 1, &fence, VK_TRUE,
+                             patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count()));
+    check(vkResetFences(device_, 1, &fence), what);
 }
 
 double VulkanContext::runTimed(const std::function<void(VkCommandBuffer)>& record) {

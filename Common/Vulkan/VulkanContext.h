@@ -97,7 +97,6 @@ class VulkanContext {
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     RayTracingFunctions rayTracing_;
-    bool hangs_ = false; // has not ended its work in time, and may never
     Handle<VkCommandPool> commandPool_;
     Handle<VkFence> fence_;
     Handle<VkQueryPool> timestamps_;
