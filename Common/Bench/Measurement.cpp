@@ -8,7 +8,8 @@
 namespace rt::bench {
 namespace {
 
-constexpr double kWarmUpSeconds = 0.3; // an idle H200 needs that until its clocks have risen
+constexpr double kWarmUpSeconds = 0.25;
+constexpr std::uint32_t kWarmUpSpp = 16;        // one block
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 
 app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
@@ -30,8 +31,7 @@ class Measurer {
 
     void warmUp() {
         app::Options options = options_;
-        options.settings.spp = kUnknownSpp;
-        options.settings.sppIsKnown = false;
+        options.settings.spp = kWarmUpSpp;
         options.timeLimit = kWarmUpSeconds;
         engine_.reset(scene_.camera, options.settings);
         app::renderUntilStopped(engine_, options, 0, stop_, progress_, [] {});
