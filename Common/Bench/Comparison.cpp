@@ -7,6 +7,7 @@
 #include "Common/Bench/Cells.h"
 #include "Common/Bench/ResultsJson.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Image/Summary.h"
 
 namespace rt::bench {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
 constexpr double kLeastTimeNoise = 0.05;
 constexpr double kLeastErrorNoise = 0.02;
+constexpr double kCloseRatio = 1.1;
 
 std::string keyOf(const Row& row) {
     const Figure step = row.timeBudget ? row.timeBudget : row.spp;
@@ -34,8 +36,12 @@ Figure ratio(const Figure& after, const Figure& before) {
 }
 
 Change compareRows(const Row& before, const Row& after) {
-    Change change{&before, &after, ratio(after.seconds, before.seconds), ratio(after.mse, before.mse),
-                  ratio(after.efficiency, before.efficiency)};
+    Change change{&before,
+                  &after,
+                  ratio(after.seconds, before.seconds),
+                  ratio(after.mse, before.mse),
+                  ratio(after.efficiency, before.efficiency),
+                  ratio(after.gain, before.gain)};
     const double timeNoise = std::max(kLeastTimeNoise, 2 * std::hypot(spread(before), spread(after)));
     const double noise = std::max(kLeastErrorNoise, std::hypot(errorNoise(before), errorNoise(after)));
     // With a time budget it is the samples that tell.
@@ -49,6 +55,20 @@ Change compareRows(const Row& before, const Row& after) {
         change.lessNoisy = *change.mse < 1 / (1 + noise);
     }
     return change;
+}
+
+// How far the rows of one run are from those of the other, all together.
+std::string repeatability(const std::string& what, const Comparison& comparison, Figure Change::*figure) {
+    std::vector<double> ratios;
+    for (const Change& change : comparison.changes)
+        if (change.*figure) ratios.push_back(*(change.*figure));
+    if (ratios.empty()) return "";
+    const auto close = std::count_if(ratios.begin(), ratios.end(),
+                                     [](double ratio) { return std::max(ratio, 1 / ratio) <= kCloseRatio; });
+    const image::Summary summary = image::summarise(ratios);
+    return what + " B/A: median " + threeDigits(summary.median) + ", from " + threeDigits(summary.min) + " to " +
+           threeDigits(summary.max) + ", " + std::to_string(close) + " of " + std::to_string(ratios.size()) +
+           " rows within 10 %. ";
 }
 
 } // namespace
@@ -91,8 +111,9 @@ Document describe(const Comparison& comparison, const Results& before, const Res
         machines.rows.push_back({fact.name, found == before.facts.end() ? "–" : found->value, fact.value});
     }
     document.push_back(machines);
-    Table table{{"experiment", "configuration", "spp", "s, A", "s, B", "time B/A", "mse B/A", "efficiency B/A", ""},
-                {}};
+    Table table{
+        {"experiment", "configuration", "spp", "s, A", "s, B", "time B/A", "mse B/A", "efficiency B/A", "gain B/A", ""},
+        {}};
     for (const Change& change : comparison.changes) {
         std::string configuration = change.after->config.scene;
         for (const Axis& axis : axes())
@@ -107,9 +128,12 @@ Document describe(const Comparison& comparison, const Results& before, const Res
         table.rows.push_back({change.after->experiment, configuration, threeDigits(change.after->spp),
                               threeDigits(change.before->seconds), threeDigits(change.after->seconds),
                               threeDigits(change.seconds), threeDigits(change.mse), threeDigits(change.efficiency),
-                              verdict});
+                              threeDigits(change.gain), verdict});
     }
     document.push_back(table);
+    const std::string together = repeatability("Efficiency", comparison, &Change::efficiency) +
+                                 repeatability("Gain over the baseline of the same run,", comparison, &Change::gain);
+    if (!together.empty()) document.push_back(Paragraph{together});
     document.push_back(Paragraph{std::to_string(comparison.regressions()) + " of " +
                                  std::to_string(comparison.changes.size()) + " rows are worse beyond noise; " +
                                  std::to_string(comparison.onlyBefore) + " are in A only, " +

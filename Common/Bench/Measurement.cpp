@@ -1,20 +1,43 @@
 #include "Common/Bench/Measurement.h"
 
+#include <algorithm>
+#include <functional>
 #include <ostream>
 
 #include "Common/App/Platform.h"
 #include "Common/App/RenderLoop.h"
+#include "Common/Image/Summary.h"
+#include "Common/Image/Summary.h"
 
 namespace rt::bench {
 namespace {
 
-constexpr double kWarmUpSeconds = 0.25;
+constexpr double kWarmUpSeconds = 0.25;         // at most
 constexpr std::uint32_t kWarmUpSpp = 16;        // one block
+constexpr double kDeviceWarmUpSeconds = 0.5;    // an idle GPU takes that long to raise its clocks
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
+constexpr double kTimedSeconds = 0.25;          // a run that takes less is timed again,
+constexpr std::size_t kMostPasses = 9;          // so many times at most
 
 app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
     return {a.camera + b.camera, a.scattered + b.scattered, a.shadow + b.shadow};
 }
+
+// Of one step, from run to run.
+struct Times {
+    std::vector<double> wall, device, processor;
+
+    void add(const Snapshot& snapshot) {
+        wall.push_back(snapshot.seconds);
+        device.push_back(snapshot.deviceSeconds);
+        processor.push_back(snapshot.processorSeconds);
+    }
+    void putMedians(Snapshot& snapshot) const {
+        snapshot.seconds = image::median(wall);
+        snapshot.deviceSeconds = image::median(device);
+        snapshot.processorSeconds = image::median(processor);
+    }
+};
 
 class Measurer {
   public:
@@ -30,28 +53,32 @@ class Measurer {
     }
 
     void warmUp() {
+        const bool device = engine_.report().threads == 0;
         app::Options options = options_;
-        options.settings.spp = kWarmUpSpp;
-        options.timeLimit = kWarmUpSeconds;
+        options.settings.spp = device ? kUnknownSpp : kWarmUpSpp;
+        options.settings.sppIsKnown = !device;
+        options.timeLimit = device ? kDeviceWarmUpSeconds : kWarmUpSeconds;
         engine_.reset(scene_.camera, options.settings);
         app::renderUntilStopped(engine_, options, 0, stop_, progress_, [] {});
     }
 
+    // What takes a moment is timed several times over, as its time is mostly chance.
+    // What takes a moment is timed several times over, since chance has a large part in the time of one.
     void toSamples(const Ladder& ladder) {
-        const bool anew = options_.settings.sampler == app::SamplerKind::Stratified;
-        for (const std::uint32_t spp : ladder.spp) {
-            const double perSample = done_.spp > 0 ? done_.seconds / static_cast<double>(done_.spp) : 0;
-            if (perSample * spp > ladder.maxSeconds) return;
-            image::Film film = anew || done_.spp == 0 ? image::Film() : engine_.film();
-            if (anew) done_ = {};
-            options_.settings.spp = spp;
-            engine_.reset(scene_.camera, options_.settings);
-            if (done_.spp > 0) engine_.restore(std::move(film));
-            options_.timeLimit =
-                done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds); // nothing tells as yet
-            if (!step()) return;
+        std::vector<Times> times;
+        climb(ladder, [&](std::size_t) {
             take(std::nullopt);
+            times.emplace_back().add(done_);
+        });
+        run_.report = engine_.report();
+        double spent = done_.seconds;
+        for (std::size_t pass = 1; pass < kMostPasses && spent < kTimedSeconds && !stop_; ++pass) {
+            climb(ladder, [&](std::size_t step) {
+                if (step < times.size()) times[step].add(done_);
+            });
+            spent += done_.seconds;
         }
+        for (std::size_t step = 0; step < times.size(); ++step) times[step].putMedians(run_.snapshots[step]);
     }
 
     void toSeconds(const Ladder& ladder) {
@@ -64,14 +91,33 @@ class Measurer {
             if (*options_.timeLimit > 0 && !step()) return;
             take(seconds);
         }
+        run_.report = engine_.report();
     }
 
-    Run finish() {
-        run_.report = engine_.report();
-        return std::move(run_);
-    }
+    Run finish() { return std::move(run_); }
 
   private:
+    // From the first sample on; `reached` is told the number of each step that was done in time.
+    void climb(const Ladder& ladder, const std::function<void(std::size_t)>& reached) {
+        const bool anew = options_.settings.sampler == app::SamplerKind::Stratified;
+        done_ = {};
+        for (std::size_t i = 0; i < ladder.spp.size(); ++i) {
+            const std::uint32_t spp = ladder.spp[i];
+            const double perSample = done_.spp > 0 ? done_.seconds / static_cast<double>(done_.spp) : 0;
+            if (perSample * spp > ladder.maxSeconds) return;
+            image::Film film = anew || done_.spp == 0 ? image::Film() : engine_.film();
+            if (anew) done_ = {};
+            options_.settings.spp = spp;
+            engine_.reset(scene_.camera, options_.settings);
+            if (done_.spp > 0) engine_.restore(std::move(film));
+            options_.timeLimit =
+                done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds); // nothing tells as yet
+            if (!step()) return;
+            done_.spp = engine_.film().minSamples();
+            reached(i);
+        }
+    }
+
     // False: interrupted, or not done in time.
     bool step() {
         const app::EngineReport before = engine_.report(); // a reset has set its counts to 0

@@ -39,7 +39,8 @@ struct Run {
 
 // `engine` has the scene; `settings` are complete but for spp and seed. A short render beforehand warms up caches,
 // clocks and shaders that drivers compile late. Samplers that lay out strata for a known number of samples are started
-// anew for each step. When `stop` becomes true, the step in progress is left out. `deviceEnergy` may be empty.
+// anew for each step. The times of a short run (not of one to time budgets) are medians over several of the same seed.
+// When `stop` becomes true, the step in progress is left out. `deviceEnergy` may be empty.
 Run measure(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings, const Ladder& ladder,
             std::uint32_t seed, const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy = {});
 

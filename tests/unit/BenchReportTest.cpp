@@ -323,5 +323,17 @@ TEST(BenchComparison, WhatIsBeyondNoiseIs) {
     EXPECT_FALSE(compareResults(a, b).changes[0].slower);
 }
 
+TEST(BenchComparison, SaysHowFarAllRowsAreApart) {
+    Results a = someResults(), b = someResults();
+    a.rows[0].efficiency = a.rows[1].efficiency = 10;
+    b.rows[0].efficiency = 8; // a machine that is slower,
+    b.rows[1].efficiency = 9.5;
+    a.rows[1].gain = b.rows[1].gain = 3; // as a whole
+    const std::string text = toMarkdown(describe(compareResults(a, b), a, b), [](std::size_t) { return ""; });
+    EXPECT_NE(text.find("Efficiency B/A: median 0.875, from 0.8 to 0.95, 1 of 2 rows within 10 %."), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("B/A: median 1, from 1 to 1, 1 of 1 rows within 10 %."), std::string::npos) << text;
+}
+
 } // namespace
 } // namespace rt::bench
