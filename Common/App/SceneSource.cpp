@@ -10,6 +10,7 @@
 
 #include "Common/App/CameraController.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Paths.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/ObjLoader.h"
@@ -54,10 +55,13 @@ std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& 
 } // namespace
 
 scene::SceneDesc loadScene(const std::string& source) {
-    const std::filesystem::path path(source);
+    std::filesystem::path path(source);
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::error_code none;
+    if (path.is_relative() && !std::filesystem::exists(path, none))
+        path = findAsset("scenes" / path).value_or(path);
     if (extension == ".json") return scene::loadSceneFile(path);
     if (extension == ".obj") return scene::loadObjScene(path);
     return scene::findBuiltinScene(source);

@@ -14,7 +14,9 @@ namespace {
 
 constexpr double kWarmUpSeconds = 0.25;         // at most
 constexpr std::uint32_t kWarmUpSpp = 16;        // one block
-constexpr double kDeviceWarmUpSeconds = 0.5;    // an idle GPU takes that long to raise its clocks
+constexpr double kDeviceWarmUpSeconds = 1;      // at most: an idle GPU raises its clocks for half a second,
+constexpr double kDeviceSlice = 0.06;           // and is ready when a slice of this many seconds
+constexpr double kStillRising = 1.03;           // has less than so many times the samples of the one before
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 constexpr double kTimedSeconds = 0.25;          // a run that takes less is timed again,
 constexpr std::size_t kMostPasses = 9;          // so many times at most
@@ -57,9 +59,18 @@ class Measurer {
         app::Options options = options_;
         options.settings.spp = device ? kUnknownSpp : kWarmUpSpp;
         options.settings.sppIsKnown = !device;
-        options.timeLimit = device ? kDeviceWarmUpSeconds : kWarmUpSeconds;
+        options.timeLimit = device ? kDeviceSlice : kWarmUpSeconds;
         engine_.reset(scene_.camera, options.settings);
-        app::renderUntilStopped(engine_, options, 0, stop_, progress_, [] {});
+        double rate = 0;
+        for (double seconds = 0; seconds < kDeviceWarmUpSeconds;) {
+            const std::uint64_t before = engine_.film().totalSamples();
+            const app::RenderResult slice = app::renderUntilStopped(engine_, options, before, stop_, progress_, [] {});
+            if (!device || slice.stoppedBy == app::StopReason::Interrupted) return;
+            const double now = static_cast<double>(engine_.film().totalSamples() - before) / slice.seconds;
+            if (now < kStillRising * rate) return;
+            rate = now;
+            seconds += slice.seconds;
+        }
     }
 
     // What takes a moment is timed several times over, as its time is mostly chance.
