@@ -4,8 +4,8 @@
 
 namespace rt::app {
 
-// While it exists, SIGINT and SIGTERM end the program at once with exit code 130; after defer() only the second one
-// does, and the first asks to stop. One at a time.
+// While it exists, SIGINT and SIGTERM end the program at once with exit code 130; after defer() the first asks to
+// stop, and only one that comes at least 0.2 s later ends the program at once. One at a time.
 class Interrupt {
   public:
     Interrupt();

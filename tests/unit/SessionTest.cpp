@@ -232,9 +232,21 @@ TEST_F(SessionTest, InterruptionKeepsWhatThereIs) {
     EXPECT_EQ(run({"--spp", "100"}, terminateAt3), ExitCode::Interrupted);
 }
 
+// As `timeout` sends them, to a program and to its group.
+TEST_F(SessionTest, TwoInterruptionsAtOnceAreOne) {
+    const auto interruptTwice = [](std::uint32_t spp) {
+        if (spp != 5) return;
+        std::raise(SIGINT);
+        std::raise(SIGINT);
+    };
+    EXPECT_EQ(run({"--spp", "100", "-o", path("a.pfm")}, interruptTwice), ExitCode::Interrupted);
+    EXPECT_TRUE(fs::exists(path("a.pfm")));
+}
+
 TEST_F(SessionTest, SecondInterruptionEndsAtOnce) {
     const auto interruptTwice = [](std::uint32_t) {
         std::raise(SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(250));
         std::raise(SIGINT);
     };
     EXPECT_EXIT(run({"--spp", "100", "-o", path("a.pfm")}, interruptTwice), testing::ExitedWithCode(130), "");
