@@ -103,6 +103,44 @@ RT_FN bool isRectangle(RT_IN(Light) light) {
     return skew * skew <= 1.0e-12f * (dot(light.edgeU, light.edgeU) * dot(light.edgeV, light.edgeV));
 }
 
+// Where h(t) = h + slope t, t in [0,1], is above 0: first and last t.
+RT_FN vec2 spanAbove(float h, float slope) {
+    float zero = clamp(-h / slope, 0.0f, 1.0f);
+    return vec2(slope > 0.0f ? zero : 0.0f, slope < 0.0f ? zero : 1.0f);
+}
+
+// The part of a quad that can illuminate a surface with this normal, as the smallest parallelogram along its edges around what is
+// above the horizon: its first corner and its extent, in coordinates of the edges. Exact where an edge is parallel to the horizon,
+// as between walls and floors. Worth its cost near a quad alone, where solid angle is sampled.
+struct QuadPart {
+    vec2 from;
+    vec2 size;
+};
+
+RT_FN QuadPart partAboveHorizon(RT_IN(Light) light, vec3 corner, vec3 normal) {
+    QuadPart part;
+    part.from = vec2(0.0f);
+    part.size = vec2(1.0f);
+    float h = dot(normal, corner);
+    float u = dot(normal, light.edgeU);
+    float v = dot(normal, light.edgeV);
+    if (h + min(u, 0.0f) + min(v, 0.0f) >= 0.0f) return part;
+    vec2 spanU = spanAbove(h + max(v, 0.0f), u);
+    vec2 spanV = spanAbove(h + max(u, 0.0f), v);
+    part.from = vec2(spanU.x, spanV.x);
+    part.size = vec2(spanU.y - spanU.x, spanV.y - spanV.x);
+    return part;
+}
+
+RT_FN Light partOfQuad(RT_IN(Light) light, RT_IN(QuadPart) part) {
+    Light quad = light;
+    quad.position = light.position + light.edgeU * part.from.x + light.edgeV * part.from.y;
+    quad.edgeU = light.edgeU * part.size.x;
+    quad.edgeV = light.edgeV * part.size.y;
+    quad.area = light.area * (part.size.x * part.size.y);
+    return quad;
+}
+
 // A quad light from a point, with what its regime depends on.
 struct QuadView {
     vec3 corner; // relative to the point
@@ -274,11 +312,12 @@ RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
 }
 
 // Uniform in solid angle; pdf 0 if the light is too small for that.
-RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 corner, vec3 position, vec2 u) {
+RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec2 u) {
     LightSample s = noLightSample();
+    vec3 corner = light.position - position;
     if (isRectangle(light)) {
         SphericalRectangle r = rectangleShape(light, corner);
-        if (r.solidAngle < kTinySolidAngle) return s;
+        if (!(r.solidAngle >= kTinySolidAngle)) return s;
         vec2 p = sampleSphericalRectangle(r, u);
         s.uv = vec2(p.x / r.width, p.y / r.height);
         placeOnLight(s, light, position);
@@ -288,7 +327,7 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 corner, vec3 pos
     SphericalTriangle half0 = quadHalf(light, corner, false);
     SphericalTriangle half1 = quadHalf(light, corner, true);
     float whole = half0.solidAngle + half1.solidAngle;
-    if (whole < kTinySolidAngle) return s;
+    if (!(whole >= kTinySolidAngle)) return s;
     // The number that chooses the half is stretched to place the point in it, which keeps strata together.
     float x = u.x * whole;
     bool second = x >= half0.solidAngle;
@@ -302,7 +341,8 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 corner, vec3 pos
     return s;
 }
 
-RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 corner) {
+RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 position) {
+    vec3 corner = light.position - position;
     if (isRectangle(light)) return rectangleShape(light, corner).solidAngle;
     return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
 }
@@ -346,7 +386,9 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     LightSample s = noLightSample();
     if (view.regime == kRegimeSolidAngle) {
-        s = sampleQuadSolidAngle(light, view.corner, position, u);
+        QuadPart part = partAboveHorizon(light, view.corner, normal);
+        s = sampleQuadSolidAngle(partOfQuad(light, part), position, u);
+        s.uv = part.from + s.uv * part.size;
         if (s.pdf > 0.0f) return s;
     }
     s.uv = u;
@@ -365,7 +407,8 @@ RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light)
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.regime == kRegimeSolidAngle) {
-        float solidAngle = quadSolidAngle(light, view.corner);
+        QuadPart part = partAboveHorizon(light, view.corner, normal);
+        float solidAngle = quadSolidAngle(partOfQuad(light, part), position);
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }
     float density = 1.0f;

@@ -268,6 +268,29 @@ TEST(Lights, DarkSideAndHorizon) {
     EXPECT_EQ(edge.pdf, 0.0f);
 }
 
+// Half of the quad is below the horizon, to which an edge is parallel: no number is lost on that half, and the density is that of
+// the other half alone. Area sampling, which the others are compared with, takes all of it.
+TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
+    const Light whole = quad({1, -1, -1}, {0.2, 2, 0}, {0, 0, 2}), above = quad({1, -1, 0}, {0.2, 2, 0}, {0, 0, 1});
+    const vec3 normal(0, 0, 1);
+    for (const uint method : {kShapeAuto, kShapeSolidAngle, kShapeArea}) {
+        const RenderParams params = withMethod(method);
+        int used = 0, all = 0;
+        for (float u = 0.05f; u < 1; u += 0.1f)
+            for (float v = 0.05f; v < 1; v += 0.1f, ++all) {
+                const LightSample s = sampleLight(kFeatureQuadLights, params, whole, vec3(0), normal, 0, vec2(u, v));
+                if (!(s.pdf > 0)) continue;
+                ++used;
+                EXPECT_GT(s.uv.y, 0.5f);
+                EXPECT_LT(glm::length(s.point - (whole.position + whole.edgeU * s.uv.x + whole.edgeV * s.uv.y)), 1e-6f);
+                if (method == kShapeSolidAngle) {
+                    EXPECT_NEAR(s.pdf * solidAngle(above), 1, 1e-5);
+                }
+            }
+        EXPECT_EQ(used, method == kShapeArea ? all / 2 : all);
+    }
+}
+
 TEST(Lights, InsideASphere) {
     Light light = sphere({0.3, -0.2, 0.4}, 2);
     const RenderParams params = withMethod(kShapeAuto);
