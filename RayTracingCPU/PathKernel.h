@@ -38,8 +38,9 @@ RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTabl
     const CpuScene& scene = *context.scene;
     const Hit hit = traceRay(scene, path.ray);
     DirectLight direct = noDirectLight();
-    const bool goesOn =
-        pathVertex(kFeatures, scene, context.params, smp, numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
+    Vertex vertex;
+    const bool goesOn = pathVertex(vertex, kFeatures, scene, context.params, smp,
+                                   numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
     traceShadow<kFeatures>(scene, direct, path, counters);
     return goesOn;
 }
@@ -82,32 +83,14 @@ RT_FN Sampler samplerOf(Sampler first, std::uint32_t place) {
     return first;
 }
 
-// The first half of pathVertex(): what the path meets, up to where it scatters. False: it ends there.
+// To where the path scatters. False: it ends before.
 template <std::uint32_t kFeatures>
 RT_FN bool arrive(const CpuScene& scene, const RenderParams& params, const Sampler& smp, const VertexNumbers& numbers,
                   Flight& f) {
-    PathState& s = f.path;
-    const Hit hit = traceRay(scene, s.ray);
-    uint medium = kNone;
-    float t = hit.t < 0.0f ? kInfinity : hit.t;
-    if (has(kFeatures, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
-    s.vertex++;
-    if (has(kFeatures, kFeatureVolumes) && medium != kNone) {
-        if (s.vertex >= params.maxDepth) return false;
-        f.vertex = mediumVertex(kFeatures, scene, s, t, medium);
-    } else {
-        if (hit.t < 0.0f) {
-            addSky(kFeatures, scene, params, s);
-            return false;
-        }
-        const Surface surface = makeSurface(kFeatures, scene, s.ray, hit);
-        const Material material = loadMaterial(scene, surface.material);
-        addEmission(kFeatures, scene, params, surface, material, hit.t, s);
-        if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
-        f.vertex = surfaceVertex(kFeatures, scene, s, surface, material);
-    }
-    f.vertex.numbers = numbers;
-    s.last = lightContext(params, f.vertex);
+    const Hit hit = traceRay(scene, f.path.ray);
+    if (!pathVertex(f.vertex, kFeatures | kLightAwaited, scene, params, smp, numbers, hit, f.path, f.direct))
+        return false;
+    f.path.last = lightContext(params, f.vertex);
     return true;
 }
 

@@ -430,16 +430,20 @@ RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT
     return v;
 }
 
-// Advances the path by one vertex, given what s.ray meets and vertexNumbers(smp, s.vertex). False: it has ended, and s.radiance is its estimate once
-// `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
-RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                      RT_IN(VertexNumbers) numbers, RT_IN(Hit) hit, RT_INOUT(PathState) s,
+// Added to `features` by those who complete the context and make the choice of a light before they call scatter() themselves.
+const uint kLightAwaited = 2u * kLightChosen;
+
+// Advances the path by one vertex, given what s.ray meets and vertexNumbers(smp, s.vertex). False: it has ended, and s.radiance
+// is its estimate once `direct`, which the caller sets to noDirectLight(), has been added if it arrives. With kLightAwaited it
+// only gets to the vertex, which is v.
+RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, RT_IN(RenderParams) params,
+                      RT_IN(Sampler) smp, RT_IN(VertexNumbers) numbers, RT_IN(Hit) hit, RT_INOUT(PathState) s,
                       RT_INOUT(DirectLight) direct) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
     s.vertex++;
-    Vertex v;
+    RT_LARGE_VARIABLE(Vertex, v)
     if (has(features, kFeatureVolumes) && medium != kNone) {
         if (s.vertex >= params.maxDepth) return false;
         v = mediumVertex(features, scene, s, t, medium);
@@ -455,6 +459,7 @@ RT_FN bool pathVertex(uint features, SceneRef scene, RT_IN(RenderParams) params,
         v = surfaceVertex(features, scene, s, surface, material);
     }
     v.numbers = numbers;
+    if (has(features, kLightAwaited)) return true;
     return scatter(features, scene, params, smp, v, s, direct);
 }
 
