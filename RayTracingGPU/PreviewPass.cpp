@@ -59,7 +59,8 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
         const shared::Light& light = scene.lights[i];
         if (light.kind == shared::kLightSky) continue;
-        const bool bothSides = light.kind != shared::kLightSphere && light.sides == shared::kSidesBoth;
+        const bool isFlat = light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
+        const bool bothSides = isFlat && light.sides == shared::kSidesBoth;
         sum += glm::dvec3(light.emission) * static_cast<double>(light.area) * (bothSides ? 2.0 : 1.0);
     }
     if (radius > 0) sum /= 0.5 * 4 * std::numbers::pi * radius * radius;

@@ -24,7 +24,8 @@ vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
     float squared = max(dot(toLight, toLight), 1.0e-30f);
     vec3 direction = toLight * inversesqrt(squared);
     float facing = isSurface(normal) ? max(dot(normal, direction), 0.0f) : 0.25f;
-    if (light.kind == kLightSphere) return light.emission * (facing * min(light.radius * light.radius / squared, 1.0f));
+    bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
+    if (isRound) return light.emission * (facing * min(light.radius * light.radius / squared, 1.0f));
     float leaving = -dot(light.normal, direction);
     float seen = light.area * (light.sides == kSidesBoth ? abs(leaving) : max(leaving, 0.0f));
     return light.emission * (facing * seen / (seen + kPi * squared));

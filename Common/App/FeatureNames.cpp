@@ -35,6 +35,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"sphere-lights", kFeatureSphereLights},
     {"quad-lights", kFeatureQuadLights},
     {"triangle-lights", kFeatureTriangleLights},
+    {"ellipsoid-lights", kFeatureEllipsoidLights},
     {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},

@@ -30,9 +30,10 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
 
 // What sends light on into a range of directions, and what is of use only there.
 constexpr std::uint32_t kScattersWidely = shared::kFeatureLambertian | shared::kFeatureFuzz | shared::kFeatureVolumes;
-constexpr std::uint32_t kLightSampling =
-    shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
-    shared::kFeatureTriangleLights | shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
+constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |
+                                         shared::kFeatureSphereLights | shared::kFeatureQuadLights |
+                                         shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights |
+                                         shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {
@@ -92,6 +93,9 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
              "auto (area when far, columns when thin, else solid-angle)");
     describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
              "auto (area when far, else solid-angle)");
+    const bool isProjected = settings.sphereLight == ShapeSampling::Projected; // there are no projected ellipsoids
+    describe(shared::kFeatureEllipsoidLights, isProjected ? ShapeSampling::Auto : settings.sphereLight, "ellipsoid",
+             "cone", "cone");
     return text.empty() ? "none" : text;
 }
 

@@ -59,6 +59,26 @@ std::optional<Affine> inverse(const Affine& map) {
     return Affine{linear, offset};
 }
 
+// Hestenes' one-sided variant of Jacobi's method: turns two columns at a time in their plane.
+glm::dmat3 orthogonalColumns(const glm::dmat3& a) {
+    constexpr int kSweeps = 30; // it takes about five
+    constexpr int kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    glm::dmat3 result = a;
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        for (const auto& [p, q] : kPairs) {
+            const glm::dvec3 x = result[p], y = result[q];
+            const double xx = glm::dot(x, x), yy = glm::dot(y, y), xy = glm::dot(x, y);
+            if (std::abs(xy) <= 1e-15 * std::sqrt(xx * yy)) continue;
+            const double zeta = (yy - xx) / (2 * xy);
+            const double t = std::copysign(1.0, zeta) / (std::abs(zeta) + std::sqrt(1 + zeta * zeta));
+            const double c = 1 / std::sqrt(1 + t * t);
+            result[p] = c * (x - t * y);
+            result[q] = c * (y + t * x);
+        }
+    }
+    return result;
+}
+
 std::optional<double> uniformScale(const Affine& map) {
     const glm::dmat3 square = glm::transpose(map.linear) * map.linear;
     const double s2 = (square[0][0] + square[1][1] + square[2][2]) / 3;

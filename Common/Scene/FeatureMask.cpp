@@ -44,6 +44,8 @@ std::uint32_t ofLight(const shared::Light& light) {
             return shared::kFeatureQuadLights;
         case shared::kLightTriangle:
             return shared::kFeatureTriangleLights;
+        case shared::kLightEllipsoid:
+            return shared::kFeatureEllipsoidLights;
         default:
             return 0;
     }

@@ -1,5 +1,6 @@
 #include "Common/Scene/LightTable.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -43,9 +44,21 @@ glm::dvec3 enclosingCenter(const glm::dvec3& u, const glm::dvec3& v) {
     return scale * (vv * (uu - uv) * u + uu * (vv - uv) * v);
 }
 
+double longestHalfAxis(const shared::Light& ellipsoid) {
+    const glm::dmat3 axes = orthogonalColumns({ellipsoid.edgeU, ellipsoid.edgeV, ellipsoid.normal});
+    return std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+}
+
 shared::LightBound boundOf(const shared::Light& light) {
     shared::LightBound bound{};
     const double luminous = luminance(light.emission);
+    if (light.kind == shared::kLightEllipsoid) {
+        bound.center = light.position;
+        bound.radius = static_cast<float>(longestHalfAxis(light)) * (1 + 4 * shared::kEpsilon);
+        // By Cauchy's formula the mean of the areas under which a convex body is seen is a quarter of its surface.
+        bound.intensity = static_cast<float>(luminous * 0.25 * light.area);
+        return bound;
+    }
     if (!isFlat(light)) {
         bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
         bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
@@ -77,6 +90,23 @@ shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& moti
     light.edgeU = motion;
     light.radius = sphere.radius;
     light.area = static_cast<float>(4 * kPi * sphere.radius * sphere.radius);
+    return light;
+}
+
+shared::Light ellipsoidLight(const Affine& toWorld) {
+    shared::Light light = emptyLight(shared::kLightEllipsoid);
+    light.position = shared::vec3(toWorld.offset);
+    light.edgeU = shared::vec3(toWorld.linear[0]);
+    light.edgeV = shared::vec3(toWorld.linear[1]);
+    light.normal = shared::vec3(toWorld.linear[2]);
+    // Thomsen's approximation of the area, off by at most 1.061 %.
+    constexpr double p = 1.6075;
+    const glm::dmat3 axes = orthogonalColumns(toWorld.linear);
+    const double a = glm::length(axes[0]), b = glm::length(axes[1]), c = glm::length(axes[2]);
+    const double meanPower = (std::pow(a * b, p) + std::pow(a * c, p) + std::pow(b * c, p)) / 3;
+    const double squaredRadius = std::pow(meanPower, 1 / p);
+    light.radius = static_cast<float>(std::sqrt(squaredRadius));
+    light.area = static_cast<float>(4 * kPi * squaredRadius);
     return light;
 }
 

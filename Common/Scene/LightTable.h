@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 
+#include "Common/Scene/Affine.h"
 #include "Common/Scene/Bounds.h"
 #include "Common/Scene/CompiledScene.h"
 
@@ -11,6 +12,7 @@ double luminance(const glm::dvec3& color); // Rec. 709
 
 // Lights of primitives as kernels see them; `emission` is the mean radiance, `material` an index into the scene's.
 shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& motion);
+shared::Light ellipsoidLight(const Affine& toWorld); // of the unit sphere
 shared::Light quadLight(const shared::Quad& quad);
 shared::Light triangleLight(const shared::vec3& a, const shared::vec3& b, const shared::vec3& c);
 

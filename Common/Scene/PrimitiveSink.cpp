@@ -7,6 +7,7 @@
 #include "Common/Core/Interruption.h"
 #include "Common/Scene/LightTable.h"
 #include "Common/Scene/MeshOrder.h"
+#include "Common/Shared/Ellipsoids.h"
 
 namespace rt::scene {
 
@@ -32,6 +33,20 @@ bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
 }
 
+// Whether single precision inverts the map of an ellipsoid, as its sampling does. Long ones whose axes the map does not keep at
+// right angles take too many digits.
+bool isInvertible(const shared::Light& light) {
+    const shared::Ellipsoid e = shared::makeEllipsoid(light.edgeU, light.edgeV, light.normal);
+    const double determinant = glm::determinant(glm::dmat3(light.edgeU, light.edgeV, light.normal));
+    if (!(std::abs(double(e.volume) / std::abs(determinant) - 1) < 1e-3)) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        shared::vec3 unit(0.0f);
+        unit[axis] = 1.0f;
+        if (!(glm::length(shared::toSphere(e, shared::fromSphere(e, unit)) - unit) < 1e-3f)) return false;
+    }
+    return true;
+}
+
 // The factor by which a map scales a sphere, when the image is a sphere again; `isOriented`: its texture shows a
 // rotation.
 std::optional<double> sphereScale(const Affine& map, bool isOriented) {
@@ -48,6 +63,7 @@ struct PrimitiveSink::SphereFrame {
     std::optional<double> scale; // of the map, when it leaves spheres spheres
     const MaterialDesc& material;
     bool light;
+    bool isOriented;  // they show how they are turned
     bool isShareable; // unless they move
     const Placement& at;
 };
@@ -59,7 +75,7 @@ PrimitiveSink::SphereFrame PrimitiveSink::frameOf(const Spheres& object, const P
     const bool isOriented = materials_.mayShowImage(own) || materials_.mayShowImage(material);
     const Affine map = at.outer * at.local;
     const bool isShareable = !emits(own) && sphereScale(at.local, isOriented);
-    return {map, sphereScale(map, isOriented), material, object.light, isShareable, at};
+    return {map, sphereScale(map, isOriented), material, object.light, isOriented, isShareable, at};
 }
 
 const MaterialDesc& PrimitiveSink::materialOf(const std::string& name, const Placement& at) const {
@@ -102,16 +118,10 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
         return;
     }
     if (!frame.scale) {
-        if (!inverse(frame.map)) {
-            ++dropped_.spheres;
-            return;
-        }
-        const std::string place = out_.id + ": " + frame.at.place + ": ";
-        const char* allowed = " sphere can be scaled uniformly only, and not be turned if it shows an image";
-        if (emits(frame.material)) throw InputError(place + "an emissive" + allowed);
-        if (isMoving) throw InputError(place + "a moving" + allowed);
-        ellipsoids_.push_back(
-            {frame.map * translation(center) * scaling(glm::dvec3(radius)), materials_.index(frame.material)});
+        if (isMoving)
+            throw InputError(out_.id + ": " + frame.at.place +
+                             ": a moving sphere can be scaled uniformly only, and not be turned if it shows an image");
+        ellipsoid(frame.map * translation(center) * scaling(glm::dvec3(radius)), frame);
         return;
     }
     const double largest = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
@@ -129,6 +139,32 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
     out_.spheres.push_back(record);
     bounds_.add(c, r);
     bounds_.add(c + m, r);
+}
+
+void PrimitiveSink::ellipsoid(Affine toWorld, const SphereFrame& frame) {
+    if (!inverse(toWorld)) {
+        ++dropped_.spheres;
+        return;
+    }
+    const std::uint32_t material = materials_.index(frame.material);
+    std::uint32_t light = shared::kNone;
+    if (isLight(material, frame.light)) {
+        const glm::dmat3 axes = orthogonalColumns(toWorld.linear);
+        for (int i = 0; i < 3; ++i) {
+            const double length = glm::length(axes[i]);
+            if (length >= kMinRadius && length <= kMaxCoordinate) continue;
+            ++dropped_.spheres;
+            return;
+        }
+        // The same surface, but for how it is turned.
+        if (!frame.isOriented) toWorld.linear = axes;
+        const shared::Light record = ellipsoidLight(toWorld);
+        if (isInvertible(record))
+            light = appendLight(record, material);
+        else
+            ++unsampledEllipsoids_;
+    }
+    ellipsoids_.push_back({toWorld, material, light});
 }
 
 // ---- quads ---------------------------------------------------------------------------------------------------------
@@ -273,6 +309,7 @@ void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
     note(dropped_.spheres, " spheres without a usable centre or radius were dropped");
     note(dropped_.quads, " quads without area were dropped");
     note(dropped_.triangles, " triangles without area were dropped");
+    note(unsampledEllipsoids_, " emissive spheres are scaled so unequally that light sampling leaves them out");
     note(dropped_.tinySpheres, " spheres are smaller than the spacing of single-precision numbers at their place");
 }
 

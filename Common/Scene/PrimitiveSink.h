@@ -30,6 +30,7 @@ struct Placement {
 struct Ellipsoid {
     Affine toWorld;
     std::uint32_t material;
+    std::uint32_t light; // kNone: it is none
 };
 
 class PrimitiveSink {
@@ -55,6 +56,7 @@ class PrimitiveSink {
     template <typename Spheres>
     SphereFrame frameOf(const Spheres& object, const Placement& at) const;
     void sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius, const SphereFrame& frame);
+    void ellipsoid(Affine toWorld, const SphereFrame& frame);
     void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
               bool light, const Affine& map);
     const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
@@ -68,6 +70,7 @@ class PrimitiveSink {
     struct {
         std::uint64_t spheres = 0, quads = 0, triangles = 0, tinySpheres = 0;
     } dropped_;
+    std::uint64_t unsampledEllipsoids_ = 0;
 };
 
 } // namespace rt::scene

@@ -125,7 +125,8 @@ class Compiler {
             for (const Occurrence& occurrence : prototype.occurrences)
                 if (!occurrence.isBaked())
                     addInstance(occurrence.toWorld, bounds,
-                                occurrence.material ? materials_.index(*occurrence.material) : shared::kNone);
+                                occurrence.material ? materials_.index(*occurrence.material) : shared::kNone,
+                                shared::kNone);
         }
     }
 
@@ -140,11 +141,12 @@ class Compiler {
         sink_.finishGeometry();
         Bounds cube;
         cube.add(glm::dvec3(0), 1);
-        for (const Ellipsoid& ellipsoid : sink_.ellipsoids()) addInstance(ellipsoid.toWorld, cube, ellipsoid.material);
+        for (const Ellipsoid& ellipsoid : sink_.ellipsoids())
+            addInstance(ellipsoid.toWorld, cube, ellipsoid.material, ellipsoid.light);
     }
 
     // Of the latest geometry.
-    void addInstance(const Affine& toWorld, const Bounds& bounds, std::uint32_t material) {
+    void addInstance(const Affine& toWorld, const Bounds& bounds, std::uint32_t material, std::uint32_t light) {
         const std::optional<Affine> toObject = inverse(toWorld);
         if (!toObject) {
             ++droppedInstances_;
@@ -155,6 +157,7 @@ class Compiler {
         setRows(*toObject, instance.toObject);
         instance.geometry = static_cast<std::uint32_t>(out_->geometries.size() - 1);
         instance.material = material;
+        instance.light = light;
         out_->instances.push_back(instance);
         bounds_.add(bounds, toWorld);
     }

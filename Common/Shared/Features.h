@@ -34,7 +34,8 @@ const uint kFeatureTargets = 1u << 23u;   // importance targets, used by `mixtur
 const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
 const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
-const uint kFeatureBits = 27u;
+const uint kFeatureEllipsoidLights = 1u << 27u;
+const uint kFeatureBits = 28u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 
 // Whether lights can be sampled by projected solid angle at all. Their samplers are as long as all other light sampling, and

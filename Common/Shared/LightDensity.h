@@ -31,6 +31,15 @@ RT_FN LightCrossing crossSphereLight(RT_IN(Light) light, vec3 position, float ti
     return c;
 }
 
+RT_FN LightCrossing crossEllipsoidLight(RT_IN(Light) light, vec3 position, vec3 wi) {
+    Ellipsoid e = ellipsoidOf(light);
+    EllipsoidHit hit = meetEllipsoid(e, toSphere(e, light.position - position), wi);
+    LightCrossing c;
+    c.distance = max(hit.distance, 0.0f);
+    c.normal = ellipsoidNormal(e, hit.onSphere);
+    return c;
+}
+
 RT_FN LightCrossing crossFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
     LightCrossing c;
     c.distance = 0.0f;
@@ -55,6 +64,8 @@ RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light
     LightCrossing c;
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         c = crossSphereLight(light, position, time, wi);
+    } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        c = crossEllipsoidLight(light, position, wi);
     } else {
         if (!isLit(light, position)) return 0.0f;
         c = crossFlatLight(light, position, wi);

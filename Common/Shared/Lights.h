@@ -3,7 +3,9 @@
 // of the light and the shading point, never from the sample.
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
+#include "EllipsoidLight.h"
 #include "Features.h"
+#include "LightSample.h"
 #include "ProjectedQuery.h"
 #include "SphericalShapes.h"
 #if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
@@ -13,44 +15,8 @@
 
 RT_SHARED_BEGIN
 
-struct LightSample {
-    vec3 wi;        // unit, from the shading point to the light
-    float distance; // along wi
-    float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
-    vec3 radiance;  // emitted towards the shading point, without the emission's texture
-    vec3 point;     // on the light
-    vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a sphere
-    vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
-};
-
-RT_FN LightSample noLightSample() {
-    LightSample s;
-    s.wi = vec3(0.0f);
-    s.distance = 0.0f;
-    s.pdf = 0.0f;
-    s.radiance = vec3(0.0f);
-    s.point = vec3(0.0f);
-    s.normal = vec3(0.0f);
-    s.uv = vec2(0.0f);
-    return s;
-}
-
-// How a light's shape is sampled from a shading point.
-const uint kRegimeSolidAngle = 0u; // uniform in solid angle
-const uint kRegimeArea = 1u;       // uniform in area
-const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
-const uint kRegimeInside = 3u;     // the point is inside a sphere light, which fills all directions
-const uint kRegimeProjected = 4u;  // a sphere: uniform in projected solid angle; flat lights: isFlatProjected()
-
-// Below it a float direction cannot resolve a light; a point uniform in area can.
-const float kTinySolidAngle = 1.0e-8f;
-
 RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
     return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
-}
-
-RT_FN bool isSurface(vec3 normal) {
-    return dot(normal, normal) > 0.0f;
 }
 
 // Ratio of extent to distance below which directions are too coarse for projected samplers.
@@ -173,13 +139,6 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
 }
 
 // ---- spheres --------------------------------------------------------------------------------------------------------
-
-// Uniform over all directions for a point in a medium, by the cosine for a point on a surface.
-RT_FN vec4 sampleInside(vec3 normal, vec2 u) {
-    if (!isSurface(normal)) return vec4(sampleSphere(u), 0.25f * kInvPi);
-    vec3 local = sampleCosineHemisphere(u);
-    return vec4(toWorld(makeFrame(normal), local), local.z * kInvPi);
-}
 
 RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
     CapQuery query;
@@ -464,6 +423,8 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
     LightSample s = noLightSample();
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         s = sampleSphereLight(features, params, light, position, normal, time, u);
+    } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        s = sampleEllipsoidLight(params, light, position, normal, u);
     } else if (light.kind != kLightSky && isLit(light, position)) {
         vec3 corner = light.position - position;
         if (isFlatProjected(features, params, light, corner, normal)) {
@@ -490,6 +451,9 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
     }
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        return ellipsoidLightPdf(params, light, position, normal, wi, distance, lightNormal);
+    }
     vec3 corner = light.position - position;
     if (isFlatProjected(features, params, light, corner, normal)) return flatProjectedPdf(light, corner, normal, wi);
     if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
@@ -503,7 +467,10 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
 
 // Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray: several
 // times that of the point itself, since the device that traces the ray also rounds when it tests the light's shape.
-RT_FN vec3 lightPointError(RT_IN(Light) light) {
+RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        return ellipsoidError(ellipsoidOf(light), light.position);
+    }
     if (light.kind == kLightSphere) {
         float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
         return vec3(32.0f * kEpsilon * reach);

@@ -171,6 +171,9 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
     LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
     if (has(features, kTexturedFeatures) && light.material != kNone) {
         if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
+        if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+            sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
+        }
         sampled.radiance =
             emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
     }
@@ -220,7 +223,7 @@ RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderP
     if (light.kind == kLightSky) return direct;
     // The segment ends at the light's own offset point, so that the emitter does not shadow itself and no primitive has
     // to be excluded.
-    vec3 end = offsetOrigin(sampled.point, lightPointError(light), sampled.normal, -sampled.wi);
+    vec3 end = offsetOrigin(sampled.point, lightPointError(features, light), sampled.normal, -sampled.wi);
     vec3 segment = end - v.origin;
     float whole = length(segment);
     direct.direction = segment / whole;

@@ -3,6 +3,7 @@
 // loadUv, loadMesh, loadTriangleMesh, loadInstance.
 #ifndef RT_SHARED_SURFACE_H
 #define RT_SHARED_SURFACE_H
+#include "Ellipsoids.h"
 #include "Features.h"
 #include "Media.h"
 #include "Sampling.h"
@@ -129,6 +130,13 @@ RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(H
     s.normal = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.normal);
     s.shading = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.shading);
     if (instance.material != kNone) s.material = instance.material;
+    if (has(features, kFeatureEllipsoidLights) && instance.light != kNone) {
+        // Rays start where the map to the unit sphere leaves no doubt that they are outside, so that it does not light itself.
+        s.light = instance.light;
+        vec3 q = transformPoint(abs(instance.toObject[0]), abs(instance.toObject[1]), abs(instance.toObject[2]),
+                                abs(s.position));
+        s.error += kEllipsoidError * transformVector(r0, r1, r2, q);
+    }
     return s;
 }
 

@@ -64,6 +64,7 @@ struct Instance {
     vec4 toObject[3];
     uint geometry; // > 0
     uint material; // overrides the primitives' own unless kNone
+    uint light;    // of a unit sphere that emits; kNone for all others
 };
 
 // ---- appearance ------------------------------------------------------------------------------------------------------
@@ -136,20 +137,21 @@ struct Medium {
 const uint kLightSphere = 0u;
 const uint kLightQuad = 1u;
 const uint kLightTriangle = 2u;
-const uint kLightSky = 3u; // the sky image
+const uint kLightSky = 3u;       // the sky image
+const uint kLightEllipsoid = 4u; // the unit sphere under an affine map
 
 // An emitter with its geometry in world space, or an importance target (emission zero).
 struct Light {
     uint kind;
-    uint material;   // kNone for the sky and for importance targets
-    vec3 position;   // sphere: centre at time 0; quad: corner; triangle: vertex 0
-    vec3 edgeU;      // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter
-    vec3 edgeV;      // quad; triangle: vertex 2 - vertex 0
-    vec3 normal;     // unit, front side; quad and triangle
-    float radius;    // sphere
-    float area;      // world units squared, one side
-    vec3 emission;   // radiance, mean over the surface if textured
-    uint sides;      // kSidesFront or kSidesBoth
+    uint material; // kNone for the sky and for importance targets
+    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre
+    vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x
+    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y
+    vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z
+    float radius;  // sphere; ellipsoid: that of a sphere of the same area
+    float area;    // world units squared, one side; of an ellipsoid within 1.1 %
+    vec3 emission; // radiance, mean over the surface if textured
+    uint sides;    // kSidesFront or kSidesBoth
     float selection; // probability under power-proportional selection
     float cdf;       // sum of selection up to and including this light; exactly 1 for the last that can be chosen
 };

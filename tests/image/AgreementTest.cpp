@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/App/SceneSource.h"
 #include "Common/Image/ImageTest.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "tests/image/Harness.h"
@@ -17,10 +18,10 @@ class Agreement : public ::testing::TestWithParam<std::string> {};
 // Bias that this can see: 4 standard errors of the difference, stated on failure. A tile that is 5 % off, a missing weight or
 // a light that one estimator does not know are discoveries. Seeds are fixed; with 54 comparisons of two chances each a clean
 // build would fail once in a hundred changes of the random numbers.
-TEST_P(Agreement, OfAllWaysToSampleLights) {
+void expectAgreement(const scene::SceneDesc& desc) {
     scene::CompileOptions options;
     options.generatedAssets = true;
-    const auto scene = scene::compileScene(scene::findBuiltinScene(GetParam()), options);
+    const auto scene = scene::compileScene(desc, options);
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 3000);
@@ -33,6 +34,25 @@ TEST_P(Agreement, OfAllWaysToSampleLights) {
         EXPECT_EQ(result.tileDiscoveries, 0u) << what << result.summary();
         seed += 1000;
     }
+}
+
+TEST_P(Agreement, OfAllWaysToSampleLights) {
+    expectAgreement(scene::findBuiltinScene(GetParam()));
+}
+
+// Spheres scaled unequally, sheared, mirrored, instanced, textured; and so many of them that a tree chooses.
+TEST(EllipsoidLights, AreTheSameForAllWaysToSampleLights) {
+    scene::SceneDesc desc = app::loadScene(RT_TEST_DATA_DIR "/scenes/ellipsoid-lights.json");
+    expectAgreement(desc);
+    scene::SphereSetDesc row;
+    for (int i = 0; i < 40; ++i) row.centers.emplace_back(i - 20, 1 + i % 3, 2 - i % 5);
+    row.radius = 0.3;
+    row.material = "lamp";
+    scene::GroupDesc group;
+    group.transform = {scene::Rotate{{0, 0, 1}, 5}, scene::Scale{{0.4, 1, 0.7}}};
+    group.objects.push_back({row});
+    desc.objects.push_back({group});
+    expectAgreement(desc);
 }
 
 std::vector<std::string> sceneIds() {

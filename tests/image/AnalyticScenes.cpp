@@ -1,6 +1,7 @@
 #include "tests/image/AnalyticScenes.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -8,6 +9,7 @@ namespace rt::test {
 
 using namespace rt::scene;
 using glm::dvec3;
+using std::numbers::pi;
 
 SceneDesc emptyScene(glm::dvec3 from, glm::dvec3 at, double fov) {
     SceneDesc desc;
@@ -61,6 +63,22 @@ SceneDesc floorScene() {
     desc.materials["light"] = light;
     desc.objects.push_back({QuadDesc{{-50, 0, 50}, {100, 0, 0}, {0, 0, -100}, "floor"}});
     return desc;
+}
+
+SceneDesc lampAlone(const Transform& transform, double distance) {
+    const dvec3 from = glm::normalize(dvec3(0.3, 0.4, 0.9)) * distance;
+    SceneDesc desc = emptyScene(from, {0, 0, 0}, 180 / pi * 2.4 / distance);
+    desc.materials["lamp"] = lambertian(0.9, 1);
+    GroupDesc group;
+    group.transform = transform;
+    group.objects.push_back({SphereDesc{dvec3(0), 1, {}, "lamp"}});
+    desc.objects.push_back({group});
+    return desc;
+}
+
+std::vector<Transform> lampTransforms() {
+    const Rotate first{{1, 2, 3}, 50}, last{{3, 2, 1}, 70};
+    return {{Scale{{1, 0.1, 0.01}}, first}, {first, Scale{{1, 0.1, -0.01}}, last}, {Scale{{1, 1, 0.01}}, first}};
 }
 
 double polygonIrradiance(std::span<const dvec3> vertices) {

@@ -1,6 +1,7 @@
 // Scenes whose radiance is known in closed form.
 #pragma once
 #include <span>
+#include <vector>
 
 #include "Common/Scene/SceneDesc.h"
 
@@ -24,6 +25,12 @@ inline constexpr double kFloorAlbedo = 0.7;
 
 // The floor y = 0 around the origin, looked at from the side, and a material "light" of radiance (3, 2, 1).
 scene::SceneDesc floorScene();
+
+// A sphere of radiance 1 that also reflects, under this transform, seen as large from `distance` as from anywhere: nothing else
+// lights it, so that it is seen at 1.
+scene::SceneDesc lampAlone(const scene::Transform& transform, double distance);
+// Flat, sheared and mirrored ones for it.
+std::vector<scene::Transform> lampTransforms();
 
 // Lambert's polygon formula for a receiver in the origin with normal +y, per radiance; all vertices above the horizon.
 double polygonIrradiance(std::span<const glm::dvec3> vertices);

@@ -1,4 +1,5 @@
 // Scenes whose radiance is known everywhere: whatever a path does, it must gather the same light.
+#include <algorithm>
 #include <cmath>
 
 #include "tests/image/AnalyticScenes.h"
@@ -31,6 +32,22 @@ TEST(Furnace, RouletteChangesNothingButVariance) {
         settings.russianRoulette = roulette;
         EXPECT_TRUE(isMean(render(shell(false, 0.5, 1), settings), glm::dvec3(enclosureRadiance(0.5, 1, 64))))
             << roulette;
+    }
+}
+
+// Far from the origin rounding would decide whether a ray starts inside: half a lamp is as thick there as 170 roundings.
+TEST(Furnace, ConvexLampsDoNotLightThemselves) {
+    for (const Transform& transform : lampTransforms()) {
+        for (const double distance : {6.0, 1000.0}) {
+            const auto scene = compileScene(lampAlone(transform, distance));
+            for (const app::RenderSettings& settings : allEstimators(smallSettings(48, 4))) {
+                const Estimate estimate = render(*scene, settings);
+                const auto [least, most] = std::minmax_element(estimate.image.data.begin(), estimate.image.data.end());
+                EXPECT_EQ(*least, 0.0f);
+                EXPECT_GT(*most, 0.4f); // the thinnest do not fill a pixel
+                EXPECT_LE(*most, 1.0f) << describe(settings) << ", from " << distance;
+            }
+        }
     }
 }
 

@@ -4,8 +4,10 @@
 #include <numbers>
 #include <span>
 
+#include "Common/Scene/Affine.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/unit/Oracles.h"
 
 namespace rt::test {
 namespace {
@@ -34,6 +36,22 @@ TEST(Irradiance, UnderASphere) {
         desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
         const double d = glm::length(center);
         expectIrradiance(desc, std::numbers::pi * (0.64 / (d * d)) * center.y / d, "sphere");
+    }
+}
+
+// Half axes of 1 : 10 : 0.1, turned; and a sheared and mirrored one.
+TEST(Irradiance, UnderAnEllipsoid) {
+    const dvec3 center(0.5, 2.5, -0.4);
+    const Transform turned = {Scale{{0.2, 2, 0.02}}, Rotate{{1, 0, 0.2}, 75}, Translate{center}};
+    const Transform sheared = {Rotate{{1, 2, 3}, 50}, Scale{{-0.8, 0.3, 0.5}}, Translate{center}};
+    for (const Transform& transform : {turned, sheared}) {
+        SceneDesc desc = floorScene();
+        GroupDesc group;
+        group.transform = transform;
+        group.objects.push_back({SphereDesc{dvec3(0), 1, {}, "light"}});
+        desc.objects.push_back({group});
+        const Affine map = toAffine(transform);
+        expectIrradiance(desc, polygonIrradiance(ellipsoidOutline(map.offset, map.linear)), "ellipsoid");
     }
 }
 

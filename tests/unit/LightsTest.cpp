@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include <glm/matrix.hpp>
+
 #include "Common/Shared/Lights.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
@@ -50,6 +52,19 @@ Light sphere(const dvec3& center, double radius) {
     return light;
 }
 
+Light ellipsoid(const dvec3& center, const glm::dmat3& axes) {
+    Light light = sphere(center, 1);
+    light.kind = kLightEllipsoid;
+    light.edgeU = vec3(axes[0]);
+    light.edgeV = vec3(axes[1]);
+    light.normal = vec3(axes[2]);
+    return light;
+}
+
+glm::dmat3 axesOf(const Light& ellipsoid) {
+    return {ellipsoid.edgeU, ellipsoid.edgeV, ellipsoid.normal};
+}
+
 RenderParams withMethod(uint method) {
     RenderParams params{};
     params.sphereLight = params.quadLight = params.triangleLight = method;
@@ -62,12 +77,21 @@ std::vector<dvec3> vertices(const Light& light) {
     return {p, p + u, p + u + v, p + v};
 }
 
+// Not below the ellipsoid's shortest half axis by more than a factor of two.
+double shortestAxis(const Light& ellipsoid) {
+    const glm::dmat3 back = glm::inverse(axesOf(ellipsoid));
+    return 1 / std::sqrt(glm::dot(back[0], back[0]) + glm::dot(back[1], back[1]) + glm::dot(back[2], back[2]));
+}
+
 double irradiance(const Light& light, const dvec3& normal) {
     if (light.kind == kLightSphere) return test::sphereIrradiance(dvec3(light.position), light.radius, normal);
+    if (light.kind == kLightEllipsoid)
+        return test::polygonIrradiance(test::ellipsoidOutline(dvec3(light.position), axesOf(light)), normal);
     return test::polygonIrradiance(vertices(light), normal);
 }
 
 double solidAngle(const Light& light) {
+    if (light.kind == kLightEllipsoid) return test::ellipsoidSolidAngle(dvec3(light.position), axesOf(light));
     if (light.kind == kLightSphere) {
         const double s = light.radius / glm::length(dvec3(light.position));
         return 2 * kPiD * s * s / (1 + std::sqrt((1 - s) * (1 + s)));
@@ -111,6 +135,13 @@ std::vector<Case> cases() {
         {"sphere very far", sphere({0, 3e4, 1e5}, 1)},
         {"sphere cut by the horizon", sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)},
         {"sphere below the horizon but for a cap", sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)},
+        {"ellipsoid overhead", ellipsoid({0, 0, 1}, {0.3, 0, 0, 0, 0.2, 0, 0, 0, 0.1})},
+        {"ellipsoid of axes 1 10 0.1", ellipsoid({1, -2, 3}, {0.8, 0.6, 0, -6, 8, 0, 0, 0, 0.1})},
+        {"ellipsoid edge-on", ellipsoid({2, 1, 0.5}, {0.8, 0.6, 0, -6, 8, 0, 0, 0, 0.1})},
+        {"ellipsoid sheared and mirrored", ellipsoid({0.5, 1, 2}, {1, 0, 0, 0.8, 0.5, 0.1, -0.3, 0.2, -0.4})},
+        {"ellipsoid across the horizon", ellipsoid({0.5, 2, -0.2}, {0.4, 0, 0.3, 0, 1, 0, -0.6, 0, 0.9})},
+        {"ellipsoid near", ellipsoid({0.2, 0.1, 0.6}, {0.9, 0.1, 0, -0.1, 0.9, 0, 0, 0, 0.5}), true},
+        {"ellipsoid far", ellipsoid({0, 3e3, 1e4}, {1, 0.5, 0, 0, 2, 0, 0, 0.3, 0.2})},
     };
 }
 
@@ -165,11 +196,14 @@ TEST_P(LightCase, SampleIsOneGeometry) {
                 std::max(point, glm::length(dvec3(s.point) - dvec3(s.wi) * double(s.distance)) / double(s.distance));
             length = std::max(length, std::abs(glm::length(dvec3(s.wi)) - 1));
             const dvec3 away = dvec3(s.point) - dvec3(light.position);
+            const double off = light.kind == kLightSphere ? glm::length(away) - light.radius
+                               : light.kind == kLightEllipsoid
+                                   ? (glm::length(glm::inverse(axesOf(light)) * away) - 1) * shortestAxis(light)
+                                   : glm::dot(away, dvec3(light.normal));
+            const bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
             surface =
-                std::max(surface, light.kind == kLightSphere
-                                      ? std::abs(glm::length(away) - light.radius) / glm::length(dvec3(light.position))
-                                      : std::abs(glm::dot(away, dvec3(light.normal))) / double(s.distance));
-            if (light.kind != kLightSphere) {
+                std::max(surface, std::abs(off) / (isRound ? glm::length(dvec3(light.position)) : double(s.distance)));
+            if (!isRound) {
                 const dvec3 placed = dvec3(light.edgeU) * double(s.uv.x) + dvec3(light.edgeV) * double(s.uv.y);
                 surface = std::max(surface, glm::length(placed - away) / double(s.distance));
             }
@@ -211,6 +245,7 @@ TEST_P(LightCase, ScalesExactly) {
         for (const float scale : {0x1p-16f, 0x1p16f}) {
             Light scaled = light;
             scaled.position *= scale, scaled.edgeU *= scale, scaled.edgeV *= scale, scaled.radius *= scale;
+            if (light.kind == kLightEllipsoid) scaled.normal *= scale;
             scaled.area *= scale * scale;
             Uniforms uniform(4);
             for (int i = 0; i < 256; ++i) {
@@ -344,6 +379,7 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
 // On an unoccluded diffuse surface a light sampled by projected solid angle has no variance but what the fit leaves.
 TEST_P(LightCase, ProjectedHasNoVariance) {
     const auto& [name, light, areaIsHopeless] = GetParam();
+    if (light.kind == kLightEllipsoid) return; // sampled by the cone
     const double extent = light.kind == kLightSphere ? double(light.radius) : double(glm::length(light.edgeU));
     if (extent < 2e-3 * glm::length(dvec3(light.position))) return; // sampled otherwise
     Uniforms uniform(12);

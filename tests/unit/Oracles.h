@@ -6,6 +6,8 @@
 #include <vector>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
 namespace rt::test {
@@ -55,6 +57,32 @@ inline double sphereIrradiance(const dvec3& center, double radius, const dvec3& 
     if (cz <= -s) return 0;
     const double c = std::sqrt((1 - s) * (1 + s)), g = std::sqrt((s - cz) * (s + cz));
     return std::atan2(g, c) - c * g + s * s * cz * std::atan2(g, -cz * c);
+}
+
+// Points on the outline, as seen from the origin outside, of the ellipsoid of points center + axes * (unit vector): where the
+// unit sphere is touched by rays from the origin's preimage. As a polygon it takes 4e-7 off the solid angle.
+inline std::vector<dvec3> ellipsoidOutline(const dvec3& center, const glm::dmat3& axes) {
+    constexpr int kCorners = 4096;
+    const dvec3 eye = -(glm::inverse(axes) * center);
+    const double d2 = glm::dot(eye, eye);
+    const dvec3 side = glm::normalize(glm::cross(eye, eye.x * eye.x < 0.5 * d2 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
+    const dvec3 up = glm::cross(eye, side) / std::sqrt(d2);
+    std::vector<dvec3> outline;
+    for (int i = 0; i < kCorners; ++i) {
+        const double phi = 2 * kPi * i / kCorners;
+        const dvec3 n = eye / d2 + std::sqrt(1 - 1 / d2) * (side * std::cos(phi) + up * std::sin(phi));
+        outline.push_back(center + axes * n);
+    }
+    return outline;
+}
+
+// Its solid angle.
+inline double ellipsoidSolidAngle(const dvec3& center, const glm::dmat3& axes) {
+    const std::vector<dvec3> outline = ellipsoidOutline(center, axes);
+    double sum = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i)
+        sum += triangleSolidAngle(center, outline[i], outline[(i + 1) % outline.size()]);
+    return sum;
 }
 
 } // namespace rt::test

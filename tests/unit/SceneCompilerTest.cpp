@@ -246,16 +246,33 @@ TEST(SceneCompiler, StretchedSpheresAreInstancesOfTheUnitSphere) {
     expectNear(placed(compiled->instances[0], {0, 1, 0}), rotatedY({1, 3, 3}, 20), 1e-6);
     EXPECT_EQ(compiled->materials[compiled->instances[1].material].kind, shared::kMaterialDielectric);
 
-    const auto errorFor = [](const SphereDesc& ball) {
-        SceneDesc bad = withMaterials();
-        add(bad, group({Scale{{1, 2, 1}}}, ball));
-        return errorOf(bad);
-    };
     SphereDesc moving = sphere({0, 0, 0}, 1, "matte");
     moving.centerEnd = glm::dvec3(1, 0, 0);
-    EXPECT_NE(errorFor(sphere({0, 0, 0}, 1, "lamp")).find("test: /objects/0/objects/0: an emissive sphere"),
-              std::string::npos);
-    EXPECT_NE(errorFor(moving).find("a moving sphere"), std::string::npos);
+    SceneDesc bad = withMaterials();
+    add(bad, group({Scale{{1, 2, 1}}}, moving));
+    EXPECT_NE(errorOf(bad).find("test: /objects/0/objects/0: a moving sphere"), std::string::npos);
+}
+
+TEST(SceneCompiler, StretchedLampsAreLightsUnlessTheyAreTakenOffTheList) {
+    SceneDesc scene = withMaterials();
+    add(scene, group({Scale{{1, 2, 1}}}, sphere({0, 1, 0}, 1, "lamp")));
+    SphereDesc unlisted = sphere({0, 1, 0}, 1, "lamp");
+    unlisted.light = false;
+    add(scene, group({Scale{{1, 2, 1}}}, unlisted));
+    add(scene, sphere({5, 0, 0}, 1, "lamp"));
+    add(scene, group({Scale{{1, 1e-12, 1}}}, sphere({0, 1, 0}, 1, "lamp"))); // too thin
+    const auto compiled = compileScene(scene);
+    ASSERT_EQ(compiled->instances.size(), 2u);
+    EXPECT_EQ(compiled->instances[0].light, 0u);
+    EXPECT_EQ(compiled->instances[1].light, shared::kNone);
+    ASSERT_EQ(compiled->lights.size(), 2u);
+    EXPECT_EQ(compiled->lights[0].kind, shared::kLightEllipsoid);
+    EXPECT_EQ(compiled->lights[1].kind, shared::kLightSphere);
+    expectNear(compiled->lights[0].position, {0, 2, 0}, 0);
+    expectNear(compiled->lights[0].edgeV, {0, 2, 0}, 1e-6);
+    EXPECT_TRUE(shared::has(compiled->features, shared::kFeatureEllipsoidLights));
+    ASSERT_EQ(compiled->notices.size(), 1u);
+    EXPECT_NE(compiled->notices[0].find("1 spheres without"), std::string::npos);
 }
 
 TEST(SceneCompiler, TurnedMapsTurn) {

@@ -1,0 +1,452 @@
+// What spheres become under maps that scale unequally: the density of their directions, stress, and the compiler's record.
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "Common/Scene/Affine.h"
+#include "Common/Scene/SceneBuilder.h"
+#include "Common/Scene/SceneCompiler.h"
+#include "Common/Shared/LightDensity.h"
+#include "tests/unit/Oracles.h"
+#include "tests/unit/Statistics.h"
+
+namespace rt::shared {
+namespace {
+
+using glm::dmat3;
+using glm::dvec3;
+using test::agrees;
+using test::Mean;
+using test::Uniforms;
+
+constexpr double kPiD = test::kPi;
+const vec3 kUp(0, 0, 1);
+
+Light ellipsoid(const dvec3& center, const dmat3& axes, uint sides = kSidesFront) {
+    Light light{};
+    light.kind = kLightEllipsoid;
+    light.position = vec3(center);
+    light.edgeU = vec3(axes[0]);
+    light.edgeV = vec3(axes[1]);
+    light.normal = vec3(axes[2]);
+    light.emission = vec3(1);
+    light.sides = sides;
+    return light;
+}
+
+RenderParams withMethod(uint method) {
+    RenderParams params{};
+    params.sphereLight = method;
+    return params;
+}
+
+dvec3 unitVector(Uniforms& uniform) {
+    const vec2 u = uniform.pair();
+    const double z = 1 - 2 * double(u.x), r = std::sqrt(std::max(1 - z * z, 0.0)), phi = 2 * kPiD * double(u.y);
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+// Columns at right angles to each other, right-handed.
+dmat3 rotation(Uniforms& uniform) {
+    const dvec3 z = unitVector(uniform), x = glm::normalize(glm::cross(z, unitVector(uniform)));
+    return {x, glm::cross(z, x), z};
+}
+
+// Half axes in these proportions, turned; sheared as well if the unit sphere is turned before.
+dmat3 turned(Uniforms& uniform, const dvec3& axes, bool isSheared) {
+    const dmat3 scale(axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z);
+    const dmat3 map = rotation(uniform) * scale;
+    return isSheared ? map * rotation(uniform) : map;
+}
+
+struct Shape {
+    dvec3 axes;
+    bool isSheared;
+    dvec3 center;
+};
+
+const std::vector<Shape> kShapes = {
+    {{1, 10, 0.1}, false, {2, 5, 7}},       {{1, 10, 0.1}, true, {2, 5, 7}},    {{-1, 2, 0.5}, true, {0.5, 2, 1}},
+    {{0.3, 0.3, 0.01}, false, {0.1, 0, 1}}, {{0.05, 0.05, 1}, true, {1, 1, 1}}, {{1, 1, 1}, false, {3, 0, 0}},
+};
+
+// ---- the density of directions --------------------------------------------------------------------------------------
+
+// The ratio of the solid angles of a small triangle of directions before and after the map, from the stretched cone, in which
+// they are uniform.
+TEST(Ellipsoids, DensityOfDirectionsIsTheJacobianOfTheirMap) {
+    Uniforms uniform(1);
+    for (int i = 0; i < 2000; ++i) {
+        const dmat3 map = turned(uniform, {uniform.logBetween(0.1, 10), uniform.logBetween(0.1, 10), 1}, (i & 1) != 0);
+        const Ellipsoid e = makeEllipsoid(vec3(map[0]), vec3(map[1]), vec3(map[2]));
+        const dvec3 center = unitVector(uniform) * (1 + uniform.logBetween(0.01, 100));
+        const EllipsoidCone cone = makeEllipsoidCone(e, vec3(center));
+        const dvec3 axis(cone.axis);
+        const dmat3 relax = dmat3(1) + (1 / double(cone.stretch) - 1) * glm::outerProduct(axis, axis);
+        const dvec3 side = glm::normalize(glm::cross(axis, unitVector(uniform)));
+        const double sine = std::sqrt((1 - double(cone.cosine)) * (1 + double(cone.cosine)));
+        const dvec3 w = glm::normalize(axis + side * (sine / double(cone.cosine) * double(uniform())));
+        const dvec3 x = glm::normalize(glm::cross(w, unitVector(uniform))) * 1e-5, y = glm::cross(w, x);
+        const dvec3 a = w - x - y, b = w + 2.0 * x - y, c = w - x + 2.0 * y; // around w
+        const auto mapped = [&](const dvec3& v) { return map * (relax * v); };
+        const double before = test::triangleSolidAngle(a, b, c);
+        const double after = test::triangleSolidAngle(mapped(a), mapped(b), mapped(c));
+        const double density = double(ellipsoidConePdf(e, cone, vec3(glm::normalize(mapped(w)))));
+        ASSERT_NEAR(density * 2 * kPiD * double(cone.oneMinusCosine) * after / before, 1, 2e-3) << i;
+        // Around the axis solid angles are kept.
+        const auto turnedToAxis = [&](const dvec3& v) { return mapped(axis + 1e-5 * v); };
+        const dvec3 top = glm::cross(axis, side), p(0.5 * side), q(0.5 * top - 0.5 * side), r(-0.5 * top);
+        const double kept = test::triangleSolidAngle(turnedToAxis(p), turnedToAxis(q), turnedToAxis(r)) /
+                            test::triangleSolidAngle(axis + 1e-5 * p, axis + 1e-5 * q, axis + 1e-5 * r);
+        ASSERT_NEAR(kept, 1, 1e-3) << i;
+    }
+}
+
+// The outline is the edge of the cone: draws at its rim run along it, and those of the middle through the centre.
+TEST(Ellipsoids, DrawsReachFromTheCentreToTheOutline) {
+    Uniforms uniform(9);
+    for (int i = 0; i < 200; ++i) {
+        const dmat3 axes = turned(uniform, {uniform.logBetween(0.1, 10), uniform.logBetween(0.1, 10), 1}, (i & 1) != 0);
+        const Light light = ellipsoid(axes * unitVector(uniform) * uniform.between(1.2, 20), axes);
+        const dmat3 back = glm::inverse(dmat3(light.edgeU, light.edgeV, light.normal));
+        const dvec3 center = back * dvec3(light.position);
+        const auto nearest = [&](float u) { // of the ray to the sphere's centre
+            const LightSample s =
+                sampleLight(kFeatureAll, withMethod(kShapeSolidAngle), light, vec3(0), vec3(0), 0, vec2(u, uniform()));
+            const dvec3 w = glm::normalize(back * dvec3(s.wi));
+            return glm::length(glm::cross(center, w));
+        };
+        EXPECT_LT(nearest(0), 1e-4);
+        EXPECT_NEAR(nearest(0x0.ffffffp0f), 1, 1e-3);
+    }
+}
+
+// Counts in cells of directions against the density that multiple importance sampling asks for.
+TEST(Ellipsoids, DrawsHaveTheDistributionOfTheDensity) {
+    constexpr int kCells = 12, kFine = 100, kDraws = 1 << 19;
+    Uniforms uniform(2);
+    for (const Shape& shape : kShapes) {
+        const Light light = ellipsoid(shape.center, turned(uniform, shape.axes, shape.isSheared));
+        const dmat3 axes(light.edgeU, light.edgeV, light.normal);
+        const RenderParams params = withMethod(kShapeSolidAngle);
+        // Cells: squares of the tangent plane around the centre that hold the outline.
+        const dvec3 center(light.position), z = glm::normalize(center);
+        const dvec3 x = glm::normalize(glm::cross(z, dvec3(0.3, 0.2, 1))), y = glm::cross(z, x);
+        double extent = 0;
+        for (const dvec3& p : test::ellipsoidOutline(center, axes)) {
+            ASSERT_GT(glm::dot(p, z), 0);
+            extent = std::max(
+                {extent, std::abs(glm::dot(p, x) / glm::dot(p, z)), std::abs(glm::dot(p, y) / glm::dot(p, z))});
+        }
+        std::vector<double> expected(kCells * kCells);
+        const double step = 2 * extent / (kCells * kFine);
+        for (int i = 0; i < kCells * kFine; ++i)
+            for (int k = 0; k < kCells * kFine; ++k) {
+                const double a = -extent + (i + 0.5) * step, b = -extent + (k + 0.5) * step;
+                const double d2 = 1 + a * a + b * b;
+                const vec3 v((z + x * a + y * b) / std::sqrt(d2));
+                const double density = lightPdfAlong(kFeatureAll, params, light, vec3(0), vec3(0), 0, v);
+                expected[static_cast<std::size_t>(i / kFine * kCells + k / kFine)] +=
+                    density / (d2 * std::sqrt(d2)) * step * step;
+            }
+        const double whole = std::accumulate(expected.begin(), expected.end(), 0.0);
+        EXPECT_NEAR(whole, 1, 2e-3);
+        std::vector<std::uint64_t> counts(expected.size());
+        for (int i = 0; i < kDraws; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, params, light, vec3(0), vec3(0), 0, uniform.pair());
+            ASSERT_GT(s.pdf, 0);
+            const dvec3 v(s.wi);
+            const auto cell = [&](const dvec3& across) {
+                const double at = (glm::dot(v, across) / glm::dot(v, z) + extent) / (2 * extent) * kCells;
+                return std::clamp(static_cast<int>(at), 0, kCells - 1);
+            };
+            ++counts[static_cast<std::size_t>(cell(x) * kCells + cell(y))];
+        }
+        // Where the outline cuts a cell its expectation is known to a few thousandths: that counts as noise.
+        const auto probability = [&](double bug) {
+            double statistic = 0;
+            int cells = 0;
+            for (std::size_t c = 0; c < counts.size(); ++c) {
+                const double mean = expected[c] * kDraws * (c % 2 == 0 ? 1 + bug : 1);
+                if (mean < 20) continue;
+                const double off = static_cast<double>(counts[c]) - mean;
+                statistic += off * off / (mean + 4e-6 * mean * mean);
+                ++cells;
+            }
+            return test::upperGamma(0.5 * cells, 0.5 * statistic);
+        };
+        EXPECT_GT(probability(0), test::kSignificance);
+        EXPECT_LT(probability(0.05), test::kSignificance) << "a density 5 % off in every second cell is not seen";
+    }
+}
+
+// Relative variances of single samples of the irradiance under the middle of a disk and of a needle, to 10 %. What looks round is
+// sampled uniformly in solid angle; by area it is tens of times as much.
+TEST(Ellipsoids, VarianceOfConesAndAreaSampling) {
+    const auto variance = [](const dvec3& axes, double height, uint method) {
+        const Light light = ellipsoid({0, 0, height}, {axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z});
+        Uniforms uniform(1);
+        Mean mean;
+        for (int i = 0; i < 1 << 18; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
+        }
+        return mean.relativeVariance();
+    };
+    const dvec3 disk(1, 1, 0.05), needle(1, 0.05, 0.05);
+    EXPECT_NEAR(variance(disk, 1, kShapeAuto), 0.0098, 0.001);
+    EXPECT_NEAR(variance(disk, 0.3, kShapeAuto), 0.104, 0.01);
+    EXPECT_NEAR(variance(needle, 1, kShapeAuto), 0.098, 0.01);
+    EXPECT_NEAR(variance(needle, 0.3, kShapeAuto), 1.1, 0.11);
+    EXPECT_NEAR(variance(disk, 1, kShapeArea), 3.2, 0.32);
+    EXPECT_GT(variance(disk, 0.3, kShapeArea), 10.0);
+    EXPECT_NEAR(variance(needle, 1, kShapeArea), 2.5, 0.25);
+}
+
+// Over all directions, as the mixture asks for it.
+TEST(Ellipsoids, DensityIntegratesToOne) {
+    Uniforms uniform(3);
+    for (const Shape& shape : kShapes) {
+        const Light light = ellipsoid(0.4 * shape.center, turned(uniform, shape.axes, shape.isSheared));
+        const dmat3 axes(light.edgeU, light.edgeV, light.normal);
+        const bool isInside = glm::length(glm::inverse(axes) * dvec3(light.position)) <= 1;
+        for (const uint method : {kShapeAuto, kShapeArea}) {
+            if (isInside) continue;
+            Mean mean;
+            const auto outline = test::ellipsoidOutline(dvec3(light.position), axes);
+            double lowest = 1; // directions from a cone around the axis that holds the outline
+            const dvec3 z = glm::normalize(dvec3(light.position));
+            for (const dvec3& p : outline) lowest = std::min(lowest, glm::dot(glm::normalize(p), z));
+            const dvec3 x = glm::normalize(glm::cross(z, dvec3(0.3, 0.2, 1))), y = glm::cross(z, x);
+            for (int i = 0; i < 1 << 18; ++i) {
+                const vec2 u = uniform.pair();
+                const double c = 1 - double(u.x) * (1 - lowest), r = std::sqrt(1 - c * c), phi = 2 * kPiD * double(u.y);
+                const dvec3 v = z * c + x * (r * std::cos(phi)) + y * (r * std::sin(phi));
+                mean.add(2 * kPiD * (1 - lowest) *
+                         double(lightPdfAlong(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, vec3(v))));
+            }
+            // Of points drawn by area those on the far side are of no use.
+            const double d = glm::length(glm::inverse(axes) * dvec3(light.position));
+            EXPECT_TRUE(agrees(mean, method == kShapeArea ? 0.5 * (1 - 1 / d) : 1.0, 1e-3)) << "method " << method;
+        }
+    }
+}
+
+// ---- inside, mirrored, one-sided ------------------------------------------------------------------------------------
+
+TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
+    Uniforms uniform(4);
+    const dmat3 axes = turned(uniform, {1, 10, -0.7}, true);
+    for (const uint sides : {kSidesFront, kSidesBoth}) {
+        const Light light = ellipsoid(axes * dvec3(0.3, -0.4, 0.2), axes, sides);
+        Mean surface, medium;
+        for (int i = 0; i < 1 << 14; ++i) {
+            const vec2 u = uniform.pair();
+            const LightSample s = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0, u);
+            if (sides == kSidesFront) {
+                ASSERT_EQ(s.pdf, 0.0f);
+                continue;
+            }
+            ASSERT_GT(s.pdf, 0.0f);
+            surface.add(double(s.wi.z) / double(s.pdf));
+            EXPECT_NEAR(glm::length(glm::inverse(axes) * (dvec3(s.point) - dvec3(light.position))), 1, 1e-5);
+            EXPECT_GT(glm::dot(s.normal, s.wi), 0.0f); // outward
+            const LightSample m = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, u);
+            medium.add(1 / double(m.pdf));
+            EXPECT_EQ(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, m.wi), m.pdf);
+        }
+        if (sides == kSidesFront) continue;
+        EXPECT_TRUE(agrees(surface, kPiD));
+        EXPECT_TRUE(agrees(medium, 4 * kPiD));
+    }
+}
+
+// A mirrored map leaves the sphere's front outside: samples and densities are those of the map before the mirror.
+TEST(Ellipsoids, MirrorsChangeNothing) {
+    Uniforms uniform(5);
+    const dmat3 axes = turned(uniform, {1, 2, 0.5}, true);
+    const Light light = ellipsoid({1, 2, 3}, axes);
+    Light mirrored = light;
+    mirrored.edgeV = -mirrored.edgeV;
+    for (int i = 0; i < 1000; ++i) {
+        const LightSample s =
+            sampleLight(kFeatureAll, withMethod(kShapeAuto), mirrored, vec3(0), vec3(0), 0, uniform.pair());
+        ASSERT_GT(s.pdf, 0);
+        EXPECT_LT(glm::dot(s.normal, s.wi), 0);
+        const float pdf =
+            lightPdf(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, s.wi, s.distance, s.normal);
+        EXPECT_NEAR(pdf / s.pdf, 1, 1e-4);
+    }
+}
+
+// ---- stress ---------------------------------------------------------------------------------------------------------
+
+TEST(Ellipsoids, TwelveDecadesOfSizeDistanceAndShapeLeaveNothingThatIsNotFinite) {
+    Uniforms uniform(6);
+    std::uint64_t drawn = 0;
+    for (int i = 0; i < 200000; ++i) {
+        const double size = uniform.logBetween(1e-6, 1e6);
+        const dvec3 axes =
+            size * dvec3(uniform.logBetween(1e-4, 1), uniform.logBetween(1e-4, 1), uniform.logBetween(1e-4, 1));
+        const dmat3 map = turned(uniform, axes, false);
+        dvec3 center = unitVector(uniform) * uniform.logBetween(1e-6, 1e6);
+        if (i % 4 == 0) center = map * (unitVector(uniform) * (1 + uniform.logBetween(1e-7, 1e-1))); // touching
+        const dvec3 position = i % 8 < 4 ? dvec3(0) : dvec3(1e5, -2e5, 5e4);
+        const Light light = ellipsoid(position + center, map, i & 1 ? kSidesFront : kSidesBoth);
+        const vec3 normal = i % 3 == 0 ? vec3(0) : vec3(unitVector(uniform));
+        const float last = 0x0.ffffffp0f;
+        const vec2 u = i % 16 == 0 ? vec2(i & 32 ? last : 0.0f, i & 64 ? last : 0.0f) : uniform.pair();
+        for (const uint method : {kShapeAuto, kShapeProjected, kShapeArea}) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(position), normal, 0, u);
+            ASSERT_TRUE(isFinite(s.pdf) && s.pdf >= 0) << i;
+            if (!(s.pdf > 0)) continue;
+            ++drawn;
+            ASSERT_TRUE(isFinite(s.wi) && isFinite(s.point) && isFinite(s.normal) && isFinite(s.distance)) << i;
+            ASSERT_NEAR(glm::length(s.wi), 1, 1e-4) << i;
+            const float again =
+                lightPdf(kFeatureAll, withMethod(method), light, vec3(position), normal, 0, s.wi, s.distance, s.normal);
+            ASSERT_TRUE(isFinite(again) && again >= 0) << i;
+            const float along = lightPdfAlong(kFeatureAll, withMethod(method), light, vec3(position), normal, 0, s.wi);
+            ASSERT_TRUE(isFinite(along) && along >= 0) << i;
+            ASSERT_TRUE(isFinite(lightPointError(kFeatureAll, light))) << i;
+        }
+    }
+    EXPECT_GT(drawn, 200000u);
+}
+
+// ---- the record -----------------------------------------------------------------------------------------------------
+
+double exactArea(const dmat3& axes) {
+    const dmat3 cofactors = glm::determinant(axes) * glm::transpose(glm::inverse(axes));
+    constexpr int kSteps = 600;
+    double sum = 0;
+    for (int i = 0; i < kSteps; ++i)
+        for (int k = 0; k < kSteps; ++k) {
+            const double z = 1 - 2 * (i + 0.5) / kSteps, r = std::sqrt(1 - z * z), phi = 2 * kPiD * (k + 0.5) / kSteps;
+            sum += glm::length(cofactors * dvec3(r * std::cos(phi), r * std::sin(phi), z));
+        }
+    return 4 * kPiD * sum / (kSteps * kSteps);
+}
+
+// Scaled about the axes and by a matrix that shears, in nested groups, from one to 10^4.
+TEST(Ellipsoids, RecordsHoldTheWorldsShape) {
+    Uniforms uniform(7);
+    for (int i = 0; i < 200; ++i) {
+        const dvec3 factors(uniform.logBetween(0.01, 1), uniform.logBetween(0.01, 1), i & 1 ? -1 : 1);
+        scene::SceneDesc desc;
+        desc.id = "test";
+        desc.materials = {{"lamp", scene::emitter({1, 2, 4})}};
+        scene::GroupDesc inner, outer;
+        const scene::Rotate turn{unitVector(uniform), uniform.between(0, 360)};
+        inner.transform = {turn, scene::Scale{factors}};
+        inner.objects.push_back({scene::sphere({0.1, 0.2, 0.3}, 2, "lamp")});
+        outer.transform = {scene::Rotate{unitVector(uniform), 50}, scene::Translate{{1, 2, 3}}};
+        outer.objects.push_back({inner});
+        desc.objects.push_back({outer});
+        const auto compiled = scene::compileScene(desc);
+        ASSERT_EQ(compiled->lights.size(), 1u);
+        ASSERT_EQ(compiled->instances.size(), 1u);
+        EXPECT_TRUE(has(compiled->features, kFeatureEllipsoidLights));
+        EXPECT_EQ(compiled->instances[0].light, 0u);
+        const Light& light = compiled->lights[0];
+        const LightBound& bound = compiled->lightBounds[0];
+        ASSERT_EQ(light.kind, kLightEllipsoid);
+        const dmat3 axes(light.edgeU, light.edgeV, light.normal);
+        EXPECT_NEAR(light.area / exactArea(axes), 1, 0.012);
+        EXPECT_NEAR(4 * kPiD * double(light.radius) * double(light.radius) / light.area, 1, 1e-6);
+        EXPECT_NEAR(bound.intensity / (0.25 * light.area * (0.2126 + 2 * 0.7152 + 4 * 0.0722)), 1, 1e-5);
+        EXPECT_EQ(bound.axis, vec3(0));
+        // The same points as by hand, within the bound, and it is no larger than it must be.
+        const scene::Affine map = scene::toAffine(outer.transform) * scene::toAffine(inner.transform) *
+                                  scene::translation({0.1, 0.2, 0.3}) * scene::scaling(dvec3(2));
+        const scene::Affine back = *scene::inverse(map);
+        double farthest = 0;
+        for (int k = 0; k < 2000; ++k) {
+            const dvec3 p = dvec3(light.position) + axes * unitVector(uniform);
+            EXPECT_NEAR(glm::length(back.point(p)), 1, 2e-4);
+            farthest = std::max(farthest, glm::length(p - dvec3(bound.center)));
+            EXPECT_LE(glm::length(p - dvec3(bound.center)), bound.radius);
+        }
+        EXPECT_GT(farthest, 0.98 * double(bound.radius));
+        // What the tracer meets is the same surface.
+        for (int k = 0; k < 100; ++k) {
+            const dvec3 p = axes * unitVector(uniform) + dvec3(light.position);
+            dvec3 onSphere;
+            for (int row = 0; row < 3; ++row) {
+                const vec4 r = compiled->instances[0].toObject[row];
+                onSphere[row] = glm::dot(dvec3(r), p) + double(r.w);
+            }
+            EXPECT_NEAR(glm::length(onSphere), 1, 2e-4);
+        }
+    }
+}
+
+// Wherever light can arrive the estimate by which lights are chosen is positive.
+TEST(Ellipsoids, AreChosenWhereverTheyContribute) {
+    Uniforms uniform(8);
+    int dark = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const dvec3 factors(uniform.logBetween(0.01, 3), uniform.logBetween(0.01, 3), uniform.logBetween(0.01, 3));
+        scene::SceneDesc desc;
+        desc.id = "test";
+        desc.materials = {{"lamp", scene::emitter({1, 1, 1})}};
+        scene::GroupDesc group;
+        group.transform = {scene::Rotate{unitVector(uniform), 70}, scene::Scale{factors},
+                           scene::Translate{3.0 * unitVector(uniform)}};
+        group.objects.push_back({scene::sphere({0, 0, 0}, 1, "lamp")});
+        desc.objects.push_back({group});
+        const auto compiled = scene::compileScene(desc);
+        ASSERT_EQ(compiled->lights.size(), 1u);
+        const Light& light = compiled->lights[0];
+        const dmat3 axes(light.edgeU, light.edgeV, light.normal);
+        if (glm::length(glm::inverse(axes) * dvec3(light.position)) < 1.0001) continue;
+        const vec3 normal(unitVector(uniform));
+        const double exact =
+            test::polygonIrradiance(test::ellipsoidOutline(dvec3(light.position), axes), dvec3(normal));
+        const float estimate = lightContribution(compiled->lightBounds[0], vec3(0), normal);
+        if (exact > 1e-9) {
+            ASSERT_GT(estimate, 0.0f) << i;
+        }
+        ASSERT_GT(lightContribution(compiled->lightBounds[0], vec3(0), vec3(0)), 0.0f) << i;
+        dark += estimate == 0 ? 1 : 0;
+    }
+    EXPECT_GT(dark, 300); // and it does exclude some
+}
+
+// An image shows how the sphere was turned, so the map stays as it is, and single precision must invert it.
+TEST(Ellipsoids, ThatShowImagesKeepTheirMap) {
+    const auto compiledWith = [](double flatness) {
+        scene::SceneDesc desc;
+        desc.id = "test";
+        desc.textures["map"] = scene::ImageTexture{"none.jpg", "mars", dvec3(1)};
+        scene::MaterialDesc lamp = scene::emitter({1, 1, 1});
+        lamp.emissionTexture = "map";
+        desc.materials = {{"lamp", lamp}};
+        scene::GroupDesc group;
+        group.transform = {scene::Rotate{{1, 2, 3}, 40}, scene::Scale{{1, flatness, flatness}},
+                           scene::Rotate{{3, 1, 2}, 60}};
+        group.objects.push_back({scene::sphere({0, 0, 0}, 1, "lamp")});
+        desc.objects.push_back({group});
+        scene::CompileOptions options;
+        options.generatedAssets = true;
+        return scene::compileScene(desc, options);
+    };
+    const auto usual = compiledWith(0.3);
+    ASSERT_EQ(usual->lights.size(), 1u);
+    const scene::Affine map =
+        scene::toAffine({scene::Rotate{{1, 2, 3}, 40}, scene::Scale{{1, 0.3, 0.3}}, scene::Rotate{{3, 1, 2}, 60}});
+    EXPECT_LT(glm::length(dvec3(usual->lights[0].edgeU) - map.linear[0]), 1e-6);
+    EXPECT_LT(glm::length(dvec3(usual->lights[0].normal) - map.linear[2]), 1e-6);
+    const auto needle = compiledWith(1e-5);
+    EXPECT_EQ(needle->lights.size(), 0u);
+    EXPECT_EQ(needle->instances.size(), 1u);
+    const std::string notice = "1 emissive spheres are scaled so unequally that light sampling leaves them out";
+    EXPECT_EQ(std::count(needle->notices.begin(), needle->notices.end(), notice), 1);
+}
+
+} // namespace
+} // namespace rt::shared
