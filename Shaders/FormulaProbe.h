@@ -50,7 +50,8 @@ const uint kProbeTriangleProjected = 29u;
 const uint kProbeCluster = 30u;
 const uint kProbeSpherePoint = 31u;
 const uint kProbeTonemap = 32u;
-const uint kProbeCount = 33u;
+const uint kProbeEllipsoidLight = 33u;
+const uint kProbeCount = 34u;
 
 // In the cube [-1, 1]^3.
 RT_FN vec3 cubePoint(RT_INOUT(Arguments) a) {
@@ -106,11 +107,20 @@ RT_FN Light probeLight(RT_INOUT(Arguments) a, uint kind) {
     return light;
 }
 
+// No axis at right angles to another.
+RT_FN Light probeEllipsoid(RT_INOUT(Arguments) a) {
+    Light light = probeLight(a, kLightEllipsoid);
+    light.edgeU += vec3(0.0f, 0.1f, -0.1f);
+    light.edgeV += vec3(0.2f, 0.0f, 0.0f);
+    light.normal = vec3(0.1f, 0.0f, 0.2f) + vec3(0.0f, light.radius, 0.0f);
+    return light;
+}
+
 RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
-    Light light = probeLight(a, kind);
+    Light light = kind == kLightEllipsoid ? probeEllipsoid(a) : probeLight(a, kind);
     vec3 position = cubePoint(a);
     vec3 normal = vec3(0.0f, 1.0f, 0.0f);
-    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights;
+    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kFeatureEllipsoidLights;
     uint shape = a.key % 3u == 0u ? kShapeAuto : (a.key % 3u == 1u ? kShapeSolidAngle : kShapeArea);
     RenderParams params = probeParams(shape);
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
@@ -246,6 +256,7 @@ RT_FN uvec4 probeNumbers(RT_INOUT(Arguments) a, uint which, uint i) {
 RT_FN uvec4 probeLights(RT_INOUT(Arguments) a, uint which) {
     if (which <= kProbeTriangleLight) return probeLightSample(a, which - kProbeSphereLight);
     if (which == kProbeCluster) return probeCluster(a);
+    if (which == kProbeEllipsoidLight) return probeLightSample(a, kLightEllipsoid);
     LightBound bound;
     bound.center = cubePoint(a);
     bound.radius = 0.3f;
@@ -293,7 +304,7 @@ const uint kFamilyCount = 7u;
 RT_FN uint familyOf(uint which) {
     if (which <= kProbeOffset) return kFamilyNumbers;
     if (which <= kProbeDielectric) return kFamilySurfaces;
-    if (which <= kProbeContribution || which == kProbeCluster) return kFamilyLights;
+    if (which <= kProbeContribution || which == kProbeCluster || which == kProbeEllipsoidLight) return kFamilyLights;
     if (which >= kProbeSphereProjected && which <= kProbeTriangleProjected)
         return kFamilyProjected + which - kProbeSphereProjected;
     return kFamilyScene;

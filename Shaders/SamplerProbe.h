@@ -24,11 +24,12 @@ RT_SHARED_END
 RT_SHARED_BEGIN
 
 // What a device compiles into one pipeline.
-const uint kProbeShapes = 3u;     // families 0 to 2: lights of the kinds sphere, quad and triangle
-const uint kProbeProjected = 3u;  // families 3 to 5: the same by projected solid angle
-const uint kProbeScattering = 6u; // materials and the phase function
-const uint kProbeChoice = 7u;     // among lights
-const uint kProbeFamilies = 8u;
+const uint kProbeShapes = 3u;    // families 0 to 2: lights of the kinds sphere, quad and triangle
+const uint kProbeProjected = 3u; // families 3 to 5: the same by projected solid angle
+const uint kProbeEllipsoids = 6u;
+const uint kProbeScattering = 7u; // materials and the phase function
+const uint kProbeChoice = 8u;     // among lights
+const uint kProbeFamilies = 9u;
 const uint kProbeCases = 4u; // of each family
 
 const uint kProbeDraws = 0u;   // independent numbers
@@ -75,10 +76,30 @@ RT_FN Light probeLightOf(uint kind, vec3 position, vec3 edgeU, vec3 edgeV, float
     return light;
 }
 
+RT_FN bool isProbeProjected(uint family) {
+    return family >= kProbeProjected && family < kProbeProjected + kProbeShapes;
+}
+RT_FN uint probeKind(uint family) {
+    return family == kProbeEllipsoids ? kLightEllipsoid : family % kProbeShapes;
+}
+
+// Half axes x, y, z, the first turned towards z and sheared. `radius`: of a sphere that holds it.
+RT_FN Light probeEllipsoid(vec3 center, float x, float y, float z, float radius) {
+    Light light = probeLightOf(kLightEllipsoid, center, vec3(x, 0.0f, 0.5f * x), vec3(0.0f, y, 0.0f), radius);
+    light.normal = vec3(-0.3f * z, 0.2f * z, z);
+    return light;
+}
+
 // The light of a case, to be seen from the origin on a surface with the normal +y.
 RT_FN Light probeCaseLight(uint family, uint which) {
-    uint kind = family % kProbeShapes;
-    bool projected = family >= kProbeProjected;
+    uint kind = probeKind(family);
+    bool projected = isProbeProjected(family);
+    if (kind == kLightEllipsoid) {
+        if (which == 1u) return probeEllipsoid(vec3(-0.5f, 1.2f, 1.0f), 0.2f, -0.5f, 0.05f, 0.6f); // mirrored
+        if (which == 2u) return probeEllipsoid(vec3(1.5f, 0.1f, -0.4f), 0.3f, 0.5f, 0.1f, 0.6f);   // cut by the horizon
+        return probeEllipsoid(vec3(0.6f, 1.0f, -0.4f), which == 3u ? 2.0f : 0.4f, which == 3u ? 3.0f : 0.1f,
+                              which == 3u ? 1.5f : 0.6f, which == 3u ? 4.0f : 0.8f);
+    }
     if (kind == kLightSphere) {
         float high = projected ? (which == 0u ? 0.9f : (which == 1u ? 0.2f : -0.25f)) : 0.7f;
         float radius = !projected && which == 3u ? 2.0f : (which == 2u && !projected ? 0.9f : 0.5f);
@@ -95,7 +116,7 @@ RT_FN Light probeCaseLight(uint family, uint which) {
 }
 
 RT_FN uint probeShape(uint family, uint which) {
-    if (family >= kProbeProjected) return kShapeProjected;
+    if (isProbeProjected(family)) return kShapeProjected;
     if (which == 0u) return kShapeArea;
     return which == 3u ? kShapeAuto : kShapeSolidAngle;
 }
@@ -115,11 +136,25 @@ RT_FN Light probeStressLight(RT_INOUT(Arguments) a, uint kind, RT_INOUT(vec3) po
     if ((a.key & 48u) == 32u)
         corner = 2.0f * u - 0.3f * v + across * (probeDecades(a, -7.0f, -4.0f) / max(side, 1.0e-30f));
     position = (a.key & 64u) == 0u ? vec3(0.0f) : vec3(1.0e5f, -2.0e5f, 5.0e4f);
-    return probeLightOf(kind, position + corner, u, v, length(u));
+    Light light = probeLightOf(kind, position + corner, u, v, length(u));
+    if (kind == kLightEllipsoid) { // v at right angles to u
+        light.edgeV = cross(light.normal, u) * (length(v) / length(u));
+        light.normal *= length(u) * probeDecades(a, -4.0f, 0.0f);
+    }
+    return light;
 }
 
-// A point uniform in the area of a light, and the normal there.
-RT_FN vec3 probeLightPoint(RT_IN(Light) light, vec2 u, RT_INOUT(vec3) normal) {
+// A point on a light, the normal there, and the inverse of the point's density per area: uniform but for ellipsoids.
+RT_FN vec3 probeLightPoint(RT_IN(Light) light, vec2 u, RT_INOUT(vec3) normal, RT_INOUT(float) area) {
+    area = light.area;
+    if (light.kind == kLightEllipsoid) {
+        vec3 n = sampleSphere(u);
+        vec3 across = cross(light.edgeV, light.normal) * n.x + cross(light.normal, light.edgeU) * n.y +
+                      cross(light.edgeU, light.edgeV) * n.z; // outwards or, mirrored, inwards
+        area = 4.0f * kPi * length(across);
+        normal = normalize(across) * signOf(dot(light.edgeU, cross(light.edgeV, light.normal)));
+        return light.position + light.edgeU * n.x + light.edgeV * n.y + light.normal * n.z;
+    }
     if (light.kind == kLightSphere) {
         normal = sampleSphere(u);
         return light.position + normal * light.radius;
@@ -130,6 +165,14 @@ RT_FN vec3 probeLightPoint(RT_IN(Light) light, vec2 u, RT_INOUT(vec3) normal) {
     return light.position + light.edgeU * w.x + light.edgeV * w.y;
 }
 
+// Of a round light.
+RT_FN bool isProbeInside(RT_IN(Light) light, vec3 position) {
+    vec3 toCenter = light.position - position;
+    if (light.kind == kLightEllipsoid) toCenter = toSphere(ellipsoidOf(light), toCenter);
+    float radius = light.kind == kLightEllipsoid ? 1.0f : light.radius;
+    return dot(toCenter, toCenter) <= radius * radius;
+}
+
 // kProbeDraws, kProbeStrata: direction and density. kProbeDensity: the density asked for again over that of the sample, 1 if
 // there is none; and the density per area, times the area, at a point uniform in it.
 // kProbeStress, bits: 0 not finite, 1 no positive density, 2 no unit vector, 3 an unusable density when asked again.
@@ -137,10 +180,11 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
     Arguments a;
     a.key = i;
     a.next = ((family * kProbeCases + which) * kProbeModes + mode) << 8u;
-    uint kind = family % kProbeShapes;
+    uint kind = probeKind(family);
     uint features = kind == kLightSphere ? kFeatureSphereLights
                                          : (kind == kLightQuad ? kFeatureQuadLights : kFeatureTriangleLights);
-    if (family >= kProbeProjected) features |= kFeatureProjected;
+    if (kind == kLightEllipsoid) features = kFeatureEllipsoidLights;
+    if (isProbeProjected(family)) features |= kFeatureProjected;
     bool stress = mode == kProbeStress;
     Light light = probeCaseLight(family, which);
     vec3 position = vec3(0.0f);
@@ -153,7 +197,8 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, probeSquare(a, mode, i));
     if (mode <= kProbeStrata) return floatWords(s.wi, s.pdf);
     vec3 onLight = vec3(0.0f);
-    vec3 v = probeLightPoint(light, uniformPair(a), onLight) - position;
+    float area = 0.0f;
+    vec3 v = probeLightPoint(light, uniformPair(a), onLight, area) - position;
     float again = 1.0f;
     float perArea = 0.0f;
     for (uint n = 0u; n < 2u; n++) { // one call for two densities: compilers copy the code into each
@@ -161,15 +206,14 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
         vec3 wi = n == 0u ? s.wi : v * (1.0f / max(d, 1.0e-30f));
         vec3 facing = n == 0u ? s.normal : onLight;
         float cosine = abs(dot(wi, facing));
-        bool hidden = light.kind == kLightSphere &&
-                      (dot(wi, facing) > 0.0f) ==
-                          (dot(light.position - position, light.position - position) > light.radius * light.radius);
+        bool hidden = (dot(wi, facing) > 0.0f) != isProbeInside(light, position) &&
+                      (light.kind == kLightSphere || light.kind == kLightEllipsoid);
         if (n == 0u ? s.pdf > 0.0f : (!stress && dot(wi, normal) > 0.0f && !hidden)) {
             float pdf = lightPdf(features, params, light, position, normal, 0.0f, wi, d, facing);
             if (n == 0u) {
                 again = stress ? pdf : pdf / s.pdf;
             } else {
-                perArea = pdf * cosine / (d * d) * light.area;
+                perArea = pdf * cosine / (d * d) * area;
             }
         }
     }

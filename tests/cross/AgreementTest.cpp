@@ -182,5 +182,25 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
     }
 }
 
+// Emissive spheres under every kind of transform.
+class EllipsoidAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, EllipsoidAgreementTest, kBothEngines, engineName);
+
+TEST_P(EllipsoidAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/ellipsoid-lights.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
+        if (settings.sampler != app::SamplerKind::Sobol) continue; // the others are no matter of lights
+        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
+    }
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const app::ShapeSampling shape : {app::ShapeSampling::Area, app::ShapeSampling::Projected}) {
+        app::RenderSettings settings = pairSettings(1);
+        settings.sphereLight = shape;
+        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << static_cast<int>(shape);
+    }
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 } // namespace
 } // namespace rt::test

@@ -1,15 +1,18 @@
 // Scenes whose radiance is known in closed form, on the GPU: the comparison with the CPU would not see a mistake that both make.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
+#include "Common/Scene/Affine.h"
 #include "Common/Scene/BuiltinScenes.h"
 #include "Common/Scene/SceneCompiler.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
+#include "tests/unit/Oracles.h"
 
 namespace rt::test {
 namespace {
@@ -59,6 +62,22 @@ TEST_P(AnalyticTest, RouletteChangesNothingButVariance) {
     }
 }
 
+TEST_P(AnalyticTest, ConvexLampsDoNotLightThemselves) {
+    for (const Transform& transform : lampTransforms()) {
+        for (const double distance : {6.0, 1000.0}) {
+            GpuRenders renders(lampAlone(transform, distance));
+            for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mis}) {
+                app::RenderSettings settings = smallSettings(48, 4);
+                settings.lightSampling = sampling;
+                const Estimate estimate = renders(settings);
+                const float most = *std::max_element(estimate.image.data.begin(), estimate.image.data.end());
+                EXPECT_GT(most, 0.4f);
+                EXPECT_LE(most, 1.0f) << describe(settings) << ", from " << distance;
+            }
+        }
+    }
+}
+
 TEST_P(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
     MaterialDesc glass;
     glass.kind = MaterialKind::Dielectric;
@@ -99,6 +118,16 @@ TEST_P(AnalyticTest, IrradianceUnderASphere) {
     desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
     const double d = glm::length(center);
     expectIrradiance(desc, std::numbers::pi * (0.64 / (d * d)) * center.y / d, "sphere");
+}
+
+TEST_P(AnalyticTest, IrradianceUnderAnEllipsoid) {
+    SceneDesc desc = floorScene();
+    GroupDesc group;
+    group.transform = {Rotate{{1, 2, 3}, 50}, Scale{{-0.8, 0.1, 0.5}}, Translate{{0.5, 2, -0.4}}};
+    group.objects.push_back({SphereDesc{dvec3(0), 1, {}, "light"}});
+    desc.objects.push_back({group});
+    const Affine map = toAffine(group.transform);
+    expectIrradiance(desc, polygonIrradiance(ellipsoidOutline(map.offset, map.linear)), "ellipsoid");
 }
 
 TEST_P(AnalyticTest, IrradianceUnderAQuad) {

@@ -60,6 +60,7 @@ constexpr Bound kBounds[] = {
     {shared::kProbeCluster, "contribution of a cluster", 1e-4, 50},
     {shared::kProbeSpherePoint, "point on a sphere", 1e-4, 100}, // grazing rays, and misses
     {shared::kProbeTonemap, "tone curves", 1e-5, 0},
+    {shared::kProbeEllipsoidLight, "ellipsoid light", 1e-4, 50},
 };
 static_assert(std::size(kBounds) == shared::kProbeCount - shared::kProbeFloats);
 

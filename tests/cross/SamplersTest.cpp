@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,6 +15,7 @@
 #include <SamplerProbe.comp.h>
 #include "Shaders/SamplerProbe.h"
 #include "tests/cross/Probe.h"
+#include "tests/cross/SamplerDomain.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -60,32 +62,9 @@ class Sampler {
 
 // ---- directions -----------------------------------------------------------------------------------------------------
 
-// A sampler's domain in cells, and the measure of each: of lights what they contribute to the irradiance, of scattering the
-// cosine for diffuse and the solid angle for others.
 class Directions : public Sampler {
-    static constexpr int kCells = 8;
-
-    const bool isLight_ = family_ < shared::kProbeScattering;
-    const shared::Light light_ = shared::probeCaseLight(family_, which_);
-    const bool isRound_ = !isLight_ || light_.kind == shared::kLightSphere;
-    const bool isTriangle_ = isLight_ && light_.kind == shared::kLightTriangle;
-    const bool hasCosine_ = isLight_ || which_ == 0;
-    const dvec3 up_{0, 1, 0};
-    const dvec3 corner_{light_.position}, u_{light_.edgeU}, v_{light_.edgeV};
-    dvec3 axis_, side_, top_; // of the cone of a round domain
-    double coneCosine_ = 0;
-
   public:
-    Directions(const Case& c, const std::vector<Words>& onDevice) : Sampler(c, onDevice) {
-        if (!isRound_) return;
-        const bool isInside = isLight_ && glm::length(corner_) < double(light_.radius);
-        const shared::vec4 cone = shared::probeCone(which_);
-        axis_ = isLight_ ? (isInside ? up_ : glm::normalize(corner_)) : glm::normalize(dvec3(cone));
-        const double sine = double(light_.radius) / glm::length(corner_);
-        coneCosine_ = isLight_ ? (isInside ? 0 : std::sqrt((1 - sine) * (1 + sine))) : double(cone.w);
-        side_ = glm::normalize(glm::cross(axis_, dvec3(0.3, 0.2, 1)));
-        top_ = glm::cross(side_, axis_);
-    }
+    Directions(const Case& c, const std::vector<Words>& onDevice) : Sampler(c, onDevice), domain_(c.family, c.which) {}
 
     void haveTheDistributionThatTheirDensitiesState() const;
     void giveTheAnalyticMean() const;
@@ -94,63 +73,19 @@ class Directions : public Sampler {
     void keepStrata() const;
 
   private:
-    double measure(const dvec3& w) const { return hasCosine_ ? std::max(w.y, 0.0) : 1.0; }
-
-    std::size_t cellOf(const dvec3& w) const {
-        double a = 0, b = 0;
-        if (isRound_) {
-            a = (1 - glm::dot(w, axis_)) / (1 - coneCosine_);
-            b = std::atan2(glm::dot(w, side_), glm::dot(w, top_)) / (2 * kPi) + 0.5;
-        } else {
-            const dvec3 n = glm::cross(u_, v_);
-            const dvec3 p = w * (glm::dot(corner_, n) / glm::dot(w, n)) - corner_;
-            a = glm::dot(glm::cross(p, v_), n) / glm::dot(n, n);
-            b = glm::dot(glm::cross(u_, p), n) / glm::dot(n, n);
-        }
-        const auto cell = [](double x) { return std::clamp(static_cast<int>(x * kCells), 0, kCells - 1); };
-        const int i = cell(a), k = cell(b);
-        const int row = isTriangle_ && i + k >= kCells ? kCells - 1 - i : k;
-        return static_cast<std::size_t>(i * kCells + row);
-    }
-
-    std::vector<double> measures() const {
-        std::vector<double> result;
-        for (int i = 0; i < kCells; ++i)
-            for (int k = 0; k < kCells; ++k) result.push_back(isRound_ ? roundCell(i, k) : flatCell(i, k));
-        return result;
-    }
-
-    double roundCell(int i, int k) const {
-        constexpr int kSteps = 100;
-        double sum = 0;
-        for (int x = 0; x < kSteps; ++x)
-            for (int y = 0; y < kSteps; ++y) {
-                const double c = 1 - (1 - coneCosine_) * (i + (x + 0.5) / kSteps) / kCells;
-                const double phi = 2 * kPi * ((k + (y + 0.5) / kSteps) / kCells - 0.5), s = std::sqrt(1 - c * c);
-                sum += measure(c * axis_ + s * (std::sin(phi) * side_ + std::cos(phi) * top_));
-            }
-        return sum * 2 * kPi * (1 - coneCosine_) / (kCells * kCells * kSteps * kSteps);
-    }
-
-    double flatCell(int i, int k) const {
-        if (isTriangle_ && i + k >= kCells) return 0;
-        const auto at = [&](int a, int b) { return corner_ + u_ * (double(a) / kCells) + v_ * (double(b) / kCells); };
-        std::vector<dvec3> corners{at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)};
-        if (isTriangle_ && i + k == kCells - 1) corners.erase(corners.begin() + 2);
-        return polygonIrradiance(corners, up_);
-    }
+    static dvec3 direction(const Words& words) { return {number(words, 0), number(words, 1), number(words, 2)}; }
 
     // What a sample stands for: its part of the measure, if densities are right. `bug`: relative, in half of the domain.
     double weight(const Words& words, double bug = 0) const {
-        const dvec3 w(number(words, 0), number(words, 1), number(words, 2));
+        const dvec3 w = direction(words);
         const double density = number(words, 3);
         if (!(density > 0)) return 0;
-        return measure(w) / density * (cellOf(w) % 2 == 0 ? 1 + bug : 1);
+        return domain_.measure(w) / density * (domain_.cellOf(w) % 2 == 0 ? 1 + bug : 1);
     }
 
     // Probability of sums of weights in the cells that deviate as much as these from the measures.
     double probability(double bug = 0) const {
-        const std::vector<double> exact = measures();
+        const std::vector<double> exact = domain_.measures();
         const double whole = std::accumulate(exact.begin(), exact.end(), 0.0);
         std::vector<double> sums(exact.size() + 1), squares(exact.size() + 1), expected(exact.size() + 1);
         const auto isSmall = [&](std::size_t c) { return exact[c] < 1e-3 * whole; }; // the last cell pools those
@@ -159,7 +94,7 @@ class Directions : public Sampler {
             const Words words = drawn(shared::kProbeDraws, i);
             const double x = weight(words, bug);
             if (!(x > 0)) continue;
-            std::size_t c = cellOf({number(words, 0), number(words, 1), number(words, 2)});
+            std::size_t c = domain_.cellOf(direction(words));
             if (isSmall(c)) c = exact.size();
             sums[c] += x / kDraws;
             squares[c] += x * x / kDraws;
@@ -176,15 +111,10 @@ class Directions : public Sampler {
         return upperGamma(0.5 * cells, 0.5 * statistic);
     }
 
-    double exactWhole() const {
-        if (!isLight_) return hasCosine_ ? kPi : 2 * kPi * (1 - coneCosine_);
-        if (isRound_) return coneCosine_ == 0 ? kPi : sphereIrradiance(corner_, double(light_.radius), up_);
-        return polygonIrradiance(isTriangle_ ? std::vector{corner_, corner_ + u_, corner_ + v_}
-                                             : std::vector{corner_, corner_ + u_, corner_ + u_ + v_, corner_ + v_},
-                                 up_);
-    }
+    bool isProjected() const { return shared::isProbeProjected(family_); }
+    bool isFuzzy() const { return !domain_.isLight() && which_ >= 2; }
 
-    bool isFuzzy() const { return !isLight_ && which_ >= 2; }
+    const SamplerDomain domain_;
 };
 
 void Directions::haveTheDistributionThatTheirDensitiesState() const {
@@ -195,40 +125,23 @@ void Directions::haveTheDistributionThatTheirDensitiesState() const {
 void Directions::giveTheAnalyticMean() const {
     Mean mean;
     for (std::uint32_t i = 0; i < kDraws; ++i) mean.add(weight(drawn(shared::kProbeDraws, i)));
-    EXPECT_TRUE(agrees(mean, exactWhole()));
+    EXPECT_TRUE(agrees(mean, domain_.whole()));
     double variance = 1e9; // what a method uniform in the measure leaves
-    if (isLight_ && family_ >= shared::kProbeProjected) variance = 1e-3;
-    if (!isLight_ && which_ < 2) variance = 1e-9;
+    if (isProjected()) variance = 1e-3;
+    if (!domain_.isLight() && which_ < 2) variance = 1e-9;
     EXPECT_LE(mean.relativeVariance(), variance);
 }
 
 // Methods that are uniform in something have densities that can be told.
 void Directions::haveTheDensityOfTheirMethod() const {
-    const std::uint32_t shape = shared::probeShape(family_, which_);
-    const bool isInside = isRound_ && coneCosine_ == 0;
-    if (!isLight_ || shape == shared::kShapeAuto || shape == shared::kShapeProjected || isInside) return; // by variance
-    double solidAngle = 2 * kPi * (1 - coneCosine_);
-    if (!isRound_) {
-        solidAngle = triangleSolidAngle(corner_, corner_ + u_, isTriangle_ ? corner_ + v_ : corner_ + u_ + v_);
-        if (!isTriangle_) solidAngle += triangleSolidAngle(corner_, corner_ + u_ + v_, corner_ + v_);
-    }
+    if (!domain_.hasKnownDensity()) return; // by variance
     for (std::uint32_t i = 0; i < kDraws; ++i) {
         const Words words = drawn(shared::kProbeDraws, i);
         const double density = number(words, 3);
         if (!(density > 0)) continue;
-        double exact = 1 / solidAngle;
-        if (shape == shared::kShapeArea) {
-            const dvec3 w(number(words, 0), number(words, 1), number(words, 2));
-            const double r = double(light_.radius), along = glm::dot(corner_, w);
-            const double reach2 = std::max(along * along - glm::dot(corner_, corner_) + r * r, 0.0);
-            const double distance = isRound_
-                                        ? along - std::sqrt(reach2)
-                                        : glm::dot(corner_, dvec3(light_.normal)) / glm::dot(w, dvec3(light_.normal));
-            const double cosine = isRound_ ? std::sqrt(reach2) / r : std::abs(glm::dot(w, dvec3(light_.normal)));
-            if (cosine < 0.02) continue; // a density without bound
-            exact = distance * distance / (double(light_.area) * cosine);
-        }
-        ASSERT_NEAR(density / exact, 1, 2e-3) << i;
+        const std::optional<double> exact = domain_.knownDensity(direction(words));
+        if (!exact) continue;
+        ASSERT_NEAR(density / *exact, 1, 2e-3) << i;
     }
 }
 
@@ -241,16 +154,16 @@ void Directions::haveADensityThatIntegratesToOneAndIsTheirs() const {
         mean.add(number(words, 1));
     }
     // Rounding decides between pieces of a fit, and near the edge of a lobe its density is without bound.
-    EXPECT_LE(off, isFuzzy() ? kDraws / 50 : family_ >= shared::kProbeProjected ? kDraws / 500 : kDraws / 5000);
+    EXPECT_LE(off, isFuzzy() ? kDraws / 50 : isProjected() ? kDraws / 500 : kDraws / 5000);
     // A method that draws below the horizon too has a density there, which the probe leaves out.
-    const bool isCut = isLight_ && family_ < shared::kProbeProjected && which_ == 2;
+    const bool isCut = domain_.isLight() && !isProjected() && which_ == 2;
     if (isCut) {
         EXPECT_LT(mean.mean(), 1);
         return;
     }
-    // By area also the far half of a sphere is drawn from, to no avail.
-    const bool isHalf = family_ == shared::kLightSphere && which_ == 0;
-    const double seen = isHalf ? 0.5 * (1 - double(light_.radius) / glm::length(corner_)) : 1;
+    // By area also the far half of a round light is drawn from, to no avail.
+    const bool isHalf = (family_ == shared::kLightSphere || family_ == shared::kProbeEllipsoids) && which_ == 0;
+    const double seen = isHalf ? domain_.nearShare() : 1;
     EXPECT_TRUE(agrees(mean, seen, 1e-4));
 }
 
@@ -263,8 +176,7 @@ void Directions::keepStrata() const {
             double sum = 0;
             for (std::uint32_t i = 0; i < kBlock; ++i) {
                 const Words words = drawn(mode, block * kBlock + i);
-                const dvec3 w(number(words, 0), number(words, 1), number(words, 2));
-                sum += weight(words) * (1 + 0.5 * glm::dot(w, dvec3(0.6, 0.48, 0.64)));
+                sum += weight(words) * (1 + 0.5 * glm::dot(direction(words), dvec3(0.6, 0.48, 0.64)));
             }
             means.add(sum);
         }
@@ -356,7 +268,7 @@ TEST_P(Samplers, AreProved) {
 std::string nameOf(const testing::TestParamInfo<std::tuple<std::uint32_t, Where>>& info) {
     constexpr std::array kFamilies = {"Spheres",          "Quads",          "Triangles",
                                       "ProjectedSpheres", "ProjectedQuads", "ProjectedTriangles",
-                                      "Scattering",       "Choice"};
+                                      "Ellipsoids",       "Scattering",     "Choice"};
     static_assert(kFamilies.size() == shared::kProbeFamilies);
     const bool isHost = std::get<1>(info.param) == Where::Host;
     return kFamilies.at(std::get<0>(info.param)) + std::string(isHost ? "OnTheHost" : "OnTheDevice");
