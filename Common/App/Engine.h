@@ -66,7 +66,7 @@ struct Preview {
 
 enum class Cost {
     Rays, // camera, scattered and shadow
-    Time, // in a unit of the engine's own: the processor's or the device's clock
+    Time, // by the processor's clock, in seconds, or by that of the device's shaders, in its ticks
 };
 
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.

@@ -34,6 +34,12 @@ RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
     return settings;
 }
 
+void show(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
+    picture.image = {view, &view->image};
+    picture.legend = view->legend;
+    picture.isDisplay = true;
+}
+
 } // namespace
 
 // ---- rendering -------------------------------------------------------------------------------------------------------
@@ -116,13 +122,13 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     picture.radiance = std::make_shared<image::Image>(enlarge(draft_, settings.width, settings.height));
     picture.image = picture.radiance;
     if (aovsFor(view_.mode).any() || view_.mode == ViewMode::Heat) {
-        const image::Image shown = view_.mode == ViewMode::Heat
-                                       ? showCost(shownCost(), engine_->renderCost(shownCost(), 1), view_.scale)
-                                       : showFeatures(view_.mode, engine_->renderAovs(aovsFor(view_.mode), 1));
-        if (!shown.data.empty()) {
-            featureView_ = std::make_shared<image::Image>(enlarge(shown, settings.width, settings.height));
-            picture.image = featureView_;
-            picture.isDisplay = true;
+        ViewImage shown = view_.mode == ViewMode::Heat
+                              ? showCost(shownCost(), engine_->renderCost(shownCost(), 1), view_.scale)
+                              : showFeatures(view_.mode, engine_->renderAovs(aovsFor(view_.mode), 1));
+        if (!shown.image.data.empty()) {
+            shown.image = enlarge(shown.image, settings.width, settings.height);
+            featureView_ = std::make_shared<ViewImage>(std::move(shown));
+            show(featureView_, picture);
         }
     }
     update([&](SessionState& state) {
@@ -245,9 +251,8 @@ void InteractiveSession::publish() {
     picture.spp = film.minSamples();
     if (picture.spp == 0 && !draft_.data.empty()) fillFromDraft(*radiance, film, draft_);
     followError(*radiance, status_.finished);
-    picture.radiance = std::move(radiance);
-    picture.image = shownImage(picture.radiance);
-    picture.isDisplay = picture.image != picture.radiance;
+    picture.image = picture.radiance = std::move(radiance);
+    if (const auto view = shownView(*picture.radiance)) show(view, picture);
     if (view_.inspect) {
         picture.samples = std::make_shared<image::Image>(film.sampleCounts());
         if (hasVariance(film)) picture.variance = std::make_shared<image::Image>(film.varianceOfMean());
@@ -283,9 +288,8 @@ void InteractiveSession::noteAnswer() {
     update([seconds](SessionState& state) { state.slowestAnswer = std::max(state.slowestAnswer, seconds); });
 }
 
-// The radiance itself where there is nothing else to be shown.
-std::shared_ptr<const image::Image> InteractiveSession::shownImage(
-    const std::shared_ptr<const image::Image>& radiance) {
+// None where it is the radiance that is to be shown.
+std::shared_ptr<const ViewImage> InteractiveSession::shownView(const image::Image& radiance) {
     const double pixels = static_cast<double>(settings_.width) * settings_.height;
     const auto affordable = [&](std::uint32_t most) { // samples
         return static_cast<std::uint32_t>(std::clamp(samplesPerSecond_ * kFeatureSeconds / pixels, 1.0, most * 1.0));
@@ -295,10 +299,10 @@ std::shared_ptr<const image::Image> InteractiveSession::shownImage(
             break;
         case ViewMode::Noise:
             if (!hasVariance(engine_->film())) break;
-            return std::make_shared<image::Image>(showNoise(engine_->film(), view_.scale));
+            return std::make_shared<ViewImage>(showNoise(engine_->film(), view_.scale));
         case ViewMode::Error:
             if (!referenceFits() || engine_->film().minSamples() == 0) break;
-            return std::make_shared<image::Image>(showError(*radiance, *reference_, view_.scale));
+            return std::make_shared<ViewImage>(showError(radiance, *reference_, view_.scale));
         case ViewMode::Heat:
         case ViewMode::Albedo:
         case ViewMode::Normal:
@@ -308,15 +312,15 @@ std::shared_ptr<const image::Image> InteractiveSession::shownImage(
             if (view_.mode == ViewMode::Heat) {
                 const image::Image cost = engine_->renderCost(shownCost(), affordable(16));
                 if (cost.data.empty()) break;
-                featureView_ = std::make_shared<image::Image>(showCost(shownCost(), cost, view_.scale));
+                featureView_ = std::make_shared<ViewImage>(showCost(shownCost(), cost, view_.scale));
             } else {
                 const AovImages aovs = engine_->renderAovs(aovsFor(view_.mode), affordable(8));
-                featureView_ = std::make_shared<image::Image>(showFeatures(view_.mode, aovs));
+                featureView_ = std::make_shared<ViewImage>(showFeatures(view_.mode, aovs));
             }
             featureIsFull_ = true;
             return featureView_;
     }
-    return radiance;
+    return nullptr;
 }
 
 void InteractiveSession::findFocus(std::uint32_t x, std::uint32_t y) {

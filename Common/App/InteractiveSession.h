@@ -147,7 +147,7 @@ class InteractiveSession {
     void followError(const image::Image& picture, bool last);
     void findFocus(std::uint32_t x, std::uint32_t y);
     RunRecord makeRecord() const;
-    std::shared_ptr<const image::Image> shownImage(const std::shared_ptr<const image::Image>& radiance);
+    std::shared_ptr<const ViewImage> shownView(const image::Image& radiance);
 
     Setup setup_;
 
@@ -189,9 +189,9 @@ class InteractiveSession {
     bool previewIsStale_ = true;
     Preview preview_;
     ViewRequest view_;
-    std::shared_ptr<const image::Image> featureView_; // of the film, for modes that samples do not change
-    bool featureIsFull_ = false;                      // in the film's resolution
-    std::optional<std::uint32_t> referenceSpp_;       // of the reference that is being rendered
+    std::shared_ptr<const ViewImage> featureView_; // of the film, for modes that samples do not change
+    bool featureIsFull_ = false;                   // in the film's resolution
+    std::optional<std::uint32_t> referenceSpp_;    // of the reference that is being rendered
     std::shared_ptr<const image::Image> reference_;
     std::string referenceName_;
     FilmKey referenceKey_;

@@ -57,6 +57,7 @@ struct Picture {
     std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
     bool isDisplay = false;                       // no exposure and no tone curve belong to it
     bool isPreview = false;                       // by rasterisation
+    std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
     std::uint64_t serial = 0;                     // grows with each new picture
     std::uint64_t spp = 0; // of the pixel with the fewest samples; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <utility>
 
 #include "Common/Image/Metrics.h"
 #include "Common/Shared/Tonemap.h"
@@ -16,16 +16,18 @@ float meanOf(const float* rgb) {
     return (rgb[0] + rgb[1] + rgb[2]) / 3;
 }
 
-image::Image grey(const image::Image& depth) {
-    float farthest = 0;
-    for (const float d : depth.data) farthest = std::max(farthest, d);
-    image::Image result(depth.width, depth.height, 3);
-    for (std::size_t i = 0; i < depth.data.size(); ++i) {
-        // Near is bright; where nothing was hit it is black.
-        const float level = depth.data[i] > 0 ? 1 - 0.9f * depth.data[i] / farthest : 0;
-        std::fill_n(&result.data[3 * i], 3, level * level);
+// Near is bright; where nothing was hit it is black.
+image::Image greys(const std::vector<float>& level, std::uint32_t width, std::uint32_t height) {
+    image::Image result(width, height, 3);
+    for (std::size_t i = 0; i < level.size(); ++i) {
+        const float root = level[i] > 0 ? 1 - 0.9f * std::min(level[i], 1.0f) : 0;
+        std::fill_n(&result.data[3 * i], 3, root * root);
     }
     return result;
+}
+
+ViewImage show(const Legend& legend, const std::vector<float>& values, std::uint32_t width, std::uint32_t height) {
+    return {paint(legend, values, width, height), legend};
 }
 
 } // namespace
@@ -38,49 +40,67 @@ AovRequest aovsFor(ViewMode mode) {
     return request;
 }
 
-image::Image showFeatures(ViewMode mode, const AovImages& images) {
-    if (mode == ViewMode::Depth) return grey(images.depth);
-    if (mode == ViewMode::Albedo) return images.albedo;
+float Legend::level(float value) const {
+    if (!(most > 0)) return 0;
+    return unit > 0 ? std::log1p(value / unit) / std::log1p(most / unit) : value / most;
+}
+float Legend::value(float level) const {
+    return unit > 0 ? unit * std::expm1(level * std::log1p(most / unit)) : level * most;
+}
+
+image::Image paint(const Legend& legend, const std::vector<float>& values, std::uint32_t width, std::uint32_t height) {
+    std::vector<float> level(values.size());
+    std::transform(values.begin(), values.end(), level.begin(), [&](float value) { return legend.level(value); });
+    const bool isDistance = legend.quantity == Legend::Quantity::Distance;
+    return isDistance ? greys(level, width, height) : image::colourise(level, width, height);
+}
+
+ViewImage showFeatures(ViewMode mode, const AovImages& images) {
+    if (mode == ViewMode::Albedo) return {images.albedo, {}};
+    if (mode == ViewMode::Depth) {
+        const image::Image& depth = images.depth;
+        Legend legend{Legend::Quantity::Distance};
+        for (const float distance : depth.data) legend.most = std::max(legend.most, distance);
+        return show(legend, depth.data, depth.width, depth.height);
+    }
     image::Image normals = images.normal;
     for (float& value : normals.data) value = shared::srgbDecode(std::clamp(0.5f * value + 0.5f, 0.0f, 1.0f));
-    return normals;
+    return {std::move(normals), {}};
 }
 
-image::Image showNoise(const image::Film& film, double scale) {
+ViewImage showNoise(const image::Film& film, double scale) {
     const image::Image mean = film.resolve();
     const image::Image variance = film.varianceOfMean();
-    std::vector<float> level(std::size_t{mean.width} * mean.height);
-    for (std::size_t i = 0; i < level.size(); ++i) {
+    std::vector<float> relative(std::size_t{mean.width} * mean.height);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
         const float error = std::sqrt(std::max(0.0f, meanOf(&variance.data[3 * i])));
-        level[i] = static_cast<float>(scale) * error / (std::abs(meanOf(&mean.data[3 * i])) + kFloor);
+        relative[i] = error / (std::abs(meanOf(&mean.data[3 * i])) + kFloor);
     }
-    return image::colourise(level, mean.width, mean.height);
+    return show({Legend::Quantity::StandardError, static_cast<float>(1 / scale)}, relative, mean.width, mean.height);
 }
 
-image::Image showError(const image::Image& picture, const image::Image& reference, double scale) {
-    std::vector<float> level(std::size_t{picture.width} * picture.height);
-    for (std::size_t i = 0; i < level.size(); ++i) {
+ViewImage showError(const image::Image& picture, const image::Image& reference, double scale) {
+    std::vector<float> relative(std::size_t{picture.width} * picture.height);
+    for (std::size_t i = 0; i < relative.size(); ++i) {
         float error = 0;
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) error += std::abs(picture.data[c] - reference.data[c]) / 3;
-        level[i] = static_cast<float>(scale) * error / (std::abs(meanOf(&reference.data[3 * i])) + kFloor);
+        relative[i] = error / (std::abs(meanOf(&reference.data[3 * i])) + kFloor);
     }
-    return image::colourise(level, picture.width, picture.height);
+    return show({Legend::Quantity::Error, static_cast<float>(1 / scale)}, relative, picture.width, picture.height);
 }
 
-image::Image showCost(Cost cost, const image::Image& costs, double scale) {
+ViewImage showCost(Cost cost, const image::Image& costs, double scale) {
+    if (costs.data.empty()) return {};
     std::vector<float> sorted = costs.data;
     std::sort(sorted.begin(), sorted.end());
     // A pixel that costs as much as a typical one has the same colour in both units: about that of two rays.
-    float most = sorted.empty() ? 0 : sorted.back(), unit = 1;
-    if (cost == Cost::Time && !sorted.empty()) {
-        most = sorted[(sorted.size() - 1) * 199 / 200];
-        unit = std::max(0.5f * sorted[sorted.size() / 2], 1e-30f);
+    Legend legend{Legend::Quantity::Rays, sorted.back(), 1};
+    if (cost == Cost::Time) {
+        legend = {Legend::Quantity::Time, sorted[(sorted.size() - 1) * 199 / 200],
+                  std::max(0.5f * sorted[sorted.size() / 2], 1e-30f)};
     }
-    std::vector<float> level(costs.data.size());
-    const float full = std::log1p(most / unit);
-    for (std::size_t i = 0; i < level.size(); ++i)
-        level[i] = full > 0 ? static_cast<float>(scale) * std::log1p(costs.data[i] / unit) / full : 0;
-    return image::colourise(level, costs.width, costs.height);
+    legend.most /= static_cast<float>(scale);
+    return show(legend, costs.data, costs.width, costs.height);
 }
 
 } // namespace rt::app

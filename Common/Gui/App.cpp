@@ -223,6 +223,7 @@ void App::drawInterface() {
         panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
     picture_.place(area);
     picture_.handlePointer();
+    drawViewLegend(gui_, area, imgui_.scale());
     drawOverlay(gui_, area, imgui_.scale());
     drawHelp(gui_);
 }

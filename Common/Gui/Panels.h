@@ -14,6 +14,7 @@ void drawStatisticsPanel(Gui& gui);
 void drawComparisonPanel(Gui& gui);
 void drawHelp(Gui& gui);
 void drawStatusLine(Gui& gui);
+void drawViewLegend(const Gui& gui, const Rect& area, float scale); // in a corner of the picture's part of the window
 // What keeps the user waiting, what has just happened and what the pointer is at, over the picture's part of the window.
 void drawOverlay(const Gui& gui, const Rect& area, float scale);
 

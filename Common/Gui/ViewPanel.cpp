@@ -57,8 +57,8 @@ void drawModes(Gui& gui) {
               kCostNames, view.cost);
     }
     if (view.mode == ViewMode::Noise || view.mode == ViewMode::Error || view.mode == ViewMode::Heat) {
-        sliderReal("Scale", "Values are multiplied by this before they get a colour, from blue over green to yellow",
-                   view.scale, 0.1, 100, "%.2f", true);
+        sliderReal("Scale", "Divides the value of the brightest colour, which the legend tells", view.scale, 0.1, 100,
+                   "%.2f", true);
     }
     ImGui::Checkbox("Inspect pixels", &view.inspect);
     tooltip("Shows what the pixel under the pointer holds");

@@ -20,13 +20,19 @@ TEST_F(InteractiveViewTest, ShowsFeaturesAndWhatAPixelHolds) {
     SessionState state = session.state();
     EXPECT_EQ(state.picture.image->data, std::vector<float>(24 * 24 * 3, 0.25f)); // of the fake engine
     EXPECT_NE(state.picture.radiance->data, state.picture.image->data);
+    EXPECT_FALSE(state.picture.legend);
     ASSERT_TRUE(state.picture.samples && state.picture.variance);
     EXPECT_EQ(state.picture.samples->data, std::vector<float>(24 * 24, 20.0f));
     session.view({ViewMode::Noise, 1, false});
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.samples; }));
     EXPECT_TRUE(session.state().picture.isDisplay);
+    session.view({ViewMode::Noise, 4, false});
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.picture.legend && s.picture.legend->most < 1; }));
+    EXPECT_EQ(session.state().picture.legend->quantity, Legend::Quantity::StandardError);
+    EXPECT_EQ(session.state().picture.legend->most, 0.25f);
     session.view({ViewMode::Error, 1, false}); // without a reference it is the picture
     EXPECT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.isDisplay; }));
+    EXPECT_FALSE(session.state().picture.legend);
     EXPECT_EQ(session.state().activity, Activity::Finished); // a view renders nothing anew
 }
 
