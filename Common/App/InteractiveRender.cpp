@@ -19,8 +19,12 @@ constexpr double kEarlyInterval = 0.04;
 constexpr double kLateInterval = 0.15;
 constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
 constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while it is being rendered
-constexpr double kFeatureSeconds = 0.15;   // that a view of albedo, depth, cost may take
-constexpr double kRestSeconds = 0.3;       // after which a camera rests
+// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a sum, and fewer later, when
+// they differ less.
+constexpr double kSoftShare = 0.1, kMostSoftInterval = 1;
+constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
+constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
+constexpr double kRestSeconds = 0.3;     // after which a camera rests
 
 // Quiet, and independent of what it will be compared with.
 RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
@@ -142,10 +146,12 @@ void InteractiveSession::renderSlice() {
     if (filmIsStale_) startFilm();
     const Stopwatch watch;
     const std::uint64_t before = status_.samplesDone;
-    status_ = engine_->renderSome({std::chrono::duration<double>(setup_.sliceSeconds), &cancelRender_});
+    const double untilDue = std::max(pictureInterval() - sincePublished_.seconds(), kLeastSlice);
+    const double slice = std::min(setup_.sliceSeconds, untilDue);
+    status_ = engine_->renderSome({std::chrono::duration<double>(slice), &cancelRender_});
     const double seconds = watch.seconds();
     renderSeconds_ += seconds;
-    if (seconds > 0.5 * setup_.sliceSeconds && !cancelRender_) {
+    if (seconds > 0.5 * slice && !cancelRender_) {
         samplesPerSecond_ = 0.9 * samplesPerSecond_ + 0.1 * static_cast<double>(status_.samplesDone - before) / seconds;
     }
     if (status_.finished) return finish(StopReason::Spp);
@@ -160,16 +166,25 @@ std::uint32_t InteractiveSession::samplesOfFrame(const RenderSettings& settings)
     return static_cast<std::uint32_t>(std::clamp(samplesPerSecond_ * kFrameSeconds / pixels, 1.0, 65536.0));
 }
 
+// Seconds from one picture of a film to the next, at most.
+double InteractiveSession::pictureInterval() const {
+    if (!request_.accumulate) return kLongFrameSeconds;
+    const double age = sinceStart_.seconds();
+    if (setup_.drawnBySoftware && publishedSamples_ > 0) { // the first picture does not wait
+        return std::clamp(kSoftShare * age, kLongFrameSeconds, kMostSoftInterval);
+    }
+    if (age < kEarlySeconds) return kEarlyInterval;
+    return request_.samplesPerFrame == 0 ? kLateInterval : kLongFrameSeconds;
+}
+
 // Whether what has been rendered is to be shown before it is complete.
 bool InteractiveSession::isFrameDue() const {
     const double seconds = sincePublished_.seconds();
     if (seconds <= publishSeconds_ / kPublishShare) return false;
-    if (!request_.accumulate) return seconds > kLongFrameSeconds;
-    const bool costly = setup_.drawnBySoftware && publishedSamples_ > 0; // the first picture does not wait
-    if (sinceStart_.seconds() < kEarlySeconds && !costly) return seconds > kEarlyInterval;
-    if (request_.samplesPerFrame == 0) return seconds > kLateInterval;
+    if (seconds > pictureInterval()) return true;
+    if (!request_.accumulate || request_.samplesPerFrame == 0 || setup_.drawnBySoftware) return false;
     const std::uint64_t frame = std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
-    return status_.samplesDone - publishedSamples_ >= frame || seconds > kLongFrameSeconds;
+    return sinceStart_.seconds() >= kEarlySeconds && status_.samplesDone - publishedSamples_ >= frame;
 }
 
 // What the engine holds becomes the reference, or a run of the history.

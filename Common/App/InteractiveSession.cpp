@@ -122,7 +122,7 @@ void InteractiveSession::save(SaveRequest request) {
 }
 
 void InteractiveSession::view(const ViewRequest& view) {
-    post(false, [&](Requests& requests) { requests.view = view; });
+    post(true, [&](Requests& requests) { requests.view = view; });
 }
 void InteractiveSession::preview(bool on) {
     post(true, [on](Requests& requests) { requests.preview = on; });
@@ -134,7 +134,7 @@ void InteractiveSession::loadReference(const std::string& file) {
     post(false, [&](Requests& requests) { requests.referenceFile = file; });
 }
 void InteractiveSession::pickFocus(std::uint32_t x, std::uint32_t y) {
-    post(false, [&](Requests& requests) { requests.focus = {x, y}; });
+    post(true, [&](Requests& requests) { requests.focus = {x, y}; });
 }
 
 SessionState InteractiveSession::state() const {

@@ -32,7 +32,7 @@ class InteractiveSession {
         std::string fallbackScene;        // opened where the first cannot be had; empty: that is fatal
         std::optional<SaveRequest> atEnd; // as writeAtEnd()
         bool preview = false;             // is shown from the beginning
-        double sliceSeconds = 0.03;       // of one call of the engine
+        double sliceSeconds = 0.03;       // of one call of the engine, at most
         bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
         RunHistory* history = nullptr;    // gets the runs that end; may be none
         std::function<void()> onChange;   // called on other threads when there is something new to show
@@ -123,6 +123,7 @@ class InteractiveSession {
     void renderDraft(const RenderSettings& settings);
     void renderSlice();
     std::uint32_t samplesOfFrame(const RenderSettings& settings) const;
+    double pictureInterval() const;
     bool isFrameDue() const;
     Cost shownCost() const { return engine_->knowsCost(view_.cost) ? view_.cost : Cost::Rays; }
     void finish(StopReason reason);

@@ -27,6 +27,7 @@ namespace rt::gui {
 namespace {
 
 constexpr double kIdleSeconds = 0.25; // between two frames when nothing happens
+constexpr double kSoftSeconds = 1.2; // likewise where software draws, at rendering's cost: longer than between pictures
 constexpr double kBusySeconds = 0.01; // between two looks for something new of a session at work
 constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
 constexpr double kLongestStep = 0.1;  // seconds of flight in one frame
@@ -45,8 +46,9 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
     setup.preview = !settings.rayTracing;
-    // Draws wait for launches on the same device; those of software are threads among threads.
-    setup.sliceSeconds = options.program == app::kGpuProgram && !device.isSoftware() ? 0.008 : 0.03;
+    // Draws wait for launches on the same device; those of software are threads among threads. Threads of the processor wait for
+    // each other at the end of a slice, and requests that do not interrupt it for that end.
+    setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : device.isSoftware() ? 0.03 : 0.008;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
     setup.onChange = [&isNews] { isNews = true; };
@@ -128,8 +130,11 @@ bool App::isAwake() {
 // alone, which therefore ends the program, where it does, on this thread.
 void App::wait() {
     const bool isBusy = gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty();
+    // A stage tells how long it has taken, and a field of text has a cursor that blinks.
+    const bool moves = !gui_.state.stage.empty() || ImGui::GetIO().WantTextInput;
+    const double longest = device_.isSoftware() && !moves ? kSoftSeconds : kIdleSeconds;
     const app::Stopwatch watch;
-    while (!isAwake() && !isNews_ && watch.seconds() < kIdleSeconds)
+    while (!isAwake() && !isNews_ && watch.seconds() < longest)
         window_.waitEvents(isBusy ? kBusySeconds : kIdleSeconds);
     window_.waitEvents(0);
     isNews_ = false;

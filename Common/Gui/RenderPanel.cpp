@@ -118,7 +118,7 @@ void drawFrames(app::RenderRequest& request) {
     inputCount(
         "Samples per frame",
         "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
-        "while it is rendered",
+        "while it is rendered. Where the window is drawn by software, pictures come once or twice a second",
         request.samplesPerFrame, 1, 65536, 5);
 }
 

@@ -122,17 +122,19 @@ TEST_F(InteractiveSessionTest, HowOftenASumIsShownDoesNotConcernTheFilm) {
     EXPECT_EQ(SlowEngine::films, films);
 }
 
-// After the first picture one each half a second; without that it were twenty.
+// After the first picture one each half a second, whatever is asked; without that it were twenty.
 TEST_F(InteractiveSessionTest, PicturesThatTheProcessorDrawsAreFew) {
-    InteractiveSession::Setup s = setup(160);
-    s.drawnBySoftware = true;
-    s.request.samplesPerFrame = 100'000;
-    const Stopwatch watch;
-    InteractiveSession session(s);
-    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.spp > 0; }));
-    ASSERT_TRUE(reaches(session, isFinished));
-    EXPECT_GE(session.state().picture.serial, 2u); // the first and the last
-    EXPECT_LE(static_cast<double>(session.state().picture.serial), 4 + 2 * watch.seconds());
+    for (const std::uint32_t samplesPerFrame : {1u, 100'000u}) {
+        InteractiveSession::Setup s = setup(160);
+        s.drawnBySoftware = true;
+        s.request.samplesPerFrame = samplesPerFrame;
+        const Stopwatch watch;
+        InteractiveSession session(s);
+        ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.spp > 0; }));
+        ASSERT_TRUE(reaches(session, isFinished));
+        EXPECT_GE(session.state().picture.serial, 2u); // the first and the last
+        EXPECT_LE(static_cast<double>(session.state().picture.serial), 4 + 2 * watch.seconds());
+    }
 }
 
 TEST_F(InteractiveSessionTest, FramesOfTheirOwnAreAsLargeAsThereIsTimeFor) {
