@@ -1,4 +1,7 @@
 // The worker's side of InteractiveSession: what is written of a film, and what it is compared with.
+#include <algorithm>
+#include <utility>
+
 #include "Common/App/InteractiveSession.h"
 #include "Common/App/Outputs.h"
 #include "Common/App/Reference.h"
@@ -23,6 +26,19 @@ Options InteractiveSession::optionsOf(const SaveRequest& request) const {
     options.exposure = request.exposure;
     options.tonemap = request.tonemap;
     return options;
+}
+
+bool InteractiveSession::hasFirstSamples() const {
+    const std::uint64_t pixels = std::uint64_t{settings_.width} * settings_.height;
+    return !filmIsStale_ && status_.samplesDone >= pixels * std::min(settings_.spp, image::Film::kBlock);
+}
+
+void InteractiveSession::writeWaiting() {
+    const bool isComing = !isReady()       ? activity_ != Activity::Failed
+                          : isPreviewing() ? previewIsStale_
+                                           : isActive() && !hasFirstSamples();
+    if (isComing) return;
+    for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
 }
 
 void InteractiveSession::write(const SaveRequest& request) {

@@ -51,6 +51,7 @@ void InteractiveSession::renderPreview() {
         }
     });
     noteAnswer();
+    writeWaiting();
 }
 
 // What is seen, and nothing that only a film has.

@@ -154,6 +154,7 @@ void InteractiveSession::renderSlice() {
     if (seconds > 0.5 * slice && !cancelRender_) {
         samplesPerSecond_ = 0.9 * samplesPerSecond_ + 0.1 * static_cast<double>(status_.samplesDone - before) / seconds;
     }
+    writeWaiting();
     if (status_.finished) return finish(StopReason::Spp);
     if (request_.timeLimit && renderSeconds_ >= *request_.timeLimit) return finish(StopReason::TimeLimit);
     if (!cancelRender_ && isFrameDue()) publish();

@@ -169,6 +169,7 @@ void InteractiveSession::work() {
     while (true) {
         Requests requests = take();
         if (requests.quit) {
+            for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
             writeEnd(StopReason::Interrupted);
             break;
         }
@@ -218,7 +219,7 @@ void InteractiveSession::apply(Requests requests) {
     }
     if (requests.changesWhatIsSeen()) previewIsStale_ = true;
     if (requests.preview) switchPreview(*requests.preview);
-    for (const SaveRequest& save : requests.saves) write(save);
+    for (SaveRequest& save : requests.saves) waiting_.push_back(std::move(save));
     if (requests.referenceFile) readReferenceFile(*requests.referenceFile);
     if (requests.referenceSpp && isPreviewing()) {
         fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")), false);
@@ -240,6 +241,7 @@ void InteractiveSession::apply(Requests requests) {
     if (filmIsStale_ && activity_ != Activity::Stopped && activity_ != Activity::Rendering) {
         setActivity(Activity::Rendering);
     }
+    writeWaiting();
 }
 
 // An engine that cannot be had leaves the one before at work.

@@ -51,8 +51,8 @@ class InteractiveSession {
     void render();                              // from the beginning when ended, else goes on
     void pause();
     void stop();
-    void reset(); // begins anew
-    void save(SaveRequest request);
+    void reset();                   // begins anew
+    void save(SaveRequest request); // where a picture is yet to come, once it is there
     void view(const ViewRequest& view);
     // Shows the preview instead of the film, where the engine has one; rays rest meanwhile, and the film goes on afterwards
     // unless something that concerns it has changed.
@@ -129,6 +129,8 @@ class InteractiveSession {
     void finish(StopReason reason);
     void publish();
     Options optionsOf(const SaveRequest& request) const;
+    bool hasFirstSamples() const;
+    void writeWaiting();
     void write(const SaveRequest& request);
     std::vector<std::string> writeFiles(const SaveRequest& request, StopReason reason);
     void writeEnd(StopReason reason);
@@ -186,6 +188,7 @@ class InteractiveSession {
     double loadSeconds_ = 0;
     double samplesPerSecond_ = 2e5; // for the size of drafts; a cautious guess at first
     image::Image draft_;
+    std::vector<SaveRequest> waiting_; // to be written
     bool previewIsWanted_ = false;
     bool previewIsStale_ = true;
     Preview preview_;

@@ -24,6 +24,22 @@ TEST_F(InteractiveFilesTest, SavesWhatItShows) {
     EXPECT_EQ(session.state().activity, Activity::Finished);
 }
 
+// Asked for at any time, also where one film ends and the next one begins.
+TEST_F(InteractiveFilesTest, WhatIsSavedHasSamplesInEveryPixel) {
+    InteractiveSession::Setup s = setup(4);
+    s.request.accumulate = false;
+    s.request.samplesPerFrame = 2;
+    InteractiveSession session(s);
+    for (std::uint64_t i = 1; i <= 12; ++i) {
+        const std::string file = (folder_ / (std::to_string(i) + ".exr")).string();
+        session.save({.files = {file}});
+        session.view({i % 2 == 0 ? ViewMode::Albedo : ViewMode::Picture, 1, false}); // interrupts
+        ASSERT_TRUE(reaches(session, [i](const SessionState& state) { return state.messageSerial == i; })) << i;
+        for (const float value : image::readImage(file).data) ASSERT_GT(value, 0) << i;
+    }
+    EXPECT_EQ(session.state().errorSerial, 0u);
+}
+
 TEST_F(InteractiveFilesTest, RunsThatEndGoIntoTheHistory) {
     RunHistory history(folder_ / "history.jsonl");
     InteractiveSession::Setup s = setup(20);
