@@ -18,6 +18,12 @@ inline constexpr float kLeastUiScale = 0.75f;
 inline constexpr float kMostUiScale = 3.0f;
 inline constexpr std::size_t kMostRecent = 10; // files
 
+// Of the panels at the side, those that are folded out.
+struct OpenPanels {
+    bool scene = true, rendering = true, camera = false, view = false, statistics = false;
+    bool operator==(const OpenPanels&) const = default;
+};
+
 struct GuiSettings {
     ColorMode colorMode = ColorMode::Dark;
     float uiScale = 1; // on top of the monitor's own
@@ -28,6 +34,7 @@ struct GuiSettings {
     bool showPanels = true;
     bool showComparison = false;
     bool showStatistics = true;
+    OpenPanels openPanels;
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::string saveFolder;          // empty: chosen by the program

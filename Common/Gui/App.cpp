@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <iostream>
+#include <utility>
 
 #include "Common/App/Interrupt.h"
 #include "Common/App/Outputs.h"
@@ -205,7 +206,7 @@ void App::drawFrame(double seconds) {
     thumbnails_.beginFrame();
     for (const Window::KeyPress& press : presses) obeyKey(gui_, press);
     drawInterface();
-    flying_ = fly(gui_, seconds);
+    flying_ = fly(gui_, presses, seconds);
     imgui_.endFrame();
 }
 
@@ -213,16 +214,18 @@ void App::drawInterface() {
     std::vector<Panel> panels;
     if (settings_.showPanels) {
         using Place = Panel::Place;
-        panels = {{"Scene", Place::Side, true, [this] { drawScenePanel(gui_); }},
-                  {"Rendering", Place::Side, true, [this] { drawRenderPanel(gui_); }},
-                  {"Camera", Place::Side, false, [this] { drawCameraPanel(gui_); }},
-                  {"View", Place::Side, false, [this] { drawViewPanel(gui_); }}};
+        app::OpenPanels& open = settings_.openPanels;
+        panels = {{"Scene", Place::Side, &open.scene, [this] { drawScenePanel(gui_); }},
+                  {"Rendering", Place::Side, &open.rendering, [this] { drawRenderPanel(gui_); }},
+                  {"Camera", Place::Side, &open.camera, [this] { drawCameraPanel(gui_); }},
+                  {"View", Place::Side, &open.view, [this] { drawViewPanel(gui_); }}};
         if (settings_.showStatistics) {
-            panels.push_back({"Statistics", Place::Side, false, [this] { drawStatisticsPanel(gui_); }});
+            panels.push_back({"Statistics", Place::Side, &open.statistics, [this] { drawStatisticsPanel(gui_); },
+                              std::exchange(gui_.revealStatistics, false)});
         }
     }
     if (settings_.showComparison) {
-        panels.push_back({"Comparison", Panel::Place::Bottom, true, [this] { drawComparisonPanel(gui_); }});
+        panels.push_back({"Comparison", Panel::Place::Bottom, nullptr, [this] { drawComparisonPanel(gui_); }});
     }
     const Rect area = layOut(
         panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });

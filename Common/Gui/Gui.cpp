@@ -59,6 +59,12 @@ void Gui::toggleHeatMap() {
     viewRequest.cost = hasNext ? app::Cost::Time : app::Cost::Rays;
 }
 
+void Gui::toggleStatistics() {
+    bool& isOpen = settings.openPanels.statistics;
+    settings.showStatistics = !(settings.showPanels && settings.showStatistics && isOpen);
+    if (settings.showStatistics) settings.showPanels = isOpen = revealStatistics = true;
+}
+
 void Gui::setRayTracing(bool on) {
     settings.rayTracing = on || !state.canPreview;
 }

@@ -47,8 +47,9 @@ struct Gui {
     bool chartRequested = false; // as a file
     UiFigures figures;
     bool showHelp = false;
-    bool focusOpen = false; // the keyboard is to go to the field of the path
-    std::string path;       // in that field
+    bool revealStatistics = false; // where they are scrolled away
+    bool focusOpen = false;        // the keyboard is to go to the field of the path
+    std::string path;              // in that field
     bool saveRequested = false;
     std::string toast; // shown for a while
     double toastTime = -1e9;
@@ -60,6 +61,7 @@ struct Gui {
     void copyPose();          // of the camera, to the clipboard
     void pastePose();
     void toggleHeatMap();
+    void toggleStatistics();
     void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);
     void say(const std::string& text, bool isError);

@@ -52,6 +52,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         ImGui::End();
     }
     for (const Panel& panel : panels) {
+        if (panel.reveal) ImGui::SetNextWindowFocus();
         if (ImGui::Begin(panel.title)) panel.draw();
         ImGui::End();
     }
@@ -92,7 +93,10 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         if (!headerStays) header();
         for (const Panel& panel : panels) {
             if (panel.place != Panel::Place::Side) continue;
-            if (ImGui::CollapsingHeader(panel.title, panel.initiallyOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
+            ImGui::SetNextItemOpen(*panel.isOpen);
+            *panel.isOpen = ImGui::CollapsingHeader(panel.title);
+            if (panel.reveal) ImGui::SetScrollHereY(0);
+            if (*panel.isOpen) {
                 ImGui::PushID(panel.title);
                 ImGui::Indent(4 * scale);
                 panel.draw();

@@ -10,8 +10,9 @@ struct Panel {
     enum class Place { Side, Bottom };
     const char* title;
     Place place;
-    bool initiallyOpen;
+    bool* isOpen; // of those at the side where ImGui does not dock: folded out
     std::function<void()> draw;
+    bool reveal = false; // brings it to where it is seen
 };
 
 struct Rect {

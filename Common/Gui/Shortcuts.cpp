@@ -1,5 +1,7 @@
 #include "Common/Gui/Shortcuts.h"
 
+#include <algorithm>
+
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
@@ -45,7 +47,7 @@ void toggle(bool& value) {
 
 constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
-    {GLFW_KEY_F2, When::Always, [](Gui& gui) { toggle(gui.settings.showStatistics); }},
+    {GLFW_KEY_F2, When::Always, [](Gui& gui) { gui.toggleStatistics(); }},
     {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
     {GLFW_KEY_F11, When::Always, [](Gui& gui) { gui.window.toggleFullScreen(); }},
@@ -99,18 +101,25 @@ void obeyKey(Gui& gui, const Window::KeyPress& press) {
     if (index < scene::builtinScenes().size()) gui.openScene(std::string(scene::builtinScenes()[index].id));
 }
 
-bool fly(Gui& gui, double seconds) {
+bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds) {
     if (ImGui::GetIO().WantTextInput || !gui.state.scene) return false;
     const Window& window = gui.window;
     const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
     const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);
-    const auto axis = [&window](int positive, int negative) {
-        return (window.isDown(positive) ? 1.0 : 0.0) - (window.isDown(negative) ? 1.0 : 0.0);
+    // A key that went down and up between two frames of a busy machine counts, too.
+    const auto isPressed = [&](int key) {
+        const auto isThis = [key](const Window::KeyPress& press) {
+            return press.key == key && (press.modifiers & GLFW_MOD_CONTROL) == 0;
+        };
+        return window.isDown(key) || std::any_of(presses.begin(), presses.end(), isThis);
+    };
+    const auto axis = [&isPressed](int positive, int negative) {
+        return (isPressed(positive) ? 1.0 : 0.0) - (isPressed(negative) ? 1.0 : 0.0);
     };
     const double right = axis(GLFW_KEY_D, GLFW_KEY_A);
     const double up = axis(GLFW_KEY_E, GLFW_KEY_Q);
     const double forward = axis(GLFW_KEY_W, GLFW_KEY_S);
-    if (control && (window.isDown(GLFW_KEY_S) || window.isDown(GLFW_KEY_Q))) return false; // save, quit
+    if (control && (isPressed(GLFW_KEY_S) || isPressed(GLFW_KEY_Q))) return false; // save, quit
     if (right == 0 && up == 0 && forward == 0) return false;
     const double pace = shift ? kFast : control ? kSlow : 1;
     gui.camera.fly(pace * right, pace * up, pace * forward, seconds);

@@ -1,5 +1,7 @@
 // What keys do.
 #pragma once
+#include <span>
+
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Window.h"
 
@@ -8,7 +10,7 @@ namespace rt::gui {
 // A key that has gone down, within a frame of ImGui.
 void obeyKey(Gui& gui, const Window::KeyPress& press);
 
-// Moves the camera by the keys that are down, for this long; whether any is.
-bool fly(Gui& gui, double seconds);
+// Moves the camera for this long by the keys that are down or, in `presses`, were since the frame before; whether any was.
+bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds);
 
 } // namespace rt::gui

@@ -69,6 +69,10 @@ void drawModes(Gui& gui) {
         gui.hold();
     }
     if (gui.held) {
+        const image::Image* shown = gui.state.picture.image.get();
+        if (shown != nullptr && (shown->width != gui.held->width || shown->height != gui.held->height)) {
+            note("The held picture is of another size and cannot be shown beside this one.");
+        }
         row("Split", "Share of the held picture");
         ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     }

@@ -173,6 +173,10 @@ void Desktop::minimise(bool minimised) {
     setMinimised(display_, std::stoul(window_), minimised);
 }
 
+void Desktop::freeze(bool frozen) {
+    kill(program_, frozen ? SIGSTOP : SIGCONT);
+}
+
 void Desktop::destroyWindow() {
     test::destroyWindow(display_, std::stoul(window_));
 }

@@ -129,6 +129,11 @@ TEST_F(GpuWindowTest, ThePreviewFollowsCameraSceneAndSize) {
     act("keydown w sleep 0.5 keyup w");
     EXPECT_NE(picture().data, last.data);
     last = picture();
+    freeze(true);
+    key("w"); // down and up between two frames
+    freeze(false);
+    EXPECT_NE(picture().data, last.data);
+    last = picture();
     const std::string before = title();
     key("Next");
     ASSERT_TRUE(eventually([&] { return title() != before; })) << log();

@@ -23,6 +23,9 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
         return json.is_object() ? json : nlohmann::json::object(); // there are none yet
     }
+    void store(const nlohmann::json& settings) const {
+        std::ofstream(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json")) << settings;
+    }
     // A scene file of this title, good to be opened.
     std::filesystem::path writeScene(const std::string& name, const std::string& title) const {
         const std::filesystem::path file = folder_ / name;
