@@ -375,6 +375,7 @@ app::EngineReport GpuEngine::report() const {
     if (kernel_) report.kernel = kernel_->name();
     if (scene_) report.accelBuildSeconds = scene_->buildSeconds();
     report.deviceBytes = context_.deviceBytes();
+    report.longestDispatchSeconds = context_.longestRun();
     return report;
 }
 

@@ -40,7 +40,8 @@ struct EngineReport {
     std::uint32_t features = 0; // in force, after any forced superset
     double accelBuildSeconds = 0;
     double pipelineSeconds = 0;
-    double renderDeviceSeconds = 0; // time in kernels: GPU timestamps, or wall time inside CPU workers
+    double renderDeviceSeconds = 0;    // time in kernels: GPU timestamps, or wall time inside CPU workers
+    double longestDispatchSeconds = 0; // of a GPU for what it gets at a time, since it was opened: draws wait for that
     RayCounts rays;
     std::uint64_t nonfiniteSamples = 0;
     std::uint64_t deviceBytes = 0; // acceleration structure, scene and film held by the engine

@@ -56,11 +56,13 @@ Json errorJson(const image::ErrorFigures& error) {
         {"mse", error.mse}, {"rmse", error.rmse}, {"relmse", error.relmse}, {"mae", error.mae}, {"psnr", error.psnr}};
 }
 
-Json windowJson(const WindowFigures& window) {
+Json windowJson(const WindowFigures& window, const EngineReport& report) {
+    const double dispatch = report.longestDispatchSeconds;
     return {{"frames_per_second", window.framesPerSecond},
             {"median_turn_seconds", window.medianTurn},
             {"longest_turn_seconds", window.longestTurn},
-            {"slowest_answer_seconds", window.slowestAnswer}};
+            {"slowest_answer_seconds", window.slowestAnswer},
+            {"longest_dispatch_seconds", dispatch > 0 ? Json(dispatch) : Json(nullptr)}};
 }
 
 } // namespace
@@ -99,7 +101,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     if (error) json["error"] = errorJson(*error);
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;
-    if (window) json["window"] = windowJson(*window);
+    if (window) json["window"] = windowJson(*window, report);
     // Names of files may be anything; JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -36,6 +36,11 @@ void drawStatisticsPanel(Gui& gui) {
     figure("Longest stall", "The longest time that the window did not look for input", text);
     figure("Slowest answer", "From a change of camera or settings to the first picture of it",
            state.slowestAnswer > 0 ? shortDuration(state.slowestAnswer) : "-");
+    if (gui.isGpu) {
+        figure("Longest dispatch",
+               "The longest that the device was at what the engine gives it at a time; draws wait for it",
+               report.longestDispatchSeconds > 0 ? shortDuration(report.longestDispatchSeconds) : "-");
+    }
     const double seconds = state.renderSeconds;
     const auto perSecond = [seconds](double count) { return seconds > 0 ? withPrefix(count / seconds) + "/s" : "-"; };
     const app::RayCounts& rays = report.rays;

@@ -1,6 +1,7 @@
 #include "Common/Gui/TurnMeter.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace rt::gui {
@@ -11,6 +12,7 @@ constexpr double kLateSeconds = 10;
 } // namespace
 
 void TurnMeter::add(double seconds) {
+    if (!std::exchange(started_, true)) return; // that turn has built the interface
     const double now = clock_.seconds();
     turns_.push_back({now, seconds});
     while (turns_.front().end < now - kLateSeconds) turns_.pop_front();
@@ -25,8 +27,7 @@ void TurnMeter::add(double seconds) {
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());
     figures_.window.medianTurn = *middle;
-    if (started_) figures_.window.longestTurn = std::max(figures_.window.longestTurn, seconds);
-    started_ = true;
+    figures_.window.longestTurn = std::max(figures_.window.longestTurn, seconds);
 }
 
 } // namespace rt::gui

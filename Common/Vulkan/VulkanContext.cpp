@@ -206,12 +206,16 @@ double VulkanContext::runTimed(const std::function<void(VkCommandBuffer)>& recor
         record(commands);
         if (clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, kEnd);
     });
-    if (!clock) return std::chrono::duration<double>(Clock::now() - start).count();
+    const auto timed = [this](double seconds) {
+        longestRun_ = std::max(longestRun_, seconds);
+        return seconds;
+    };
+    if (!clock) return timed(std::chrono::duration<double>(Clock::now() - start).count());
     std::array<std::uint64_t, 2> ticks{};
     check(vkGetQueryPoolResults(device_, pool, 0, 2, sizeof ticks, ticks.data(), sizeof ticks[0],
                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "Reading timestamps");
-    return static_cast<double>((ticks[kEnd] - ticks[kBegin]) & limits_.timestampMask) * limits_.timestampSeconds;
+    return timed(static_cast<double>((ticks[kEnd] - ticks[kBegin]) & limits_.timestampMask) * limits_.timestampSeconds);
 }
 
 std::uint32_t VulkanContext::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,

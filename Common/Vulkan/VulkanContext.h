@@ -72,6 +72,7 @@ class VulkanContext {
     void run(const std::function<void(VkCommandBuffer)>& record);
     // The same, and returns how long the device took for it in seconds: by its own clock if it has one.
     double runTimed(const std::function<void(VkCommandBuffer)>& record);
+    double longestRun() const { return longestRun_; } // of all that were timed, in seconds
 
     // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
     std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
@@ -101,6 +102,7 @@ class VulkanContext {
     Handle<VkFence> fence_;
     Handle<VkQueryPool> timestamps_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    double longestRun_ = 0;
     std::atomic<std::uint64_t> deviceBytes_{0};
 };
 

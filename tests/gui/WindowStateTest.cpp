@@ -63,6 +63,8 @@ TEST_P(WindowStateTest, FilesAreWrittenWhenTheRenderEnds) {
     EXPECT_EQ(json["spp_done"], 4);
     EXPECT_EQ(json["outputs"].size(), 2u);
     EXPECT_TRUE(json["window"].contains("longest_turn_seconds"));
+    const nlohmann::json dispatch = json["window"]["longest_dispatch_seconds"];
+    EXPECT_EQ(dispatch.is_number() && dispatch > 0, json["app"] == "ray-tracing-gpu") << dispatch;
     EXPECT_EQ(image::readImage(image).width, 48u);
     EXPECT_EQ(image::readImage(folder_ / "a.depth.png").width, 48u);
 }
