@@ -219,6 +219,7 @@ void App::drawInterface() {
                   {"Rendering", Place::Side, &open.rendering, [this] { drawRenderPanel(gui_); }},
                   {"Camera", Place::Side, &open.camera, [this] { drawCameraPanel(gui_); }},
                   {"View", Place::Side, &open.view, [this] { drawViewPanel(gui_); }}};
+        panels.front().focus = std::exchange(gui_.focusPanels, false);
         if (settings_.showStatistics) {
             panels.push_back({"Statistics", Place::Side, &open.statistics, [this] { drawStatisticsPanel(gui_); },
                               std::exchange(gui_.revealStatistics, false)});

@@ -48,6 +48,7 @@ struct Gui {
     UiFigures figures;
     bool showHelp = false;
     bool revealStatistics = false; // where they are scrolled away
+    bool focusPanels = false;      // the keyboard is to go to the panels
     bool focusOpen = false;        // the keyboard is to go to the field of the path
     std::string path;              // in that field
     bool saveRequested = false;

@@ -34,7 +34,7 @@ constexpr Shortcut kShortcuts[] = {
     {"B", "hold the picture for comparison, let it go"},
     {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},
     {"Ctrl + plus, minus", "larger, smaller interface"},
-    {"Arrows, Tab, Enter", "walk through controls and use them"},
+    {"Tab, arrows, Enter", "go to the panels, walk through their controls, use them"},
     {"Ctrl + click, on a slider", "type its value"},
     {"Escape", "leave a field, a menu, the controls"},
 };

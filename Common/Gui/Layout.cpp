@@ -25,7 +25,8 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
     const ImGuiID space = ImGui::GetID("space");
     const float statusHeight = ImGui::GetFrameHeight() + 4;
     if (ImGui::DockBuilderGetNode(space) == nullptr) {
-        ImGui::DockBuilderAddNode(space, ImGuiDockNodeFlags_DockSpace | ImGuiDockNodeFlags_PassthruCentralNode);
+        constexpr int kFlags = static_cast<int>(ImGuiDockNodeFlags_DockSpace) | ImGuiDockNodeFlags_PassthruCentralNode;
+        ImGui::DockBuilderAddNode(space, kFlags);
         ImGui::DockBuilderSetNodeSize(space, viewport->Size);
         ImGuiID center = space;
         const float share = std::min(0.45f, kSideWidth * scale / std::max(1.0f, viewport->Size.x));
@@ -52,7 +53,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         ImGui::End();
     }
     for (const Panel& panel : panels) {
-        if (panel.reveal) ImGui::SetNextWindowFocus();
+        if (panel.reveal || panel.focus) ImGui::SetNextWindowFocus();
         if (ImGui::Begin(panel.title)) panel.draw();
         ImGui::End();
     }
@@ -89,6 +90,8 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         ImGui::Begin("##side", nullptr, kFixed);
         const bool headerStays = height > kHeaderStays * ImGui::GetFontSize();
         if (headerStays) header();
+        if (std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.focus; }))
+            ImGui::SetNextWindowFocus();
         ImGui::BeginChild("##panels", {0, 0}, false);
         if (!headerStays) header();
         for (const Panel& panel : panels) {

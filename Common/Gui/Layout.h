@@ -13,6 +13,7 @@ struct Panel {
     bool* isOpen; // of those at the side where ImGui does not dock: folded out
     std::function<void()> draw;
     bool reveal = false; // brings it to where it is seen
+    bool focus = false;  // the keyboard goes to it, or to all of the side
 };
 
 struct Rect {

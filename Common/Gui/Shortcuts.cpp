@@ -36,9 +36,15 @@ void holdPicture(Gui& gui) {
 }
 
 void openFile(Gui& gui) {
-    gui.settings.showPanels = true;
+    gui.settings.showPanels = gui.settings.openPanels.scene = true;
     gui.focusOpen = true;
     gui.path.clear();
+}
+
+// From the picture: what ImGui's keys walk through begins with a window that has the focus.
+void walkPanels(Gui& gui) {
+    if (ImGui::IsWindowFocused(ImGuiFocusedFlags_AnyWindow)) return;
+    gui.settings.showPanels = gui.focusPanels = true;
 }
 
 void toggle(bool& value) {
@@ -68,6 +74,9 @@ constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_B, When::Plain, holdPicture},
     {GLFW_KEY_H, When::Plain, [](Gui& gui) { gui.toggleHeatMap(); }},
     {GLFW_KEY_P, When::Plain, [](Gui& gui) { gui.setRayTracing(!gui.settings.rayTracing); }},
+    {GLFW_KEY_TAB, When::Plain, walkPanels},
+    {GLFW_KEY_UP, When::Plain, walkPanels},
+    {GLFW_KEY_DOWN, When::Plain, walkPanels},
     {GLFW_KEY_PAGE_UP, When::Plain, [](Gui& gui) { gui.stepScene(-1); }},
     {GLFW_KEY_PAGE_DOWN, When::Plain, [](Gui& gui) { gui.stepScene(1); }},
 };

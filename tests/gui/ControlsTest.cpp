@@ -92,6 +92,19 @@ TEST_P(ControlsTest, SavesThePictureAndRemembersSettings) {
     EXPECT_TRUE(fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"));
 }
 
+// From the picture: the first header is folded.
+TEST_P(ControlsTest, TheKeyboardReachesThePanels) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    act("mousemove 1000 700 click 1");
+    for (const char* name : {"Tab", "Down", "space"}) {
+        pause(700);
+        key(name);
+    }
+    EXPECT_TRUE(eventually([&] { return settings()["open_panels"]["scene"] == false; })) << settings();
+    expectCleanEnd();
+}
+
 // Clicks into every row of the panels, and then where the second entry is of the menu that this may have opened: between two
 // rows where it has not. What has changed is told by the settings that remain. A machine that is too busy for a frame between
 // two clicks gets more time.
