@@ -211,23 +211,18 @@ void App::drawFrame(double seconds) {
 }
 
 void App::drawInterface() {
-    std::vector<Panel> panels;
-    if (settings_.showPanels) {
-        using Place = Panel::Place;
-        app::OpenPanels& open = settings_.openPanels;
-        panels = {{"Scene", Place::Side, &open.scene, [this] { drawScenePanel(gui_); }},
-                  {"Rendering", Place::Side, &open.rendering, [this] { drawRenderPanel(gui_); }},
-                  {"Camera", Place::Side, &open.camera, [this] { drawCameraPanel(gui_); }},
-                  {"View", Place::Side, &open.view, [this] { drawViewPanel(gui_); }}};
-        panels.front().focus = std::exchange(gui_.focusPanels, false);
-        if (settings_.showStatistics) {
-            panels.push_back({"Statistics", Place::Side, &open.statistics, [this] { drawStatisticsPanel(gui_); },
-                              std::exchange(gui_.revealStatistics, false)});
-        }
-    }
-    if (settings_.showComparison) {
-        panels.push_back({"Comparison", Panel::Place::Bottom, nullptr, [this] { drawComparisonPanel(gui_); }});
-    }
+    using Place = Panel::Place;
+    app::OpenPanels& open = settings_.openPanels;
+    const bool side = settings_.showPanels;
+    Panel panels[] = {
+        {"Scene", Place::Side, side, &open.scene, [this] { drawScenePanel(gui_); }},
+        {"Rendering", Place::Side, side, &open.rendering, [this] { drawRenderPanel(gui_); }},
+        {"Camera", Place::Side, side, &open.camera, [this] { drawCameraPanel(gui_); }},
+        {"View", Place::Side, side, &open.view, [this] { drawViewPanel(gui_); }},
+        {"Statistics", Place::Side, side && settings_.showStatistics, &open.statistics,
+         [this] { drawStatisticsPanel(gui_); }, std::exchange(gui_.revealStatistics, false)},
+        {"Comparison", Place::Bottom, settings_.showComparison, nullptr, [this] { drawComparisonPanel(gui_); }}};
+    panels[0].focus = std::exchange(gui_.focusPanels, false);
     const Rect area = layOut(
         panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
     picture_.place(area);

@@ -15,6 +15,11 @@ constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
 constexpr float kBottomShare = 0.4f; // of the height
 constexpr float kHeaderStays = 25;   // heights of the font: in lower windows the header scrolls with the panels
 
+bool hasSide(std::span<const Panel> panels) {
+    return std::any_of(panels.begin(), panels.end(),
+                       [](const Panel& p) { return p.isShown && p.place == Panel::Place::Side; });
+}
+
 } // namespace
 
 #ifdef IMGUI_HAS_DOCK
@@ -24,6 +29,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
     const ImGuiViewport* viewport = ImGui::GetMainViewport();
     const ImGuiID space = ImGui::GetID("space");
     const float statusHeight = ImGui::GetFrameHeight() + 4;
+    constexpr float kHeaderHeight = 13.5f; // heights of the font
     if (ImGui::DockBuilderGetNode(space) == nullptr) {
         constexpr int kFlags = static_cast<int>(ImGuiDockNodeFlags_DockSpace) | ImGuiDockNodeFlags_PassthruCentralNode;
         ImGui::DockBuilderAddNode(space, kFlags);
@@ -32,7 +38,8 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         const float share = std::min(0.45f, kSideWidth * scale / std::max(1.0f, viewport->Size.x));
         ImGuiID side = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, share, nullptr, &center);
         const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, kBottomShare, nullptr, &center);
-        const ImGuiID top = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, 0.16f, nullptr, &side);
+        const float header = std::min(0.5f, kHeaderHeight * ImGui::GetFontSize() / std::max(1.0f, viewport->Size.y));
+        const ImGuiID top = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, header, nullptr, &side);
         ImGui::DockBuilderDockWindow("Render control", top);
         for (const Panel& panel : panels) {
             ImGui::DockBuilderDockWindow(panel.title, panel.place == Panel::Place::Side ? side : bottom);
@@ -48,11 +55,12 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
     ImGui::PopStyleVar();
     ImGui::DockSpace(space, {0, 0}, ImGuiDockNodeFlags_PassthruCentralNode);
     ImGui::End();
-    if (!panels.empty()) {
+    if (hasSide(panels)) {
         if (ImGui::Begin("Render control")) header();
         ImGui::End();
     }
     for (const Panel& panel : panels) {
+        if (!panel.isShown) continue;
         if (panel.reveal || panel.focus) ImGui::SetNextWindowFocus();
         if (ImGui::Begin(panel.title)) panel.draw();
         ImGui::End();
@@ -79,12 +87,10 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     const float statusHeight = std::min(ImGui::GetTextLineHeight() + padding.y, viewport->Size.y);
     const float height = std::max(1.0f, viewport->Size.y - statusHeight);
-    const bool hasSide =
-        std::any_of(panels.begin(), panels.end(), [](const Panel& p) { return p.place == Panel::Place::Side; });
-    const float side = hasSide ? std::min(kSideWidth * scale, 0.6f * viewport->Size.x) : 0.0f;
+    const float side = hasSide(panels) ? std::min(kSideWidth * scale, 0.6f * viewport->Size.x) : 0.0f;
     Rect rest{side, 0, std::max(1.0f, viewport->Size.x - side), height};
 
-    if (hasSide) {
+    if (side > 0) {
         ImGui::SetNextWindowPos(viewport->Pos);
         ImGui::SetNextWindowSize({side, height});
         ImGui::Begin("##side", nullptr, kFixed);
@@ -95,7 +101,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         ImGui::BeginChild("##panels", {0, 0}, false);
         if (!headerStays) header();
         for (const Panel& panel : panels) {
-            if (panel.place != Panel::Place::Side) continue;
+            if (!panel.isShown || panel.place != Panel::Place::Side) continue;
             ImGui::SetNextItemOpen(*panel.isOpen);
             *panel.isOpen = ImGui::CollapsingHeader(panel.title);
             if (panel.reveal) ImGui::SetScrollHereY(0);
@@ -112,7 +118,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
         ImGui::End();
     }
     for (const Panel& panel : panels) {
-        if (panel.place != Panel::Place::Bottom) continue;
+        if (!panel.isShown || panel.place != Panel::Place::Bottom) continue;
         const float share = std::floor(kBottomShare * height);
         rest.height -= share;
         ImGui::SetNextWindowPos({viewport->Pos.x + side, viewport->Pos.y + rest.height});

@@ -10,6 +10,7 @@ struct Panel {
     enum class Place { Side, Bottom };
     const char* title;
     Place place;
+    bool isShown;
     bool* isOpen; // of those at the side where ImGui does not dock: folded out
     std::function<void()> draw;
     bool reveal = false; // brings it to where it is seen
@@ -21,7 +22,7 @@ struct Rect {
     bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
-// Shows the panels of a frame; returns the rest of the window, in its units. `header` is drawn above the panels of the side,
+// Shows the panels of a frame, of which all that there may be are given; returns the rest of the window, in its units. `header` is drawn above the panels of the side,
 // `status` in a line at the bottom; `scale` is that of the interface.
 Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
             const std::function<void()>& status);

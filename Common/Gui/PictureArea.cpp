@@ -98,7 +98,7 @@ void PictureArea::handlePointer() {
     if (!io.MouseDown[0] && !io.MouseDown[1] && !io.MouseDown[2]) dragging_ = false;
     const std::optional<Pixel> pixel = inside ? pixelUnderPointer() : std::nullopt;
     inspect(pixel);
-    if (inside && io.MouseClicked[0] && (gui_.pickFocus || io.KeyCtrl)) {
+    if (inside && io.MouseClicked[0] && (gui_.pickFocus || gui_.window.clickedWithControl())) {
         gui_.pickFocus = false;
         if (pixel) gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
     } else if (dragging_ && io.MouseDown[0] && gui_.held && !io.KeyAlt) {

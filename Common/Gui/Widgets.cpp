@@ -117,7 +117,7 @@ bool inputVector(const char* label, const char* tip, double (&value)[3]) {
         if (i > 0) ImGui::SameLine(0, space);
         ImGui::SetNextItemWidth(width);
         changed |= editLater(value[i], [&](double& shown) {
-            ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, "%.6g");
+            ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, "%.5g");
             if (!ImGui::IsItemActive() && !std::isfinite(shown)) shown = value[i];
         });
         ImGui::PopID();

@@ -70,7 +70,10 @@ Window::Window(const std::string& title, const WindowPlace& place) {
     });
     glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { self(w).input_ = true; });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { self(w).input_ = true; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int action, int modifiers) {
+        self(w).input_ = true;
+        if (action == GLFW_PRESS) self(w).clickedWithControl_ = (modifiers & GLFW_MOD_CONTROL) != 0;
+    });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).input_ = true; });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).input_ = true; });

@@ -45,6 +45,7 @@ class Window {
     };
     std::vector<KeyPress> takeKeys();
     bool isDown(int key) const;
+    bool clickedWithControl() const { return clickedWithControl_; } // when a mouse button went down last
 
     std::array<int, 2> framebufferSize() const; // pixels; 0 while minimised
     float contentScale() const;                 // of the monitor: 1 at 96 dots per inch
@@ -62,6 +63,7 @@ class Window {
     std::function<void(std::vector<std::string>)> onDrop_;
     std::vector<KeyPress> keys_;
     bool input_ = true;
+    bool clickedWithControl_ = false;
     bool fullScreen_ = false;
     WindowPlace restored_; // to go back to from full screen
 };
