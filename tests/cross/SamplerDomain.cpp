@@ -112,7 +112,10 @@ double SamplerDomain::whole() const {
 
 bool SamplerDomain::hasKnownDensity() const {
     const std::uint32_t shape = shared::probeShape(family_, which_);
-    const bool isUniform = shape == shared::kShapeArea || (shape == shared::kShapeSolidAngle && !isEllipsoid());
+    // Of a quad that the horizon cuts only a part is sampled; an ellipsoid's cone is stretched.
+    const bool isCutQuad = isLight_ && light_.kind == shared::kLightQuad && which_ == 2;
+    const bool isUniform =
+        shape == shared::kShapeArea || (shape == shared::kShapeSolidAngle && !isEllipsoid() && !isCutQuad);
     return isLight_ && isUniform && !isInside_;
 }
 
