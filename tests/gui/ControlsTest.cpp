@@ -92,6 +92,50 @@ TEST_P(ControlsTest, SavesThePictureAndRemembersSettings) {
     EXPECT_TRUE(fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"));
 }
 
+// Both keys are up again before the program sees any of it.
+TEST_P(ControlsTest, ACtrlClickMakesSharpWhatIsThere) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    const auto isSavedWithAnotherFocus = [this] {
+        key("F12");
+        pause(500);
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "pictures")) {
+            if (entry.path().extension() != ".exr") continue;
+            const std::string note = image::readDescription(entry.path()).value_or("");
+            EXPECT_NE(note.find("focus_distance"), std::string::npos);
+            if (note.find("focus_distance\\\":10.0") == std::string::npos) return true; // the scene's
+        }
+        return false;
+    };
+    key("F12");
+    ASSERT_TRUE(eventually([&] { return !fs::is_empty(folder_ / "pictures"); })) << log(); // there are samples
+    freeze(true);
+    act("keydown ctrl mousemove 1000 500 click 1 keyup ctrl");
+    freeze(false);
+    EXPECT_TRUE(eventually(isSavedWithAnotherFocus)) << log();
+    expectCleanEnd();
+}
+
+TEST_P(ControlsTest, ExportsRunsAndChart) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    ASSERT_TRUE(eventually([&] { return fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"); })) << log();
+    for (const auto& [file, x] : {std::pair{"ray-tracing-history.csv", 557}, {"ray-tracing-errors.png", 659}}) {
+        EXPECT_TRUE(eventually([&] {
+            act("mousemove " + std::to_string(x) + " 572 sleep 0.3 click 1 sleep 0.3");
+            return fs::exists(folder_ / "pictures" / file);
+        })) << file
+            << log();
+    }
+    std::ifstream csv(folder_ / "pictures" / "ray-tracing-history.csv");
+    std::string header, run;
+    EXPECT_TRUE(std::getline(csv, header) && std::getline(csv, run));
+    EXPECT_NE(run.find(GetParam()), std::string::npos) << run;
+    EXPECT_GT(image::readImage(folder_ / "pictures" / "ray-tracing-errors.png").width, 100u);
+    expectCleanEnd();
+}
+
 // From the picture: the first header is folded.
 TEST_P(ControlsTest, TheKeyboardReachesThePanels) {
     start();
