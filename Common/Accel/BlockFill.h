@@ -1,5 +1,6 @@
 // Primitives into the lanes of leaf blocks.
 #pragma once
+#include <algorithm>
 #include <limits>
 
 #include "Common/Accel/CpuAccel.h"

@@ -1,5 +1,6 @@
 #include "Common/App/OptionValues.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 

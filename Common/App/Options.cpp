@@ -1,5 +1,6 @@
 #include "Common/App/Options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

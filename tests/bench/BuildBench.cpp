@@ -1,6 +1,7 @@
 // Time to build the CPU engine's acceleration structure and Embree's of the same geometry, on the same threads in one
 // run, and the memory that each holds afterwards. The two take turns and medians are compared.
 //   build-bench [REPEATS] [THREADS]
+#include <algorithm>
 #include <cstdio>
 
 #ifndef RT_HAS_EMBREE

@@ -1,6 +1,7 @@
 // Rays per second of one thread, ours and Embree's (robust mode, single-ray calls), on the same rays in one run. The
 // two take turns and medians are compared, so that a busy machine disturbs both alike.
 //   rays-bench [REPEATS] [SCENE...]
+#include <algorithm>
 #include <cstdio>
 
 #ifndef RT_HAS_EMBREE

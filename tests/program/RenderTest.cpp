@@ -1,4 +1,5 @@
 // What renders leave behind: formats, statistics, the same bits however they were reached.
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 

@@ -1,4 +1,5 @@
 // Placed geometry is hit where the same geometry, transformed, is (numerics N11).
+#include <algorithm>
 #include <cmath>
 
 #include <glm/mat3x3.hpp>

@@ -1,4 +1,5 @@
 // One primitive, one ray, against the same in long double: the shared formulas and the blocks of every instruction set.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 // Nothing escapes from a closed surface, wherever it is aimed and wherever the surface stands (numerics N4, N5).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

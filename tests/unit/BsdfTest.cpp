@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "Common/Shared/Bsdf.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"

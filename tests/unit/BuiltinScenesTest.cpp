@@ -1,4 +1,5 @@
 // Every built-in scene: it compiles, keeps the promises of the flat scene, and survives a scene file bit for bit.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>

@@ -1,4 +1,5 @@
 // Trees are complete, tight, bounded in depth, and the same for any number of threads.
+#include <algorithm>
 #include <cstring>
 
 #include <gtest/gtest.h>

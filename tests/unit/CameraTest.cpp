@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "Common/Core/Error.h"

@@ -1,4 +1,5 @@
 // Checkpoints: bit for bit, and no damage goes unnoticed.
+#include <algorithm>
 #include <sstream>
 
 #include <gtest/gtest.h>

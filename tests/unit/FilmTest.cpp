@@ -1,4 +1,5 @@
 // The film against exact sums (numerics N15), split invariance, replicates, variance, tiles at the edge, memory.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <functional>

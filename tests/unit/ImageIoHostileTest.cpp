@@ -1,4 +1,5 @@
 // Truncated, damaged and lying files end in an InputError that names the file: no crash, no hang, no huge allocation.
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <random>

@@ -1,4 +1,5 @@
 // Image files: round trips, files that others wrote, and the values that a format cannot hold.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <fstream>

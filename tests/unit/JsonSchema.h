@@ -1,5 +1,6 @@
 // A validator for the part of JSON Schema draft 7 that Assets/scene.schema.json uses; an unknown keyword is an error.
 #pragma once
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>

@@ -1,4 +1,5 @@
 // Flags, environment and configuration file: values, defaults, order of precedence and the one line that each error is.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>

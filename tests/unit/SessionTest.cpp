@@ -1,9 +1,12 @@
 // The way from options to files with an engine that costs nothing: outputs, statistics, limits, interruption,
 // checkpoints, and what happens when something cannot be written.
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
 // Display transform against its definitions in double.
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
