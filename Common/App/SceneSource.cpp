@@ -59,12 +59,11 @@ scene::SceneDesc loadScene(const std::string& source) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".json" && extension != ".obj") return scene::findBuiltinScene(source);
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none))
         path = findAsset("scenes" / path).value_or(path);
-    if (extension == ".json") return scene::loadSceneFile(path);
-    if (extension == ".obj") return scene::loadObjScene(path);
-    return scene::findBuiltinScene(source);
+    return extension == ".json" ? scene::loadSceneFile(path) : scene::loadObjScene(path);
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,

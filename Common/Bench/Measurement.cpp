@@ -124,7 +124,7 @@ class Measurer {
             options_.timeLimit =
                 done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds); // nothing tells as yet
             if (!step()) return;
-            done_.spp = engine_.film().minSamples();
+            done_.spp = spp;
             reached(i);
         }
     }
