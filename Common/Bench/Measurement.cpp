@@ -61,12 +61,13 @@ class Measurer {
         options.settings.sppIsKnown = !device;
         options.timeLimit = device ? kDeviceSlice : kWarmUpSeconds;
         engine_.reset(scene_.camera, options.settings);
+        std::uint64_t done = 0; // samples
         double rate = 0;
         for (double seconds = 0; seconds < kDeviceWarmUpSeconds;) {
-            const std::uint64_t before = engine_.film().totalSamples();
-            const app::RenderResult slice = app::renderUntilStopped(engine_, options, before, stop_, progress_, [] {});
+            const app::RenderResult slice = app::renderUntilStopped(engine_, options, done, stop_, progress_, [] {});
             if (!device || slice.stoppedBy == app::StopReason::Interrupted) return;
-            const double now = static_cast<double>(engine_.film().totalSamples() - before) / slice.seconds;
+            const double now = static_cast<double>(slice.progress.samplesDone - done) / slice.seconds;
+            done = slice.progress.samplesDone;
             if (now < kStillRising * rate) return;
             rate = now;
             seconds += slice.seconds;
