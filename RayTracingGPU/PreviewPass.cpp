@@ -12,6 +12,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/CameraRecord.h"
+#include "Common/Scene/LightTable.h"
 #include "Common/Shared/Features.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
 
@@ -59,9 +60,7 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
         const shared::Light& light = scene.lights[i];
         if (light.kind == shared::kLightSky) continue;
-        const bool isFlat = light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
-        const bool bothSides = isFlat && light.sides == shared::kSidesBoth;
-        sum += glm::dvec3(light.emission) * static_cast<double>(light.area) * (bothSides ? 2.0 : 1.0);
+        sum += glm::dvec3(light.emission) * scene::emittingArea(light);
     }
     if (radius > 0) sum /= 0.5 * 4 * std::numbers::pi * radius * radius;
     return glm::max(vec3(sum), vec3(kLeastAmbient));

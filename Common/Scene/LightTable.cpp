@@ -27,10 +27,9 @@ bool isFlat(const shared::Light& light) {
     return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
 }
 
-// Flux in the surrounding space; what a sphere emits inwards stays inside.
+// Flux in the surrounding space.
 double power(const shared::Light& light) {
-    const double sides = isFlat(light) && light.sides == shared::kSidesBoth ? 2 : 1;
-    return luminance(light.emission) * kPi * light.area * sides;
+    return luminance(light.emission) * kPi * emittingArea(light);
 }
 
 // Centre of the least circle around the triangle (0, u, v): in its plane, so that a point is before the triangle if and
@@ -82,6 +81,11 @@ shared::LightBound boundOf(const shared::Light& light) {
 
 double luminance(const glm::dvec3& color) {
     return 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+}
+
+double emittingArea(const shared::Light& light) {
+    const double sides = isFlat(light) && light.sides == shared::kSidesBoth ? 2 : 1;
+    return light.area * sides;
 }
 
 shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& motion) {

@@ -10,6 +10,9 @@ namespace rt::scene {
 
 double luminance(const glm::dvec3& color); // Rec. 709
 
+// World units squared, of all that emits into the surrounding space; what a sphere emits inwards stays inside.
+double emittingArea(const shared::Light& light);
+
 // Lights of primitives as kernels see them; `emission` is the mean radiance, `material` an index into the scene's.
 shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& motion);
 shared::Light ellipsoidLight(const Affine& toWorld); // of the unit sphere
