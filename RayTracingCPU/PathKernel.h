@@ -167,7 +167,7 @@ void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel
     const RenderParams& params = context.params;
     const Sampler first = makeSampler(params, pixel.y * params.width + pixel.x, task.replicate, task.first);
     vec3 total(sum[0], sum[1], sum[2]);
-    const bool descends = params.lightSampling == kSampleMis && params.lightSelection == kSelectContribution;
+    const bool descends = usesMis(params) && params.lightSelection == kSelectContribution;
     if (descends && usesLightTree(kFeatures, context.scene->globals.lightCount)) {
         tracePathsSideBySide<kFeatures>(context, pixel, first, task.count, total, counters);
     } else {

@@ -27,8 +27,10 @@ struct Named {
     E value;
 };
 
-inline constexpr Named<LightSampling> kLightSamplings[] = {
-    {"mis", LightSampling::Mis}, {"mixture", LightSampling::Mixture}, {"bsdf", LightSampling::Bsdf}};
+inline constexpr Named<LightSampling> kLightSamplings[] = {{"mis", LightSampling::Mis},
+                                                           {"mis-power", LightSampling::MisPower},
+                                                           {"mixture", LightSampling::Mixture},
+                                                           {"bsdf", LightSampling::Bsdf}};
 inline constexpr Named<LightSelection> kLightSelections[] = {{"contribution", LightSelection::Contribution},
                                                              {"power", LightSelection::Power},
                                                              {"uniform", LightSelection::Uniform}};

@@ -10,7 +10,8 @@ namespace rt::app {
 enum class LightSampling : std::uint32_t {
     Bsdf = shared::kSampleBsdf,
     Mixture = shared::kSampleMixture,
-    Mis = shared::kSampleMis
+    Mis = shared::kSampleMis, // balance heuristic
+    MisPower = shared::kSampleMisPower
 };
 enum class LightSelection : std::uint32_t {
     Uniform = shared::kSelectUniform,

@@ -349,8 +349,8 @@ class Suite {
         for (const char* id :
              {"cornell-box-lights", "veach-mis", "triangle-lights", "many-lights:100", "next-week-final"}) {
             double nonfinite = 0;
-            for (const auto sampling :
-                 {app::LightSampling::Mis, app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
+            for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::MisPower,
+                                        app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
                 app::RenderSettings settings;
                 settings.lightSampling = sampling;
                 nonfinite += static_cast<double>(render(*compiled(id), 64, settings).nonfinite);

@@ -73,10 +73,15 @@ RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camer
 
 // ---- emission -----------------------------------------------------------------------------------------------------
 
+RT_FN bool usesMis(RT_IN(RenderParams) params) {
+    return params.lightSampling >= kSampleMis;
+}
+
 // Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
 RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
-    if (params.lightSampling != kSampleMis || pdf == 0.0f) return 1.0f;
-    return balanceHeuristic(pdf, lightDensity);
+    if (!usesMis(params) || pdf == 0.0f) return 1.0f;
+    return params.lightSampling == kSampleMisPower ? powerHeuristic(pdf, lightDensity)
+                                                   : balanceHeuristic(pdf, lightDensity);
 }
 
 RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
@@ -84,7 +89,7 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
     float weight = 1.0f;
     if (has(features, kFeatureSkyImage)) {
         SceneGlobals globals = loadGlobals(scene);
-        if (globals.skyLight != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
+        if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {
             float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
             weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
         }
@@ -106,7 +111,7 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
     if (!front && material.emissionSides != kSidesBoth) return;
     vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv);
     float weight = 1.0f;
-    if (has(features, kFeatureLights) && surface.light != kNone && params.lightSampling == kSampleMis && s.pdf > 0.0f) {
+    if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
         float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
         float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
                                  s.ray.time, s.ray.direction, distance, surface.normal);
@@ -201,7 +206,7 @@ RT_FN DirectLight noDirectLight() {
     return direct;
 }
 
-// Next-event estimation: one light, one shadow ray, weighed by the balance heuristic against the bsdf's density.
+// Next-event estimation: one light, one shadow ray, weighed against the bsdf's density.
 RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                                     RT_IN(Vertex) v, RT_INOUT(PathState) s) {
     DirectLight direct = noDirectLight();
@@ -217,7 +222,10 @@ RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderP
     vec4 f = evalScattering(features, v, sampled.wi);
     vec3 contribution = s.throughput * vec3(f) * sampled.radiance;
     if (!(maxComponent(contribution) > 0.0f)) return direct;
-    direct.radiance = contribution * (1.0f / (choice.probability * sampled.pdf + f.w));
+    // The weight and the division by the light's own density are one division.
+    float density = choice.probability * sampled.pdf;
+    float scattering = params.lightSampling == kSampleMisPower ? f.w * (f.w / density) : f.w;
+    direct.radiance = contribution * (1.0f / (density + scattering));
     direct.direction = sampled.wi;
     direct.distance = kInfinity;
     if (light.kind == kLightSky) return direct;
@@ -328,7 +336,7 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     bool delta = isDeltaVertex(features, v);
     if (!has(features, kLightChosen)) s.last = lightContext(params, v);
     bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
-    if (lights && params.lightSampling == kSampleMis) direct = sampleDirectLight(features, scene, params, smp, v, s);
+    if (lights && usesMis(params)) direct = sampleDirectLight(features, scene, params, smp, v, s);
 
     BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
     if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {

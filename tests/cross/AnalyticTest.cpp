@@ -39,7 +39,8 @@ TEST_P(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
     for (const bool box : {false, true}) {
         GpuRenders renders(shell(box, 0.6, 0.5));
         app::RenderSettings settings = smallSettings(4, 1024);
-        for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
+        for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis,
+                                    app::LightSampling::MisPower}) {
             settings.lightSampling = sampling;
             for (const std::uint32_t depth : {1u, 2u, 7u}) {
                 settings.maxDepth = depth;
@@ -100,7 +101,7 @@ void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what
         EXPECT_TRUE(isMean(renders(settings), truth))
             << what << ", " << describe(settings) << ", shape " << static_cast<int>(settings.quadLight);
     };
-    for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
+    for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::MisPower}) {
         settings.lightSampling = sampling;
         expect();
     }

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "Common/App/Names.h"
 #include "Common/App/SceneSource.h"
 #include "Common/Image/ImageTest.h"
 #include "Common/Scene/BuiltinScenes.h"
@@ -16,8 +17,8 @@ constexpr std::uint32_t kSpp = 16;
 class Agreement : public ::testing::TestWithParam<std::string> {};
 
 // Bias that this can see: 4 standard errors of the difference, stated on failure. A tile that is 5 % off, a missing weight or
-// a light that one estimator does not know are discoveries. Seeds are fixed; with 54 comparisons of two chances each a clean
-// build would fail once in a hundred changes of the random numbers.
+// a light that one estimator does not know are discoveries. Seeds are fixed; with 81 comparisons of two chances each a clean
+// build would fail once in some sixty changes of the random numbers.
 void expectAgreement(const scene::SceneDesc& desc) {
     scene::CompileOptions options;
     options.generatedAssets = true;
@@ -26,10 +27,10 @@ void expectAgreement(const scene::SceneDesc& desc) {
     engine->setScene(scene, nullptr);
     const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 3000);
     std::uint32_t seed = 4000;
-    for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture}) {
+    for (auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::MisPower}) {
         const auto result =
             image::testImages(independentImages(*engine, *scene, sampling, kSide, kSpp, seed), reference);
-        const std::string what = sampling == app::LightSampling::Bsdf ? "bsdf, " : "mixture, ";
+        const std::string what = app::nameOf(app::kLightSamplings, sampling) + ", ";
         EXPECT_GT(result.globalP, 1e-4) << what << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << what << result.summary();
         seed += 1000;
