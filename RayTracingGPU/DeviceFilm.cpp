@@ -145,7 +145,7 @@ void DeviceFilm::store(Film& film) const {
     }
 }
 
-void DeviceFilm::describe(shared::FilmLaunch& launch) const {
+void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const {
     launch.samples = samplesBuffer_.address();
     launch.sums = sums_.address();
     launch.squares = squares_.address();
@@ -153,7 +153,18 @@ void DeviceFilm::describe(shared::FilmLaunch& launch) const {
     launch.firstTile = firstTile_;
     launch.tilesX = tilesX_;
     launch.replicates = desc_.replicates;
+    launch.filmSlots = slotCount();
+    launch.bandSlots = bandSlots();
+    launch.firstSlot = first;
+    launch.bandWidth = width;
+    launch.slotCount = width * bands();
     launch.keepSquares = squares_ ? 1u : 0u;
+}
+
+std::uint32_t DeviceFilm::bandSlots() const {
+    constexpr std::uint32_t kBands = 37; // a prime, so that the bands of hardly any image begin all at one column
+    const bool isWhole = slotCount() == tilesX_ * ((desc_.height + shared::kTile - 1) / shared::kTile) * desc_.replicates;
+    return isWhole ? (slotCount() + kBands - 1) / kBands : slotCount();
 }
 
 std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
@@ -174,7 +185,9 @@ std::uint64_t DeviceFilm::leastSamples() const {
 
 DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
     Work added;
-    for (std::uint32_t slot = launch.firstSlot; slot < launch.firstSlot + launch.slotCount; ++slot) {
+    for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
+        const std::uint32_t slot = shared::launchSlot(launch, i);
+        if (slot >= slotCount()) continue;
         const std::uint32_t end = shared::replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
         const std::uint32_t reached = shared::blockRange(samples_[slot], launch.blocks - 1, end).y;
         if (reached <= samples_[slot]) continue;

@@ -30,8 +30,11 @@ class DeviceFilm {
     std::uint32_t firstTile() const { return firstTile_; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
     std::uint64_t leastSamples() const; // of any pixel, all replicates
-    // Fills in what a launch needs to know of the film.
-    void describe(shared::FilmLaunch& launch) const;
+    // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
+    std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }
+    std::uint32_t bandSlots() const; // the last band may lack some
+    // Fills in what such a launch needs to know of the film.
+    void describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const;
     // To be called after a launch: what it added, of pixels inside of the image.
     struct Work {
         std::uint64_t samples = 0;

@@ -122,8 +122,9 @@ class GpuEngine final : public app::Engine {
     std::uint64_t samplesDone_ = 0;
     bool inPass_ = false;
     std::uint32_t passEnd_ = 0;            // samples per pixel that the pass in progress leads to
-    std::uint32_t passRounds_ = 0;         // blocks of each slot that it takes
-    std::uint32_t nextSlot_ = 0;           // of the region: the first that the pass has not launched
+    std::uint32_t passRounds_ = 0;         // blocks of each slot that it takes, the first and last perhaps in part
+    double passSamples_ = 0;               // of each slot's pixels
+    std::uint32_t nextSlot_ = 0;           // of each of the region's bands: the first that the pass has not launched
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
 };
@@ -220,42 +221,46 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
 }
 
 // Opens the next pass, which takes every pixel some rounds further, a round being one block of each replicate: as many as fit
-// in a launch, but at least one. False: all done.
+// in a launch, but at least one. Where launches must be short, a part of a round if no more fits: an invocation takes its samples one
+// after the other, and 16 long paths in a medium may last longer than the launch. False: all done.
 bool GpuEngine::beginPass(double seconds) {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
     const std::uint64_t least = isOneRegion() ? region_->leastSamples() : film_.minSamples();
-    std::uint64_t rounds = kRegionRounds;
+    std::uint64_t end = (least / round + kRegionRounds) * round;
     if (isOneRegion()) {
-        const std::uint64_t fitting = launchSize_->suggest(seconds) / (pixels() * round);
-        const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels);
-        rounds = std::max<std::uint64_t>(1, std::min(fitting, room));
+        const std::uint64_t fitting = launchSize_->suggest(seconds) / pixels();
+        const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
+        end = seconds < kLaunchSeconds
+                  ? least + std::max<std::uint64_t>(settings_.replicates, std::min(fitting, room))
+                  : (least / round + std::max<std::uint64_t>(1, std::min(fitting, room) / round)) * round;
     }
-    const std::uint64_t end = std::min<std::uint64_t>((least / round + rounds) * round, settings_.spp);
+    end = std::min<std::uint64_t>(end, settings_.spp);
     passEnd_ = static_cast<std::uint32_t>(end);
     passRounds_ = static_cast<std::uint32_t>((end + round - 1) / round - least / round);
+    passSamples_ = static_cast<double>(end - least) / settings_.replicates;
     if (end % round != 0) region_->reserveOpenBlocks();
     nextSlot_ = 0;
     inPass_ = true;
     return true;
 }
 
-// Launches the next slots of the pass; behind the last one of the last region the pass is over.
+// Launches the next slots of the pass in all bands; behind the last ones of the last region the pass is over.
 void GpuEngine::launchNext(double seconds) {
-    const std::uint64_t sums = std::uint64_t{passRounds_} * shared::kTilePixels; // of a slot
-    const std::uint64_t fitting = launchSize_->suggest(seconds) / (sums * shared::kBlock);
-    const std::uint64_t most = std::min<std::uint64_t>(region_->slotCount() - nextSlot_, kMaxBlockSums / sums);
+    const std::uint64_t pixels = std::uint64_t{region_->bands()} * shared::kTilePixels; // of one slot in each band
+    const auto fitting = static_cast<std::uint64_t>(static_cast<double>(launchSize_->suggest(seconds)) /
+                                                    (static_cast<double>(pixels) * passSamples_));
+    const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (passRounds_ * pixels), 1);
+    const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - nextSlot_, room);
+    const auto width = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, most));
     shared::FilmLaunch launch{};
-    region_->describe(launch);
-    launch.firstSlot = nextSlot_;
-    launch.slotCount =
-        static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, std::max<std::uint64_t>(most, 1)));
+    region_->describe(launch, nextSlot_, width);
     launch.blocks = passRounds_;
     launch.spp = passEnd_;
     run(launch);
-    nextSlot_ += launch.slotCount;
-    if (nextSlot_ == region_->slotCount()) inPass_ = nextRegion();
+    nextSlot_ += width;
+    if (nextSlot_ == region_->bandSlots()) inPass_ = nextRegion();
 }
 
 std::uint32_t GpuEngine::maxInvocations() const {
@@ -273,7 +278,7 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
     launch.blockSums = blockSums_.address();
     launch.counters = counters_.address();
     const std::uint32_t invocations = std::min(items, maxInvocations());
-    const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
+    const auto record = [&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
         kernel_->launch(commands, launch, invocations);
@@ -282,9 +287,10 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
         const VkBufferCopy all{0, 0, kCounterBytes};
         vkCmdCopyBuffer(commands, counters_.get(), countersOnHost_.get(), 1, &all);
         vulkan::barrier(commands);
-    });
+    };
+    DeviceFilm::Work added;
+    const double seconds = context_.runTimed(record, [&] { added = region_->advance(launch); });
     dirty_ = true;
-    const DeviceFilm::Work added = region_->advance(launch);
     samplesDone_ += added.samples;
     launchSize_->measured(added.samples, seconds);
 

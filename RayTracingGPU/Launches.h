@@ -17,9 +17,10 @@ class LaunchSize {
     LaunchSize(bool softwareDevice, std::uint32_t maxDepth)
         : samples_((softwareDevice ? 1 << 14 : 1 << 18) / std::max(1.0, maxDepth / 64.0)) {}
 
-    // Samples for a launch of `seconds`, but at most kLaunchSeconds.
+    // Samples for a launch of `seconds`, but at most kLaunchSeconds. Short ones must not take longer: they are planned shorter.
     std::uint64_t suggest(double seconds) {
-        suggested_ = samples_ * std::clamp(seconds / kLaunchSeconds, 0.0, 1.0);
+        constexpr double kReserve = 0.8;
+        suggested_ = samples_ * (seconds < kLaunchSeconds ? kReserve * seconds / kLaunchSeconds : 1);
         return static_cast<std::uint64_t>(std::max(suggested_, 1.0));
     }
 

@@ -26,8 +26,10 @@ void add(inout FilmSum s, vec3 x) {
 }
 
 void main() {
-    uint slot = launch.firstSlot + gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (slot >= launch.firstSlot + launch.slotCount) return;
+    uint position = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (position >= launch.slotCount) return;
+    uint slot = launchSlot(launch, position);
+    if (slot >= launch.filmSlots) return;
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
     uint done = launch.samples.at[slot];
     uint end = replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
@@ -40,7 +42,7 @@ void main() {
         uvec2 range = blockRange(done, block, end);
         if (range.x >= range.y) break;
         samples = range.y;
-        uint item = (block * launch.slotCount + slot - launch.firstSlot) * kTilePixels + gl_LocalInvocationID.x;
+        uint item = (position * launch.blocks + block) * kTilePixels + gl_LocalInvocationID.x;
         vec3 blockSum = launch.blockSums.at[item];
         if (range.y % kBlock == 0u) {
             add(sum, blockSum);

@@ -121,7 +121,8 @@ RT_MUTABLE_ARRAY(FilmSumArray, FilmSum)
 RT_MUTABLE_ARRAY(MutableVectorArray, vec3)
 RT_MUTABLE_ARRAY(MutableWordArray, uint)
 
-// Push constants of a launch: slots firstSlot .. firstSlot + slotCount - 1 of the film on the device.
+// Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that each launch
+// has its share of what takes long in the image.
 struct FilmLaunch {
     MutableWordArray samples;     // per slot: samples that its pixels have
     FilmSumArray sums;            // of closed blocks
@@ -132,10 +133,13 @@ struct FilmLaunch {
     uint firstTile;               // of the image: the film's first
     uint tilesX;                  // of the image
     uint replicates;
-    uint firstSlot;
-    uint slotCount;
-    uint blocks; // that the launch may take each slot further
-    uint spp;    // per pixel, all replicates, at which the launch stops
+    uint filmSlots;
+    uint bandSlots; // the last band may lack some
+    uint firstSlot; // of each band
+    uint bandWidth; // from firstSlot on
+    uint slotCount; // bandWidth times the bands
+    uint blocks;    // that the launch may take each slot further
+    uint spp;       // per pixel, all replicates, at which the launch stops
     uint keepSquares;
 };
 
@@ -160,7 +164,12 @@ RT_FN uvec2 blockRange(uint done, uint block, uint end) {
     return uvec2(max(first, done), min(first + kBlock, end));
 }
 
-// What an item of work, 64 a block and slot, is about. Neighbours share a tile.
+// Slot i of a launch, i < slotCount. There is none from filmSlots on; only the film of a whole image has such, below its last row.
+RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
+    return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
+}
+
+// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike.
 struct WorkItem {
     uint slot;
     uint block;
@@ -171,8 +180,8 @@ RT_FN WorkItem workItem(FilmLaunch launch, uint item) {
     WorkItem w;
     w.tilePixel = item % kTilePixels;
     uint rest = item / kTilePixels;
-    w.slot = launch.firstSlot + rest % launch.slotCount;
-    w.block = rest / launch.slotCount;
+    w.slot = launchSlot(launch, rest / launch.blocks);
+    w.block = rest % launch.blocks;
     return w;
 }
 

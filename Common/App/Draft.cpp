@@ -38,6 +38,7 @@ class Enlarged {
 } // namespace
 
 image::Image enlarge(const image::Image& image, std::uint32_t width, std::uint32_t height) {
+    if (width == image.width && height == image.height) return image;
     image::Image result(width, height, image.channels);
     const Enlarged source(image, width, height);
     for (std::uint32_t y = 0; y < height; ++y)

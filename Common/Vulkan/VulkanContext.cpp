@@ -164,7 +164,7 @@ void VulkanContext::queryLimits() {
     limits_.timestampMask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
 }
 
-void VulkanContext::run(const std::function<void(VkCommandBuffer)>& record) {
+void VulkanContext::run(const Record& record, const std::function<void()>& meanwhile) {
     // Its commands may still be in use.
     if (device_ == abandonedDevice) throw DeviceLostError("Running on " + info_.name + ": the device was lost before");
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -172,10 +172,10 @@ void VulkanContext::run(const std::function<void(VkCommandBuffer)>& record) {
     check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
     record(commands_);
     check(vkEndCommandBuffer(commands_), "Recording commands");
-    submit(commands_);
+    submit(commands_, meanwhile);
 }
 
-void VulkanContext::submit(VkCommandBuffer commands) {
+void VulkanContext::submit(VkCommandBuffer commands, const std::function<void()>& meanwhile) {
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
@@ -187,25 +187,27 @@ void VulkanContext::submit(VkCommandBuffer commands) {
         check(result, what);
     };
     checkRun(vkQueueSubmit(queue_, 1, &submit, fence));
+    if (meanwhile) meanwhile();
     const bool patient = info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     checkRun(vkWaitForFences(device_, 1, &fence, VK_TRUE,
                              patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count()));
     check(vkResetFences(device_, 1, &fence), what);
 }
 
-double VulkanContext::runTimed(const std::function<void(VkCommandBuffer)>& record) {
+double VulkanContext::runTimed(const Record& record, const std::function<void()>& meanwhile) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();
     const bool clock = limits_.timestampSeconds > 0;
     const VkQueryPool pool = timestamps_.get();
-    run([&](VkCommandBuffer commands) {
+    const auto recordTimed = [&](VkCommandBuffer commands) {
         if (clock) {
             vkCmdResetQueryPool(commands, pool, 0, 2);
             vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, pool, kBegin);
         }
         record(commands);
         if (clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, kEnd);
-    });
+    };
+    run(recordTimed, meanwhile);
     const auto timed = [this](double seconds) {
         longestRun_ = std::max(longestRun_, seconds);
         return seconds;

@@ -68,10 +68,12 @@ class VulkanContext {
     const RayTracingFunctions& rayTracing() const { return rayTracing_; }
     std::uint64_t validationMessages() const { return instance_.validationMessages(); }
 
-    // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError.
-    void run(const std::function<void(VkCommandBuffer)>& record);
+    using Record = std::function<void(VkCommandBuffer)>;
+    // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError. `meanwhile` is called while
+    // the device is at work.
+    void run(const Record& record, const std::function<void()>& meanwhile = {});
     // The same, and returns how long the device took for it in seconds: by its own clock if it has one.
-    double runTimed(const std::function<void(VkCommandBuffer)>& record);
+    double runTimed(const Record& record, const std::function<void()>& meanwhile = {});
     double longestRun() const { return longestRun_; } // of all that were timed, in seconds
 
     // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
@@ -84,7 +86,7 @@ class VulkanContext {
   protected:
     // Hands recorded commands to the device and waits, but for no more than a minute where it is not the CPU that works: not
     // every system has a watchdog for that. Throws DeviceLostError then. Virtual for tests, whose devices can fail.
-    virtual void submit(VkCommandBuffer commands);
+    virtual void submit(VkCommandBuffer commands, const std::function<void()>& meanwhile);
 
   private:
     void createDevice();

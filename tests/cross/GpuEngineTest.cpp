@@ -147,9 +147,9 @@ class FailingContext : public vulkan::VulkanContext {
     bool lost = false;
 
   protected:
-    void submit(VkCommandBuffer commands) override {
+    void submit(VkCommandBuffer commands, const std::function<void()>& meanwhile) override {
         if (lost) throw vulkan::DeviceLostError("the device was lost");
-        VulkanContext::submit(commands);
+        VulkanContext::submit(commands, meanwhile);
     }
 };
 
@@ -258,9 +258,8 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
         }
         vulkan::upload(context, buffer, std::as_bytes(std::span(sums)));
         shared::FilmLaunch launch{};
-        onDevice.describe(launch);
+        onDevice.describe(launch, 0, 1);
         launch.blockSums = buffer.address();
-        launch.slotCount = 1;
         launch.blocks = kPerLaunch;
         launch.spp = (done + kPerLaunch) * shared::kBlock;
         context.run([&](VkCommandBuffer commands) {
