@@ -118,7 +118,8 @@ RT_FN Light probeCaseLight(uint family, uint which) {
 RT_FN uint probeShape(uint family, uint which) {
     if (isProbeProjected(family)) return kShapeProjected;
     if (which == 0u) return kShapeArea;
-    return which == 3u ? kShapeAuto : kShapeSolidAngle;
+    bool automatic = which == 3u || (which == 1u && family == kLightQuad); // columns; weighted by the cosine
+    return automatic ? kShapeAuto : kShapeSolidAngle;
 }
 
 // A light of any of twelve decades in size and distance: thin, edge-on, touched, or far from the origin.

@@ -28,7 +28,7 @@ struct Named {
 };
 
 inline constexpr Named<LightSampling> kLightSamplings[] = {{"mis", LightSampling::Mis},
-                                                           {"mis-power", LightSampling::MisPower},
+                                                           {"mis-balance", LightSampling::MisBalance},
                                                            {"mixture", LightSampling::Mixture},
                                                            {"bsdf", LightSampling::Bsdf}};
 inline constexpr Named<LightSelection> kLightSelections[] = {{"contribution", LightSelection::Contribution},

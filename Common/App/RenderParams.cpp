@@ -88,9 +88,10 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
         text += (text.empty() ? "" : ", ") + std::string(shape) + ": " + used;
     };
     if (settings.lightSampling == LightSampling::Bsdf) return "none";
-    describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone", "cone");
+    describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone",
+             "auto (projected above the horizon, else cone)");
     describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
-             "auto (area when far, columns when thin, else solid-angle)");
+             "auto (area when far, columns when thin, else solid-angle by the cosine)");
     describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
              "auto (area when far, else solid-angle)");
     const bool isProjected = settings.sphereLight == ShapeSampling::Projected; // there are no projected ellipsoids

@@ -10,8 +10,8 @@ namespace rt::app {
 enum class LightSampling : std::uint32_t {
     Bsdf = shared::kSampleBsdf,
     Mixture = shared::kSampleMixture,
-    Mis = shared::kSampleMis, // balance heuristic
-    MisPower = shared::kSampleMisPower
+    Mis = shared::kSampleMis, // power heuristic
+    MisBalance = shared::kSampleMisBalance
 };
 enum class LightSelection : std::uint32_t {
     Uniform = shared::kSelectUniform,

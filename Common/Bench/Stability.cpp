@@ -349,7 +349,7 @@ class Suite {
         for (const char* id :
              {"cornell-box-lights", "veach-mis", "triangle-lights", "many-lights:100", "next-week-final"}) {
             double nonfinite = 0;
-            for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::MisPower,
+            for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::MisBalance,
                                         app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
                 app::RenderSettings settings;
                 settings.lightSampling = sampling;

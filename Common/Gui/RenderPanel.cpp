@@ -18,7 +18,7 @@ using app::SamplerKind;
 using app::ShapeSampling;
 
 constexpr Named<LightSampling> kLightSamplingNames[] = {{"Light sampling with MIS", LightSampling::Mis},
-                                                        {"MIS, power heuristic", LightSampling::MisPower},
+                                                        {"MIS, balance heuristic", LightSampling::MisBalance},
                                                         {"Mixture PDF (PDF on)", LightSampling::Mixture},
                                                         {"Scattering only (PDF off)", LightSampling::Bsdf}};
 constexpr Named<LightSelection> kSelectionNames[] = {{"By contribution", LightSelection::Contribution},

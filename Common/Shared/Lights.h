@@ -3,11 +3,12 @@
 // of the light and the shading point, never from the sample.
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
+#include "Bilinear.h"
 #include "EllipsoidLight.h"
 #include "Features.h"
 #include "LightSample.h"
 #include "ProjectedQuery.h"
-#include "SphericalShapes.h"
+#include "WholeCap.h"
 #if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
 #include "ProjectedPolygon.h"
 #include "ProjectedSphere.h"
@@ -35,6 +36,9 @@ RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Li
     if (d2 <= r2) return kRegimeInside;
     if (wantsProjected(features, params.sphereLight, normal) && r2 >= kTinyExtent * kTinyExtent * d2)
         return kRegimeProjected;
+    // A medium's normal is 0.
+    bool whole = r2 >= kLeastCapSine2 * d2 && dot(normal, toCenter) >= light.radius;
+    if (params.sphereLight == kShapeAuto && whole) return kRegimeWholeCap;
     return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
 }
 
@@ -115,7 +119,7 @@ struct QuadView {
     Columns columns; // in that regime
 };
 
-// Automatic: a rectangle at twice its short edge or farther is sampled by columns.
+// Automatic: a rectangle at twice its short edge or farther is sampled by columns, a nearer one with regard to the cosine.
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
@@ -133,7 +137,7 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
         vec3 shortEdge = q.swapped ? light.edgeU : light.edgeV;
         q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
         bool thin = 4.0f * min(u2, v2) * q.columns.inverse < columnsDistance2(q.columns);
-        if (thin) q.regime = kRegimeColumns;
+        q.regime = thin ? kRegimeColumns : isSurface(normal) ? kRegimeWeighted : kRegimeSolidAngle;
     }
     return q;
 }
@@ -184,13 +188,19 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     uint regime = sphereLightRegime(features, params, light, toCenter, normal);
     if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
-    } else if (regime == kRegimeSolidAngle) {
+    } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
         SphereCone cone = makeSphereCone(toCenter, radius);
-        ConeSample c = sampleSphereCone(cone, radius, u);
+        ConeSample c;
+        if (regime == kRegimeWholeCap) {
+            c = sampleWholeCap(cone, radius, normal, u);
+            s.pdf = wholeCapPdf(cone, normal, c.direction);
+        } else {
+            c = sampleSphereCone(cone, radius, u);
+            s.pdf = sphereConePdf(cone);
+        }
         s.wi = c.direction;
         s.distance = c.distance;
         s.normal = c.normal;
-        s.pdf = sphereConePdf(cone);
         // The point must lie on the ray; near the sphere only this form guarantees it, far from it the other is finer.
         s.point = cone.distance < 2.0f * radius ? position + s.wi * s.distance : center + s.normal * radius;
     } else if (regime == kRegimeInside) {
@@ -224,6 +234,7 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
     if (has(features, kFeatureProjected) && regime == kRegimeProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);
     if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
+    if (regime == kRegimeWholeCap) return wholeCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
     if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
 }
@@ -270,17 +281,49 @@ RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
     return makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
 }
 
-// Uniform in solid angle; pdf 0 if the light is too small for that.
-RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec2 u) {
+// Cosines to the receiver's normal at the corners of a rectangle. Within a rectangle that is cut by the horizon none is so small
+// that the density falls far below the cosine elsewhere.
+RT_FN Bilinear cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal) {
+    float x = dot(normal, r.xAxis);
+    float y = dot(normal, r.yAxis);
+    float z = dot(normal, r.zAxis) * r.h;
+    float x0 = r.x0;
+    float y0 = r.y0;
+    float x1 = x0 + r.width;
+    float y1 = y0 + r.height;
+    float h2 = r.h * r.h;
+    Bilinear f;
+    // The reciprocals are those of wideRectangleSolidAngle.
+    f.at00 = (x * x0 + y * y0 + z) * (1.0f / sqrt(x0 * x0 + y0 * y0 + h2));
+    f.at10 = (x * x1 + y * y0 + z) * (1.0f / sqrt(x1 * x1 + y0 * y0 + h2));
+    f.at01 = (x * x0 + y * y1 + z) * (1.0f / sqrt(x0 * x0 + y1 * y1 + h2));
+    f.at11 = (x * x1 + y * y1 + z) * (1.0f / sqrt(x1 * x1 + y1 * y1 + h2));
+    float least = max(0.1f * max(max(f.at00, f.at10), max(f.at01, f.at11)), 1.0e-3f);
+    f.at00 = max(f.at00, least);
+    f.at10 = max(f.at10, least);
+    f.at01 = max(f.at01, least);
+    f.at11 = max(f.at11, least);
+    return f;
+}
+
+// By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly differ. A pdf
+// of 0 if the light is too small for that.
+RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 normal, bool weighted, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
     if (isRectangle(light)) {
         SphericalRectangle r = rectangleShape(light, corner);
         if (!(r.solidAngle >= kTinySolidAngle)) return s;
-        vec2 p = sampleSphericalRectangle(r, u);
+        vec2 numbers = u;
+        s.pdf = 1.0f / r.solidAngle;
+        if (weighted && r.solidAngle >= kSmallRectangle) {
+            Bilinear cosines = cornerCosines(r, normal);
+            numbers = sampleBilinear(cosines, u);
+            s.pdf *= bilinearDensity(cosines, numbers);
+        }
+        vec2 p = sampleSphericalRectangle(r, numbers);
         s.uv = vec2(p.x / r.width, p.y / r.height);
         placeOnLight(s, light, position);
-        s.pdf = 1.0f / r.solidAngle;
         return s;
     }
     SphericalTriangle half0 = quadHalf(light, corner, false);
@@ -300,10 +343,21 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec2 u
     return s;
 }
 
-RT_FN float quadSolidAngle(RT_IN(Light) light, vec3 position) {
+// The same for the direction to a point of the light, relative to the position.
+RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, bool weighted, vec3 toPoint) {
     vec3 corner = light.position - position;
-    if (isRectangle(light)) return rectangleShape(light, corner).solidAngle;
-    return quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
+    if (!isRectangle(light)) {
+        float whole = quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
+        return whole >= kTinySolidAngle ? 1.0f / whole : 0.0f;
+    }
+    SphericalRectangle r = rectangleShape(light, corner);
+    if (!(r.solidAngle >= kTinySolidAngle)) return 0.0f;
+    float pdf = 1.0f / r.solidAngle;
+    if (weighted && r.solidAngle >= kSmallRectangle) {
+        vec2 place = vec2(dot(toPoint, r.xAxis) - r.x0, dot(toPoint, r.yAxis) - r.y0);
+        pdf *= bilinearDensity(cornerCosines(r, normal), wideRectangleNumbers(r, place));
+    }
+    return pdf;
 }
 
 RT_FN FanQuery fanQuery(RT_IN(Light) light, vec3 corner, vec3 normal, uint use, vec3 given) {
@@ -344,9 +398,10 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     LightSample s = noLightSample();
-    if (view.regime == kRegimeSolidAngle) {
+    if (view.regime == kRegimeSolidAngle || view.regime == kRegimeWeighted) {
         QuadPart part = partAboveHorizon(light, view.corner, normal);
-        s = sampleQuadSolidAngle(partOfQuad(light, part), position, u);
+        bool weighted = view.regime == kRegimeWeighted;
+        s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, weighted, u);
         s.uv = part.from + s.uv * part.size;
         if (s.pdf > 0.0f) return s;
     }
@@ -365,10 +420,11 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
 RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    if (view.regime == kRegimeSolidAngle) {
-        QuadPart part = partAboveHorizon(light, view.corner, normal);
-        float solidAngle = quadSolidAngle(partOfQuad(light, part), position);
-        if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
+    if (view.regime == kRegimeSolidAngle || view.regime == kRegimeWeighted) {
+        Light quad = partOfQuad(light, partAboveHorizon(light, view.corner, normal));
+        bool weighted = view.regime == kRegimeWeighted;
+        float pdf = quadSolidAnglePdf(quad, position, normal, weighted, wi * distance);
+        if (pdf > 0.0f) return pdf;
     }
     float density = 1.0f;
     if (view.regime == kRegimeColumns) {

@@ -80,8 +80,8 @@ RT_FN bool usesMis(RT_IN(RenderParams) params) {
 // Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
 RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
     if (!usesMis(params) || pdf == 0.0f) return 1.0f;
-    return params.lightSampling == kSampleMisPower ? powerHeuristic(pdf, lightDensity)
-                                                   : balanceHeuristic(pdf, lightDensity);
+    return params.lightSampling == kSampleMisBalance ? balanceHeuristic(pdf, lightDensity)
+                                                     : powerHeuristic(pdf, lightDensity);
 }
 
 RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
@@ -224,7 +224,7 @@ RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderP
     if (!(maxComponent(contribution) > 0.0f)) return direct;
     // The weight and the division by the light's own density are one division.
     float density = choice.probability * sampled.pdf;
-    float scattering = params.lightSampling == kSampleMisPower ? f.w * (f.w / density) : f.w;
+    float scattering = params.lightSampling == kSampleMisBalance ? f.w : f.w * (f.w / density);
     direct.radiance = contribution * (1.0f / (density + scattering));
     direct.direction = sampled.wi;
     direct.distance = kInfinity;

@@ -286,6 +286,19 @@ RT_FN vec2 sampleSphericalRectangle(RT_IN(SphericalRectangle) r, vec2 u) {
     return vec2(a, clamp(y - r.y0, 0.0f, r.height));
 }
 
+// The numbers u for which sampleSphericalRectangle gives this position, to 1e-5 where the solid angle is at least kSmallRectangle.
+RT_FN vec2 wideRectangleNumbers(RT_IN(SphericalRectangle) r, vec2 position) {
+    vec2 p = clamp(position, vec2(0.0f), vec2(r.width, r.height));
+    float d2 = square(r.x0 + p.x) + r.h * r.h;
+    float y1 = r.y0 + r.height;
+    float y = r.y0 + p.y;
+    float e0 = r.y0 / sqrt(d2 + r.y0 * r.y0);
+    float e1 = y1 / sqrt(d2 + y1 * y1);
+    float e = y / sqrt(d2 + y * y);
+    vec2 u = vec2(wideRectangleSolidAngle(r.x0, p.x, r.y0, r.height, r.h) / r.solidAngle, (e - e0) / (e1 - e0));
+    return clamp(u, vec2(0.0f), vec2(1.0f));
+}
+
 // ---- thin rectangle -------------------------------------------------------------------------------------------------
 
 // Importance of positions along the long edge of a thin rectangle. A line at distance sqrt(d) is seen at

@@ -243,8 +243,8 @@ struct Camera {
 // Estimators, as named in the interface.
 const uint kSampleBsdf = 0u;
 const uint kSampleMixture = 1u;
-const uint kSampleMis = 2u;      // and all above: next-event estimation weighed against scattering
-const uint kSampleMisPower = 3u; // by the power heuristic instead of the balance heuristic
+const uint kSampleMis = 2u; // and above: next-event estimation weighed against scattering, by the power heuristic
+const uint kSampleMisBalance = 3u; // by the balance heuristic
 
 const uint kSelectUniform = 0u;
 const uint kSelectPower = 1u;

@@ -40,7 +40,7 @@ TEST_P(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
         GpuRenders renders(shell(box, 0.6, 0.5));
         app::RenderSettings settings = smallSettings(4, 1024);
         for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis,
-                                    app::LightSampling::MisPower}) {
+                                    app::LightSampling::MisBalance}) {
             settings.lightSampling = sampling;
             for (const std::uint32_t depth : {1u, 2u, 7u}) {
                 settings.maxDepth = depth;
@@ -101,7 +101,8 @@ void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what
         EXPECT_TRUE(isMean(renders(settings), truth))
             << what << ", " << describe(settings) << ", shape " << static_cast<int>(settings.quadLight);
     };
-    for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::MisPower}) {
+    for (const auto sampling :
+         {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::MisBalance}) {
         settings.lightSampling = sampling;
         expect();
     }

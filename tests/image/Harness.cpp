@@ -16,7 +16,7 @@ app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
 }
 
 std::string describe(const app::RenderSettings& settings) {
-    static const char* const kSamplings[] = {"bsdf", "mixture", "mis", "mis-power"};
+    static const char* const kSamplings[] = {"bsdf", "mixture", "mis", "mis-balance"};
     static const char* const kSelections[] = {"uniform", "power", "contribution"};
     static const char* const kSamplers[] = {"independent", "stratified", "sobol", "sobol-blue"};
     return std::string(kSamplings[static_cast<std::size_t>(settings.lightSampling)]) + " " +
@@ -77,7 +77,7 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) 
         settings.sampler = sampler;
         settings.lightSampling = app::LightSampling::Bsdf;
         all.push_back(settings);
-        for (auto sampling : {app::LightSampling::Mixture, app::LightSampling::Mis, app::LightSampling::MisPower}) {
+        for (auto sampling : {app::LightSampling::Mixture, app::LightSampling::Mis, app::LightSampling::MisBalance}) {
             for (auto selection :
                  {app::LightSelection::Uniform, app::LightSelection::Power, app::LightSelection::Contribution}) {
                 settings.lightSampling = sampling;

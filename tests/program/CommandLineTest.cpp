@@ -106,7 +106,7 @@ TEST_F(CommandLine, UsageErrors) {
 
 TEST_F(CommandLine, EveryChoiceOfEveryFlagRenders) {
     const std::vector<std::pair<std::string, Arguments>> choices = {
-        {"--light-sampling", {"mis", "mis-power", "mixture", "bsdf"}},
+        {"--light-sampling", {"mis", "mis-balance", "mixture", "bsdf"}},
         {"--light-selection", {"contribution", "power", "uniform"}},
         {"--sphere-light", {"auto", "cone", "area"}},
         {"--quad-light", {"auto", "solid-angle", "area"}},

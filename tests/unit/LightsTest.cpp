@@ -326,6 +326,29 @@ TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
     }
 }
 
+// On a diffuse surface: of a sphere wholly above the horizon nothing is left, of a near rectangle a fifth of what uniform solid
+// angle leaves, whether the horizon cuts it or not; overhead, where the cosine is the same at all corners, not more.
+TEST(Lights, AutomaticSamplingKnowsTheCosine) {
+    const auto variance = [](const Light& light, uint method) {
+        Uniforms uniform(21);
+        Mean mean;
+        for (int i = 0; i < 1 << 14; ++i) {
+            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
+            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
+        }
+        return mean.relativeVariance();
+    };
+    for (const Light& light : {sphere({0.3, -0.4, 1}, 0.9), sphere({2, 1, 0.6}, 0.5), sphere({0, 3, 2}, 0.2)}) {
+        EXPECT_LT(variance(light, kShapeAuto), 1e-10);
+        EXPECT_GT(variance(light, kShapeSolidAngle), 1e-3);
+    }
+    for (const Light& light :
+         {quad({0.5, -1, 0.2}, {0, 2, 0}, {0.3, 0, 1.5}), quad({1, -1, -0.6}, {0, 1.6, 0}, {0.2, 0, 2})})
+        EXPECT_LT(4.5 * variance(light, kShapeAuto), variance(light, kShapeSolidAngle));
+    const Light overhead = quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
+    EXPECT_LT(variance(overhead, kShapeAuto), 1.01 * variance(overhead, kShapeSolidAngle));
+}
+
 TEST(Lights, InsideASphere) {
     Light light = sphere({0.3, -0.2, 0.4}, 2);
     const RenderParams params = withMethod(kShapeAuto);
