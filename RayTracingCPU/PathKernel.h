@@ -196,6 +196,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
     for (std::uint32_t x = 0; x < context.params.width; ++x) {
         vec3 albedo(0.0f), normal(0.0f);
         float depth = 0.0f;
+        std::uint32_t hits = 0;
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
             const Ray ray =
@@ -208,6 +209,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
             albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
             normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
             depth += hit.t;
+            ++hits;
         }
         const float scale = 1.0f / static_cast<float>(task.count);
         for (std::uint32_t c = 0; c < 3; ++c) {
@@ -215,7 +217,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
             if (task.albedo != nullptr) task.albedo[3 * x + c] = albedo[i] * scale;
             if (task.normal != nullptr) task.normal[3 * x + c] = normal[i] * scale;
         }
-        if (task.depth != nullptr) task.depth[x] = depth * scale;
+        if (task.depth != nullptr) task.depth[x] = hits > 0 ? depth / static_cast<float>(hits) : 0.0f;
     }
 }
 

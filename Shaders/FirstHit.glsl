@@ -11,6 +11,7 @@ void writeFeatures(uint invocation) {
     vec3 albedo = vec3(0.0f);
     vec3 normal = vec3(0.0f);
     float depth = 0.0f;
+    uint hits = 0u;
     for (; samples.smp.index < launch.samples; samples.smp.index++) {
         Ray ray = beginPath(params, samples).ray;
         Hit hit = traceRay(ray, false, kInfinity);
@@ -20,6 +21,7 @@ void writeFeatures(uint invocation) {
         albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
         normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
         depth += hit.t;
+        hits++;
     }
     float scale = 1.0f / float(launch.samples);
     uint first = invocation * kAovValues;
@@ -27,5 +29,5 @@ void writeFeatures(uint invocation) {
         launch.values.at[first + c] = albedo[c] * scale;
         launch.values.at[first + 3u + c] = normal[c] * scale;
     }
-    launch.values.at[first + 6u] = depth * scale;
+    launch.values.at[first + 6u] = hits > 0u ? depth / float(hits) : 0.0f;
 }

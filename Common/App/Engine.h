@@ -52,7 +52,7 @@ struct EngineReport {
 struct AovRequest {
     bool albedo = false;
     bool normal = false; // world space, shading normal facing the camera
-    bool depth = false;  // distance along the ray; 0 where nothing was hit
+    bool depth = false;  // distance along the ray, of the samples that hit something; 0 where none did
     bool any() const { return albedo || normal || depth; }
 };
 struct AovImages {

@@ -19,6 +19,7 @@
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
+#include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
@@ -235,6 +236,12 @@ TEST_P(GpuEngineTest, FirstHitFeatures) {
     const float* normal = images.normal.pixel(kSide / 2, kSide / 2); // of the back wall
     EXPECT_NEAR(std::hypot(normal[0], normal[1], normal[2]), 1.0f, 0.2f);
     EXPECT_GT(images.depth.pixel(kSide / 2, kSide / 2)[0], 0.0f);
+}
+
+TEST_P(GpuEngineTest, DepthIsThatOfWhatIsHit) {
+    const auto engine = gpu::makeGpuEngine(device(), testedEngine());
+    expectDepthOfWhatIsHit(*engine);
+    EXPECT_EQ(device().validationMessages(), 0u);
 }
 
 // ---- film ------------------------------------------------------------------------------------------------------------

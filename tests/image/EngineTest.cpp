@@ -102,6 +102,10 @@ TEST(CpuEngine, CostsAreTheRaysOfTheRenderAndTime) {
     for (const float cost : engine->renderCost(app::Cost::Time, 8).data) EXPECT_GT(cost, 0);
 }
 
+TEST(CpuEngine, DepthIsThatOfWhatIsHit) {
+    expectDepthOfWhatIsHit(*cpu::makeCpuEngine({}));
+}
+
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");
     const auto settings = plainSettings(24, 16);

@@ -1,8 +1,11 @@
 #include "tests/image/Harness.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "Common/Bench/Stability.h"
+#include "tests/image/AnalyticScenes.h"
 
 namespace rt::test {
 
@@ -115,6 +118,43 @@ void expectStability(app::Engine& engine) {
     EXPECT_GE(rows.size(), 40u);
     for (const bench::StabilityRow& row : rows)
         EXPECT_TRUE(row.pass) << row.name << ", " << row.engine << ": " << row.value << ", must be " << row.criterion;
+}
+
+//      camera            a ray through the point (x, y) of the plane at distance 1
+//        o ------|------ | square     meets the square's at 4 sqrt(1 + x^2 + y^2),
+//                1       4            if |x|, |y| < 1.03 / 4
+void expectDepthOfWhatIsHit(app::Engine& engine) {
+    constexpr std::uint32_t kSide = 16;
+    constexpr double kDistance = 4, kHalf = 1.03;
+    SceneDesc desc = emptyScene({0, 0, 0}, {0, 0, -1}, 60);
+    desc.materials["grey"] = lambertian(0.5);
+    desc.objects.push_back(
+        {scene::QuadDesc{{-kHalf, -kHalf, -kDistance}, {2 * kHalf, 0, 0}, {0, 2 * kHalf, 0}, "grey"}});
+    const auto compiled = scene::compileScene(desc);
+    engine.setScene(compiled, nullptr);
+    engine.reset(compiled->camera, smallSettings(kSide, kReplicates));
+    const app::AovImages images = engine.renderAovs({true, false, true}, 64);
+
+    const double pixel = 2 * std::tan(std::numbers::pi / 6) / kSide; // at distance 1
+    const auto edge = [&](std::uint32_t i) { return std::abs((i - 0.5 * kSide) * pixel); };
+    std::uint32_t cut = 0; // pixels that an edge goes through
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        for (std::uint32_t x = 0; x < kSide; ++x) {
+            const auto [nearX, farX] = std::minmax({edge(x), edge(x + 1)});
+            const auto [nearY, farY] = std::minmax({edge(y), edge(y + 1)});
+            const float depth = *images.depth.pixel(x, y), albedo = *images.albedo.pixel(x, y);
+            if (std::max(nearX, nearY) > kHalf / kDistance) {
+                EXPECT_EQ(depth, 0.0f) << x << " " << y;
+                continue;
+            }
+            EXPECT_GE(depth, kDistance * std::sqrt(1 + nearX * nearX + nearY * nearY) - 1e-4) << x << " " << y;
+            EXPECT_LE(depth, kDistance * std::sqrt(1 + farX * farX + farY * farY) + 1e-4) << x << " " << y;
+            const bool isCut = std::max(farX, farY) > kHalf / kDistance;
+            EXPECT_EQ(isCut, albedo < 0.499f) << x << " " << y; // the mean over all samples
+            cut += isCut;
+        }
+    }
+    EXPECT_EQ(cut, 28u);
 }
 
 } // namespace rt::test

@@ -44,6 +44,10 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
 // Asserts the rows of the stability suite that ray-tracing-bench prints. What they can detect is in their criteria.
 void expectStability(app::Engine& engine);
 
+// Asserts that the depth of a pixel is the mean over the samples that hit something: of a square before the sky, whose edges go
+// through pixels.
+void expectDepthOfWhatIsHit(app::Engine& engine);
+
 // 32 square images of independent seeds and independent samples, for tests that compare images tile by tile.
 std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
                                             app::LightSampling sampling, std::uint32_t side, std::uint32_t spp,
