@@ -101,9 +101,12 @@ Json toJson(const RenderRequest& request) {
 } // namespace
 
 void GuiSettings::addRecent(const std::string& file) {
-    recent.erase(std::remove(recent.begin(), recent.end(), file), recent.end());
+    removeRecent(file);
     recent.insert(recent.begin(), file);
     if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+}
+void GuiSettings::removeRecent(const std::string& file) {
+    recent.erase(std::remove(recent.begin(), recent.end(), file), recent.end());
 }
 
 GuiSettings loadGuiSettings(const std::filesystem::path& file) {

@@ -38,7 +38,7 @@ struct GuiSettings {
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::string saveFolder;          // empty: chosen by the program
-    std::vector<std::string> recent; // scene files, the latest first
+    std::vector<std::string> recent; // scene files that have loaded, the latest first
     std::string scene = "cornell-box-lights";
     RenderRequest request;
     bool rayTracing = true; // of ray-tracing-gpu; off: its preview
@@ -46,6 +46,7 @@ struct GuiSettings {
     bool operator==(const GuiSettings&) const = default;
 
     void addRecent(const std::string& file);
+    void removeRecent(const std::string& file);
 };
 
 // What is missing or makes no sense keeps its default: a damaged file is no error.

@@ -270,10 +270,17 @@ void InteractiveSession::makeEngine(const EngineChoice& choice) {
 
 // A scene that cannot be had leaves the one before in place.
 void InteractiveSession::adopt(LoadedScene loaded) {
-    if (loaded.failure) {
+    const auto failScene = [&](const std::exception_ptr& failure, bool fatal) {
         setStage("");
+        update([&](SessionState& state) {
+            state.failedSource = loaded.request.source;
+            ++state.sceneFailures;
+        });
+        fail(failure, fatal);
+    };
+    if (loaded.failure) {
         const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
-        fail(loaded.failure, !scene_ && !canFallBack);
+        failScene(loaded.failure, !scene_ && !canFallBack);
         if (!scene_ && canFallBack) open(setup_.fallbackScene);
         return;
     }
@@ -283,8 +290,7 @@ void InteractiveSession::adopt(LoadedScene loaded) {
     try {
         if (!engine_->setScene(loaded.scene, &cancelBuild_)) return;
     } catch (...) {
-        setStage("");
-        return fail(std::current_exception(), !scene_);
+        return failScene(std::current_exception(), !scene_);
     }
     const bool another = !scene_ || loaded.scene->id != scene_->id || loaded.scene->camera != scene_->camera;
     scene_ = loaded.scene;
@@ -303,6 +309,7 @@ void InteractiveSession::adopt(LoadedScene loaded) {
         state.stage.clear();
         state.scene = scene_;
         state.source = loaded.request.source;
+        ++state.sceneLoads;
         state.sceneSerial = sceneSerial_;
     });
 }

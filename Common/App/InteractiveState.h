@@ -89,8 +89,11 @@ struct SessionState {
     std::uint64_t messageSerial = 0;
     std::exception_ptr fatal; // nothing can be rendered: no engine, or no scene ever
 
-    std::uint64_t sceneSerial = 0; // grows with each scene; 0: none yet
-    std::string source;            // of the scene, as it was asked for
+    std::uint64_t sceneSerial = 0;   // grows with each scene; 0: none yet
+    std::string source;              // of the scene, as it was asked for
+    std::uint64_t sceneLoads = 0;    // grows with each that was loaded, also anew
+    std::string failedSource;        // of the last scene that could not be had
+    std::uint64_t sceneFailures = 0; // grows with each of them
     std::shared_ptr<const scene::CompiledScene> scene;
 
     EngineChoice engine;              // in force

@@ -10,15 +10,9 @@
 namespace rt::gui {
 
 void Gui::openScene(const std::string& source) {
-    const std::filesystem::path path(source);
     std::error_code none;
-    if (std::filesystem::exists(path, none)) {
-        const std::string absolute = std::filesystem::absolute(path, none).string();
-        settings.addRecent(absolute);
-        session.open(absolute);
-        return;
-    }
-    session.open(source);
+    const bool isFile = std::filesystem::exists(source, none);
+    session.open(isFile ? std::filesystem::absolute(source, none).string() : source);
 }
 
 void Gui::stepScene(int step) {

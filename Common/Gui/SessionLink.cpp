@@ -1,6 +1,7 @@
 #include "Common/Gui/SessionLink.h"
 
 #include <exception>
+#include <filesystem>
 
 #include "Common/Gui/SavePaths.h"
 
@@ -30,7 +31,7 @@ void SessionLink::take() {
         sentCamera_ = state.scene->camera;
         gui_.window.setTitle(state.scene->title + " - " + options_.program);
     }
-    if (!state.source.empty()) gui_.settings.scene = state.source;
+    rememberScene();
     if (state.focusSerial != focusSerial_) {
         focusSerial_ = state.focusSerial;
         gui_.camera.focusAt(state.focusDistance, 1);
@@ -54,6 +55,23 @@ void SessionLink::take() {
         messageSerial_ = state.messageSerial;
         gui_.say(state.message, false);
     }
+}
+
+// The scene that there is, and among the files that were opened those that load.
+void SessionLink::rememberScene() {
+    const app::SessionState& state = gui_.state;
+    app::GuiSettings& settings = gui_.settings;
+    if (state.sceneFailures != sceneFailures_) {
+        sceneFailures_ = state.sceneFailures;
+        settings.removeRecent(state.failedSource);
+    }
+    if (state.sceneLoads == sceneLoads_) return;
+    sceneLoads_ = state.sceneLoads;
+    settings.scene = state.source;
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(state.source, none)) return; // a built-in one
+    settings.scene = std::filesystem::absolute(state.source, none).string();
+    settings.addRecent(settings.scene);
 }
 
 void SessionLink::send() {

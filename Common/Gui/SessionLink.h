@@ -20,13 +20,15 @@ class SessionLink {
     void send();
 
   private:
+    void rememberScene();
+
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 
     std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
-    std::uint64_t engineFailures_ = 0;
+    std::uint64_t engineFailures_ = 0, sceneLoads_ = 0, sceneFailures_ = 0;
 
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;

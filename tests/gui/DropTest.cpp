@@ -17,7 +17,8 @@ TEST_P(DropTest, GoodFilesOpenAndBadOnesLeaveTheScene) {
         << R"({"version": 1, "textures": {"t": {"type": "image", "file": "gone.png"}},
         "materials": {"m": {"type": "lambertian", "albedo": "t"}},
         "objects": [{"type": "sphere", "center": [0, 0, -3], "radius": 1, "material": "m"}]})";
-    std::ofstream(folder_ / "triangle.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const std::string triangle = (folder_ / "triangle.obj").string();
+    std::ofstream(triangle) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const std::string good = writeScene("h\xc3\xa4user & mehr.json", "Just dropped").string();
     start();
     ASSERT_FALSE(HasFatalFailure());
@@ -30,11 +31,15 @@ TEST_P(DropTest, GoodFilesOpenAndBadOnesLeaveTheScene) {
     }
     ASSERT_TRUE(drop({good}));
     EXPECT_TRUE(eventually([&] { return title().find("Just dropped") == 0; })) << title() << log();
-    ASSERT_TRUE(drop({(folder_ / "triangle.obj").string(), good})); // of several the first one is taken
+    ASSERT_TRUE(drop({triangle, good})); // of several the first one is taken
     EXPECT_TRUE(eventually([&] { return title().find("triangle.obj") == 0; })) << title() << log();
+    using Files = std::vector<std::string>;
+    EXPECT_TRUE(eventually([&] { return settings()["recent"] == Files{triangle, good}; })) << settings()["recent"];
+    std::ofstream(triangle) << "v 0 0 x\n"; // no longer loads
+    ASSERT_TRUE(drop({triangle}));
+    EXPECT_TRUE(eventually([&] { return log().find(triangle) != std::string::npos; })) << log();
     expectCleanEnd();
-    EXPECT_EQ(settings()["recent"][0], (folder_ / "triangle.obj").string());
-    EXPECT_EQ(settings()["recent"][1], good);
+    EXPECT_EQ(settings()["recent"], Files{good});
 }
 
 } // namespace

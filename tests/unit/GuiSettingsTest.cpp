@@ -77,6 +77,10 @@ TEST_F(GuiSettingsTest, RecentFilesAreFewAndTheLatestComesFirst) {
     s.addRecent("15");
     EXPECT_EQ(s.recent.front(), "15");
     EXPECT_EQ(std::count(s.recent.begin(), s.recent.end(), "15"), 1);
+    s.removeRecent("15");
+    s.removeRecent("never there");
+    EXPECT_EQ(s.recent.size(), kMostRecent - 1);
+    EXPECT_EQ(std::count(s.recent.begin(), s.recent.end(), "15"), 0);
 }
 
 } // namespace

@@ -27,6 +27,9 @@ TEST_F(InteractiveFailureTest, ASceneThatCannotBeLoadedLeavesTheOldOne) {
     EXPECT_NE(session.state().error.find("bad.json"), std::string::npos);
     EXPECT_EQ(session.state().scene, scene);
     EXPECT_FALSE(session.state().fatal);
+    EXPECT_EQ(session.state().failedSource, (folder_ / "bad.json").string());
+    EXPECT_EQ(session.state().sceneFailures, 1u);
+    EXPECT_EQ(session.state().sceneLoads, 1u);
     session.open("no-such-scene");
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 2; }));
     EXPECT_EQ(session.state().scene, scene);
@@ -34,6 +37,10 @@ TEST_F(InteractiveFailureTest, ASceneThatCannotBeLoadedLeavesTheOldOne) {
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.sceneSerial == 2 && isFinished(s); }));
     EXPECT_EQ(session.state().scene->id, "one-weekend-default");
     EXPECT_EQ(session.state().source, "one-weekend-default");
+    EXPECT_EQ(session.state().sceneLoads, 2u);
+    session.open("one-weekend-default"); // the same one again
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.sceneLoads == 3; }));
+    EXPECT_EQ(session.state().sceneSerial, 2u);
 }
 
 TEST_F(InteractiveFailureTest, ARememberedSceneThatIsGoneGivesWayToAnother) {
