@@ -10,7 +10,7 @@
 namespace rt::app {
 namespace {
 
-constexpr double kDraftSeconds = 0.025;    // of what is shown first after a change, which may wait for the end of another
+constexpr double kDraftSeconds = 0.025; // of what is shown first after a change, which may wait for the end of another
 constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
 constexpr std::uint32_t kDraftSpp = 4;     // at most
 constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
@@ -19,9 +19,9 @@ constexpr double kEarlyInterval = 0.04;
 constexpr double kLateInterval = 0.15;
 constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
 constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while it is being rendered
-// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a sum, and fewer later, when
-// they differ less.
-constexpr double kSoftShare = 0.1, kMostSoftInterval = 1;
+// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a sum, and soon only one a
+// second, when they differ less.
+constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
 constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
@@ -172,7 +172,7 @@ double InteractiveSession::pictureInterval() const {
     if (!request_.accumulate) return kLongFrameSeconds;
     const double age = sinceStart_.seconds();
     if (setup_.drawnBySoftware && publishedSamples_ > 0) { // the first picture does not wait
-        return std::clamp(kSoftShare * age, kLongFrameSeconds, kMostSoftInterval);
+        return std::clamp(kSoftShare * age, kLeastSoftInterval, kMostSoftInterval);
     }
     if (age < kEarlySeconds) return kEarlyInterval;
     return request_.samplesPerFrame == 0 ? kLateInterval : kLongFrameSeconds;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "Common/App/Interrupt.h"
@@ -29,9 +30,12 @@ namespace {
 
 constexpr double kIdleSeconds = 0.25; // between two frames when nothing happens
 constexpr double kSoftSeconds = 1.2; // likewise where software draws, at rendering's cost: longer than between pictures
-constexpr double kBusySeconds = 0.01; // between two looks for something new of a session at work
-constexpr double kAwakeSeconds = 0.4; // of quick frames after the last input, for what moves by itself
-constexpr double kLongestStep = 0.1;  // seconds of flight in one frame
+constexpr double kBusySeconds = 0.01;          // between two looks for something new of a session at work
+constexpr double kSoftBusySeconds = 0.05;      // likewise where software draws; input is seen at once
+constexpr double kSoftFrameSeconds = 1.0 / 30; // between quick frames where software draws
+constexpr double kSoftNewsSeconds = 0.1; // between frames of what is new where software draws and nobody does anything
+constexpr double kAwakeSeconds = 0.4, kSoftAwakeSeconds = 0.15; // of quick frames after the last input, likewise
+constexpr double kLongestStep = 0.1;                            // seconds of flight in one frame
 
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
                                             app::GuiSettings& settings, const GraphicsDevice& device,
@@ -75,7 +79,8 @@ class App {
     ExitCode run();
 
   private:
-    bool isAwake();
+    bool isAwake() const;
+    bool isFrameDue();
     void wait();
     void turn();
     void save();
@@ -101,7 +106,8 @@ class App {
     SessionLink link_{options_, gui_, presenter_};
 
     std::vector<std::string> dropped_;
-    app::Stopwatch sinceInput_, sinceFrame_;
+    std::optional<app::Stopwatch> sinceInput_; // none yet
+    app::Stopwatch sinceFrame_;
     TurnMeter meter_;
     bool flying_ = false;
     app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
@@ -121,10 +127,19 @@ ExitCode App::run() {
     return interrupt.requested() ? ExitCode::Interrupted : ExitCode::Done;
 }
 
-// Whether the next frame is to come at once.
-bool App::isAwake() {
-    if (window_.takeInput()) sinceInput_ = {};
-    return flying_ || sinceInput_.seconds() < kAwakeSeconds;
+// Whether something may move by itself.
+bool App::isAwake() const {
+    const double seconds = device_.isSoftware() ? kSoftAwakeSeconds : kAwakeSeconds;
+    return flying_ || ImGui::IsAnyMouseDown() || (sinceInput_ && sinceInput_->seconds() < seconds);
+}
+
+// Whether the next frame is to come at once: input does not wait, all else does where software draws.
+bool App::isFrameDue() {
+    const bool isInput = window_.takeInput();
+    if (isInput) sinceInput_.emplace();
+    if (window_.takeChange()) isNews_ = true;
+    const double least = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
+    return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= least);
 }
 
 // For input, for something new of the session, or for the time of another frame. The session's threads leave the window system
@@ -134,9 +149,10 @@ void App::wait() {
     // A stage tells how long it has taken, and a field of text has a cursor that blinks.
     const bool moves = !gui_.state.stage.empty() || ImGui::GetIO().WantTextInput;
     const double longest = device_.isSoftware() && !moves ? kSoftSeconds : kIdleSeconds;
+    const double restful = !isBusy ? kIdleSeconds : device_.isSoftware() ? kSoftBusySeconds : kBusySeconds;
     const app::Stopwatch watch;
-    while (!isAwake() && !isNews_ && watch.seconds() < longest)
-        window_.waitEvents(isBusy ? kBusySeconds : kIdleSeconds);
+    while (!isFrameDue() && watch.seconds() < longest)
+        window_.waitEvents(isAwake() || isNews_ ? kBusySeconds : restful);
     window_.waitEvents(0);
     isNews_ = false;
 }
@@ -152,7 +168,7 @@ void App::turn() {
     if (width <= 0 || height <= 0) { // minimised: nothing to draw, and nobody to draw for
         (void)window_.takeKeys();
         flying_ = false;
-        sinceInput_ = {};
+        sinceInput_.emplace();
         window_.waitEvents(kIdleSeconds);
         return;
     }
@@ -198,7 +214,8 @@ void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
 
 void App::drawFrame(double seconds) {
     sinceFrame_ = {};
-    imgui_.setStyle({settings_.colorMode, settings_.uiScale * window_.contentScale(), settings_.font});
+    imgui_.setStyle(
+        {settings_.colorMode, settings_.uiScale * window_.monitorScale(), window_.pixelDensity(), settings_.font});
     const std::vector<Window::KeyPress> presses = window_.takeKeys();
     std::vector<int> keys;
     for (const Window::KeyPress& press : presses) keys.push_back(press.key);

@@ -120,11 +120,17 @@ void ImGuiLayer::applyStyle() {
     const auto chosen =
         std::find_if(fonts.begin(), fonts.end(), [this](const FontFile& f) { return f.name == style_.font; });
     const FontFile& font = chosen != fonts.end() ? *chosen : fonts.front();
-    const float size = std::round(kFontSize * style_.scale);
+#if IMGUI_VERSION_NUM >= 19200
+    const float pixels = style_.scale; // these versions see to the window's density themselves
+#else
+    const float pixels = style_.scale * style_.density;
+    io.FontGlobalScale = 1 / style_.density;
+#endif
+    const float size = std::round(kFontSize * pixels);
     if (font.file.empty() ||
         io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), size, nullptr, kGlyphs) == nullptr) {
         ImFontConfig config;
-        config.SizePixels = 13 * std::max(1.0f, std::round(style_.scale));
+        config.SizePixels = 13 * std::max(1.0f, std::round(pixels));
         io.Fonts->AddFontDefault(&config);
     }
     startRenderer();

@@ -17,7 +17,8 @@ namespace rt::gui {
 
 struct Style {
     app::ColorMode colorMode = app::ColorMode::Dark;
-    float scale = 1;
+    float scale = 1;   // of the interface, in the window's units
+    float density = 1; // pixels for one of them
     std::string font;
     bool operator==(const Style&) const = default;
 };

@@ -93,7 +93,8 @@ void drawViewPanel(Gui& gui) {
     if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width))
         gui.view = {};
     ImGui::SameLine(0, space);
-    if (button("1:1", "One pixel for each of the window", true, width)) gui.view = {1, 0, 0};
+    const float pixel = 1 / ImGui::GetIO().DisplayFramebufferScale.x; // in the window's units
+    if (button("1:1", "One pixel for each of the window", true, width)) gui.view = {pixel, 0, 0};
     row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");
     inputText("##folder", "pictures folder", settings.saveFolder);
     if (button("Save PNG and EXR", "F12 or Ctrl+S", true, -1)) gui.saveRequested = true;

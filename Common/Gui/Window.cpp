@@ -1,6 +1,7 @@
 #include "Common/Gui/Window.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -60,6 +61,7 @@ Window::Window(const std::string& title, const WindowPlace& place) {
         throw RenderError("no window can be opened: " + reason + "; --headless renders without one");
     }
     glfwSetWindowUserPointer(window_, this);
+    if (!place.hasPosition) fitMonitor(place);
     if (place.hasPosition && isOnAMonitor(place)) glfwSetWindowPos(window_, place.x, place.y);
     if (place.maximised) glfwMaximizeWindow(window_);
 
@@ -75,15 +77,27 @@ Window::Window(const std::string& title, const WindowPlace& place) {
         if (action == GLFW_PRESS) self(w).clickedWithControl_ = (modifiers & GLFW_MOD_CONTROL) != 0;
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
-    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).input_ = true; });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).input_ = true; });
-    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).input_ = true; });
-    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).input_ = true; });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).change_ = true; });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).change_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).change_ = true; });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).change_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
         self(w).input_ = true;
         if (self(w).onDrop_) self(w).onDrop_({paths, paths + count});
     });
     glfwShowWindow(window_);
+}
+
+// The first time: as much of the interface is seen on any monitor, if that is large enough.
+void Window::fitMonitor(const WindowPlace& place) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) return;
+    int x = 0, y = 0, width = 0, height = 0;
+    glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
+    const auto fit = [scale = monitorScale()](int length, int most) {
+        return std::max(1, std::min(static_cast<int>(std::lround(scale * static_cast<float>(length))), most));
+    };
+    glfwSetWindowSize(window_, fit(place.width, width), fit(place.height, height));
 }
 
 Window::~Window() {
@@ -125,6 +139,9 @@ void Window::waitEvents(double seconds) {
 bool Window::takeInput() {
     return std::exchange(input_, false);
 }
+bool Window::takeChange() {
+    return std::exchange(change_, false);
+}
 
 std::vector<Window::KeyPress> Window::takeKeys() {
     return std::exchange(keys_, {});
@@ -140,10 +157,19 @@ std::array<int, 2> Window::framebufferSize() const {
     return size;
 }
 
-float Window::contentScale() const {
+float Window::pixelDensity() const {
+    constexpr float kSteps = 20; // a size in pixels is rounded, and fonts are not to be drawn anew with each of them
+    int width = 0, height = 0;
+    glfwGetWindowSize(window_, &width, &height);
+    const int pixels = framebufferSize()[0];
+    if (width <= 0 || pixels <= 0) return 1;
+    return std::max(1.0f, std::round(kSteps * static_cast<float>(pixels) / static_cast<float>(width))) / kSteps;
+}
+
+float Window::monitorScale() const {
     float x = 1, y = 1;
     glfwGetWindowContentScale(window_, &x, &y);
-    return x > 0 ? x : 1.0f;
+    return x > 0 ? x / pixelDensity() : 1.0f;
 }
 
 WindowPlace Window::place() const {

@@ -12,7 +12,8 @@ struct GLFWwindow;
 namespace rt::gui {
 
 struct WindowPlace {
-    int x = 0, y = 0;
+    int x = 0,
+        y = 0; // in the window's units, as its size; without a position the size is that at a monitor's scale of 1
     int width = 1360, height = 860;
     bool hasPosition = false;
     bool maximised = false;
@@ -37,8 +38,9 @@ class Window {
     void setTitle(const std::string& title);
     // Handles what has happened; waits for it at most this long.
     void waitEvents(double seconds);
-    // Whether anything has come from the user since the last call.
+    // Since the last call: whether anything has come from the user, and whether the window is another or has to be drawn anew.
     bool takeInput();
+    bool takeChange();
     // Keys that went down since the last call, as GLFW numbers them, with its modifiers.
     struct KeyPress {
         int key = 0, modifiers = 0;
@@ -48,7 +50,9 @@ class Window {
     bool clickedWithControl() const { return clickedWithControl_; } // when a mouse button went down last
 
     std::array<int, 2> framebufferSize() const; // pixels; 0 while minimised
-    float contentScale() const;                 // of the monitor: 1 at 96 dots per inch
+    // Both change when the window goes to another monitor, or that is set up anew.
+    float pixelDensity() const; // pixels for one of the window's units, to 1/20
+    float monitorScale() const; // how large things are to be, in the window's units: 1 for 96 of them per inch
     bool isFullScreen() const { return fullScreen_; }
     void toggleFullScreen();
     WindowPlace place() const; // as it is when it fills neither screen nor monitor
@@ -59,10 +63,12 @@ class Window {
     void onDrop(std::function<void(std::vector<std::string>)> handler) { onDrop_ = std::move(handler); }
 
   private:
+    void fitMonitor(const WindowPlace& place);
+
     GLFWwindow* window_ = nullptr;
     std::function<void(std::vector<std::string>)> onDrop_;
     std::vector<KeyPress> keys_;
-    bool input_ = true;
+    bool input_ = false, change_ = true;
     bool clickedWithControl_ = false;
     bool fullScreen_ = false;
     WindowPlace restored_; // to go back to from full screen
