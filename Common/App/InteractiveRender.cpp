@@ -68,10 +68,10 @@ void InteractiveSession::startFilm() {
     if (referenceSpp_) settings = referenceSettings(settings, *referenceSpp_);
     settings.replicates = std::min(settings.replicates, settings.spp);
 
-    if (filmIsNew_) {
-        setStage("Preparing " + scene_->title); // kernels may have to be compiled
-        unshown_.reset();
-    }
+    // Kernels may have to be compiled, a large film takes a while to be had.
+    const bool isAnotherSize = settings.width != settings_.width || settings.height != settings_.height;
+    if (filmIsNew_ || isAnotherSize) setStage("Preparing " + scene_->title);
+    if (filmIsNew_) unshown_.reset();
     filmIsNew_ = false;
     featureView_ = nullptr;
     featureIsFull_ = false;

@@ -47,6 +47,12 @@ std::uint64_t residentBytes() {
     return GetProcessMemoryInfo(GetCurrentProcess(), &counters, sizeof counters) ? counters.WorkingSetSize : 0;
 }
 
+std::uint64_t machineBytes() {
+    MEMORYSTATUSEX memory{};
+    memory.dwLength = sizeof memory;
+    return GlobalMemoryStatusEx(&memory) ? memory.ullTotalPhys : 0;
+}
+
 double processorSeconds() {
     FILETIME created{}, ended{}, kernel{}, user{};
     if (!GetProcessTimes(GetCurrentProcess(), &created, &ended, &kernel, &user)) return 0;
@@ -121,6 +127,11 @@ std::uint64_t residentBytes() {
     std::ifstream statm("/proc/self/statm"); // Linux only; elsewhere it does not exist
     std::uint64_t total = 0, resident = 0;
     return statm >> total >> resident ? resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE)) : 0;
+}
+
+std::uint64_t machineBytes() {
+    const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+    return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes) : 0;
 }
 
 double processorSeconds() {

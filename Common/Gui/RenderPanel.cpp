@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
 #include <thread>
 
+#include "Common/App/Platform.h"
 #include "Common/Gui/EnginePanel.h"
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/Widgets.h"
@@ -37,10 +39,22 @@ constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", Sampl
                                                 {"Stratified", SamplerKind::Stratified},
                                                 {"Normal (independent)", SamplerKind::Independent}};
 
+// Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to others: one
+// digit too many is not to end the program.
+std::uint32_t mostWidth(double aspect) {
+    constexpr double kPixelBytes = 100;
+    const double least = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
+    const double pixels = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
+    if (pixels == 0) return image::kMaxImageSide;
+    return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), least, std::max(least, side)));
+}
+
 void drawSize(Gui& gui) {
     app::SizeRequest& size = gui.settings.request.size;
-    std::uint32_t width = gui.state.settings.width;
-    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, image::kMaxImageSide, 20)) {
+    const app::RenderSettings& film = gui.state.settings;
+    std::uint32_t width = size.width.value_or(film.width);
+    const std::uint32_t most = std::max(width, mostWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
+    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, most, 20)) {
         if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
         size.width = width;
         size.height.reset();
@@ -64,7 +78,7 @@ void drawSize(Gui& gui) {
     if (ImGui::BeginCombo("##aspect", name, ImGuiComboFlags_HeightLarge)) {
         for (const Aspect& aspect : kAspects) {
             if (!ImGui::Selectable(aspect.name, name == aspect.name)) continue;
-            if (!size.width) size.width = gui.state.settings.width;
+            if (!size.width) size.width = film.width;
             size.height.reset();
             size.aspect.reset();
             if (aspect.value > 0) size.aspect = aspect.value;
