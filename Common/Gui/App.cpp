@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <exception>
 #include <iostream>
 #include <optional>
@@ -108,6 +109,7 @@ class App {
     std::vector<std::string> dropped_;
     std::optional<app::Stopwatch> sinceInput_; // none yet
     app::Stopwatch sinceFrame_;
+    std::uint64_t historySerial_ = 0; // shown
     TurnMeter meter_;
     bool flying_ = false;
     app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
@@ -173,6 +175,8 @@ void App::turn() {
         return;
     }
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
+    // A table with new rows finds the width of its columns in the frame after.
+    if (std::exchange(historySerial_, gui_.state.historySerial) != gui_.state.historySerial) isNews_ = true;
     link_.send();
     if (gui_.saveRequested) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {

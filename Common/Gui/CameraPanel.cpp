@@ -40,9 +40,10 @@ void drawCameraPanel(Gui& gui) {
                half)) {
         gui.pickFocus = !gui.pickFocus;
     }
-    changed |= editVector("Position", "Where the camera is", camera.lookFrom);
-    changed |= editVector("Target", "What it looks at", camera.lookAt);
-    if (changed) gui.camera.set(camera);
+    bool moved = editVector("Position", "Where the camera is", camera.lookFrom);
+    moved |= editVector("Target", "What it looks at", camera.lookAt);
+    if (changed || moved) gui.camera.set(camera);
+    if (moved && gui.camera.camera() != camera) gui.say("No camera can look from this position at this target", true);
     double speed = gui.camera.speed();
     row("Flying speed", "Units of the scene in a second; the mouse wheel changes it");
     ImGui::Text("%.4g / s", speed);

@@ -36,7 +36,7 @@ constexpr Shortcut kShortcuts[] = {
     {"Ctrl + plus, minus", "larger, smaller interface"},
     {"Tab, arrows, Enter", "go to the panels, walk through their controls, use them"},
     {"Ctrl + click, on a slider", "type its value"},
-    {"Escape", "leave a field, a menu, the controls"},
+    {"Escape", "leave a field, a menu, the controls, this help"},
 };
 
 } // namespace

@@ -31,9 +31,9 @@ void drawStatisticsPanel(Gui& gui) {
     std::snprintf(text, sizeof text, "%.0f fps, a frame takes %.1f ms", window.framesPerSecond,
                   1000 * window.medianTurn);
     figure("Window", "Frames of the last second: only what is new is drawn; and the median time of a frame", text);
-    std::snprintf(text, sizeof text, "%.0f ms, of the last 10 s %.0f ms", 1000 * window.longestTurn,
+    std::snprintf(text, sizeof text, "%.0f ms, of late %.0f ms", 1000 * window.longestTurn,
                   1000 * gui.figures.longestOfLate);
-    figure("Longest stall", "The longest time that the window did not look for input", text);
+    figure("Longest stall", "The longest time that the window did not look for input; and that of the last 10 s", text);
     figure("Slowest answer", "From a change of camera or settings to the first picture of it",
            state.slowestAnswer > 0 ? shortDuration(state.slowestAnswer) : "-");
     if (gui.isGpu) {

@@ -41,13 +41,13 @@ bool isAvailable(const Gui& gui, ViewMode mode) {
 
 void drawModes(Gui& gui) {
     app::ViewRequest& view = gui.viewRequest;
-    row("Show", "What is drawn");
+    row("Show", "What is drawn; errors need a reference, see the comparison (F3)");
     const Mode* current =
         std::find_if(std::begin(kModes), std::end(kModes), [&](const Mode& m) { return m.mode == view.mode; });
     if (ImGui::BeginCombo("##mode", current->name)) {
         for (const Mode& mode : kModes) {
-            if (!isAvailable(gui, mode.mode)) continue;
-            if (ImGui::Selectable(mode.name, mode.mode == view.mode)) view.mode = mode.mode;
+            const auto flags = isAvailable(gui, mode.mode) ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+            if (ImGui::Selectable(mode.name, mode.mode == view.mode, flags)) view.mode = mode.mode;
             tooltip(mode.tip);
         }
         ImGui::EndCombo();

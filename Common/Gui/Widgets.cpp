@@ -37,6 +37,12 @@ bool editLater(T& value, Edit edit) {
     return true;
 }
 
+// Exponents may be typed, as they are shown.
+void editReal(double& value, const char* pattern) {
+    ImGui::InputScalar("##value", ImGuiDataType_Double, &value, nullptr, nullptr, pattern,
+                       ImGuiInputTextFlags_CharsScientific);
+}
+
 } // namespace
 
 void tooltip(const char* text) {
@@ -98,7 +104,7 @@ bool inputReal(const char* label, const char* tip, double& value, double min, do
     row(label, tip);
     ImGui::PushID(label);
     const bool changed = editLater(value, [&](double& shown) {
-        ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, pattern);
+        editReal(shown, pattern);
         if (ImGui::IsItemActive()) return;
         shown = std::isfinite(shown) ? std::clamp(shown, min, max) : value;
     });
@@ -117,7 +123,7 @@ bool inputVector(const char* label, const char* tip, double (&value)[3]) {
         if (i > 0) ImGui::SameLine(0, space);
         ImGui::SetNextItemWidth(width);
         changed |= editLater(value[i], [&](double& shown) {
-            ImGui::InputScalar("##value", ImGuiDataType_Double, &shown, nullptr, nullptr, "%.5g");
+            editReal(shown, "%.5g");
             if (!ImGui::IsItemActive() && !std::isfinite(shown)) shown = value[i];
         });
         ImGui::PopID();
