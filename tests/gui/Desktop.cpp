@@ -177,6 +177,10 @@ void Desktop::freeze(bool frozen) {
     kill(program_, frozen ? SIGSTOP : SIGCONT);
 }
 
+void Desktop::setDotsPerInch(int dots) {
+    test::setDotsPerInch(display_, dots);
+}
+
 void Desktop::destroyWindow() {
     test::destroyWindow(display_, std::stoul(window_));
 }

@@ -35,9 +35,10 @@ class Desktop : public testing::Test {
     std::string title();
     void resize(int width, int height);
     void minimise(bool minimised);
-    void freeze(bool frozen); // as on a machine that is too busy for the program
-    void destroyWindow();     // as no program should do to another
-    void endScreen();         // as at the end of a user's session
+    void freeze(bool frozen);      // as on a machine that is too busy for the program
+    void setDotsPerInch(int dots); // of the screen, before start()
+    void destroyWindow();          // as no program should do to another
+    void endScreen();              // as at the end of a user's session
     // Drops files on the window as another program would; whether they were taken.
     bool drop(const std::vector<std::string>& files);
     std::uint64_t residentBytes() const;

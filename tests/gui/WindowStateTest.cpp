@@ -29,6 +29,19 @@ TEST_P(WindowStateTest, SurvivesEverySize) {
     expectCleanEnd();
 }
 
+// All is twice as large: the first header is where the second one would be otherwise.
+TEST_P(WindowStateTest, SizesFollowTheMonitor) {
+    constexpr int kFirstHeader = 2 * 169;
+    setDotsPerInch(192);
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    act("mousemove 200 " + std::to_string(kFirstHeader) + " click 1");
+    EXPECT_TRUE(eventually([&] { return settings()["open_panels"]["scene"] == false; })) << settings();
+    EXPECT_EQ(settings()["open_panels"]["rendering"], true);
+    EXPECT_EQ(settings()["window_height"], kHeight); // more does not fit
+    expectCleanEnd();
+}
+
 TEST_P(WindowStateTest, MinimisedItRendersOnAndComesBack) {
     const std::filesystem::path image = folder_ / "a.exr";
     start({"--width", "64", "--spp", "200", "--window", "-o", image.string()});

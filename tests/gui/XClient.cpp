@@ -138,4 +138,14 @@ void destroyWindow(const std::string& display, unsigned long window) {
     XSync(connection.get(), False);
 }
 
+void setDotsPerInch(const std::string& display, int dots) {
+    const Connection connection(XOpenDisplay(display.c_str()));
+    if (!connection) return;
+    const std::string resources = "Xft.dpi:\t" + std::to_string(dots) + "\n";
+    XChangeProperty(connection.get(), DefaultRootWindow(connection.get()), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XSync(connection.get(), False);
+}
+
 } // namespace rt::test

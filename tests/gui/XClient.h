@@ -13,4 +13,7 @@ void setMinimised(const std::string& display, unsigned long window, bool minimis
 
 void destroyWindow(const std::string& display, unsigned long window);
 
+// Of the screen, as its user has set it: programs that start later see it.
+void setDotsPerInch(const std::string& display, int dots);
+
 } // namespace rt::test
