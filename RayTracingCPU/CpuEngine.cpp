@@ -34,6 +34,7 @@ std::span<const Kernel> kernelTable(InstructionSet set) {
 #if defined(__x86_64__) || defined(_M_X64)
     switch (set) {
         case InstructionSet::X86_64_v4:
+            return {kernels_x86_64_v4(), kKernelCount};
         case InstructionSet::X86_64_v3:
             return {kernels_x86_64_v3(), kKernelCount};
         case InstructionSet::X86_64_v2:

@@ -100,10 +100,10 @@ struct Kernel {
 
 inline constexpr std::uint32_t kKernelCount = 5;
 
-// The table of each instruction set; only those of the architecture at hand exist. There is none for x86-64-v4, which makes
-// tracing faster (CpuScene::tracer) but what is done between rays slower.
+// The table of each instruction set; only those of the architecture at hand exist.
 const Kernel* kernels_x86_64_v2();
 const Kernel* kernels_x86_64_v3();
+const Kernel* kernels_x86_64_v4();
 const Kernel* kernels_generic();
 
 } // namespace rt::cpu
