@@ -31,27 +31,31 @@ RT_FN void traceShadow(const CpuScene& scene, const DirectLight& direct, PathSta
 
 // ---- one path after the other ---------------------------------------------------------------------------------------
 
-// Advances the path by one vertex. False: it has ended and path.radiance is its estimate.
-template <std::uint32_t kFeatures>
-RT_FN bool pathStep(const KernelContext& context, const Sampler& smp, NumberTable& numbers, PathState& path,
-                    KernelCounters& counters) {
-    const CpuScene& scene = *context.scene;
-    const Hit hit = traceRay(scene, path.ray);
-    DirectLight direct = noDirectLight();
-    Vertex vertex;
-    const bool goesOn = pathVertex(vertex, kFeatures, scene, context.params, smp,
-                                   numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
-    traceShadow<kFeatures>(scene, direct, path, counters);
-    return goesOn;
-}
-
 template <std::uint32_t kFeatures>
 RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, std::uint32_t count, vec3& total,
                         KernelCounters& counters) {
+    const CpuScene& scene = *context.scene;
     NumberTable numbers(smp, count, kFeatures);
     for (std::uint32_t i = 0; i < count; ++i, ++smp.index) {
         PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
-        while (pathStep<kFeatures>(context, smp, numbers, path, counters)) {
+        Hit hit = traceRay(scene, path.ray);
+        for (;;) {
+            DirectLight direct = noDirectLight();
+            Vertex vertex;
+            const bool goesOn = pathVertex(vertex, kFeatures, scene, context.params, smp,
+                                           numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
+            if (!goesOn) {
+                traceShadow<kFeatures>(scene, direct, path, counters);
+                break;
+            }
+            if (!(direct.distance > 0.0f)) {
+                hit = traceRay(scene, path.ray);
+                continue;
+            }
+            ++counters.shadow;
+            bool isOccluded;
+            hit = scene.tracer.both(scene.accel, path.ray, direct.direction, direct.distance, isOccluded);
+            if (!isOccluded) addDirectLight(kFeatures, scene, direct, path);
         }
         addSample(path, total, counters);
     }

@@ -15,6 +15,10 @@ struct Tracer {
     shared::Hit (*closest)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
     // Whether it hits anything there.
     bool (*occluded)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
+    // Both for rays from one point, faster in small scenes: what `ray` hits first with t > 0, and whether one in the direction of
+    // the shadow ray hits anything with t in (0, shadowEnd).
+    shared::Hit (*both)(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
+                        float shadowEnd, bool& isOccluded) = nullptr;
 };
 
 // Traversal compiled for one instruction set; arrays of `count` elements. (No spans: what a kernel's object file takes

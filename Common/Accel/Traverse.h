@@ -54,35 +54,21 @@ struct FlatBest {
     Index8 name;
 };
 
-template <class Block>
-RT_FN void testFlat(const ShapeRay& ray, const FlatList<Block>& list, FlatBest& best) {
-    for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) {
-        const LaneHits lanes = intersectBlock(ray, *block);
-        const Mask8 nearer = lanes.mask & (lanes.t < best.t);
-        best.t = select(nearer, lanes.t, best.t);
-        best.u = select(nearer, lanes.u, best.u);
-        best.v = select(nearer, lanes.v, best.v);
-        best.name = select(nearer, loadIndex(block->primitive), best.name);
-    }
-}
-
-// Adds to `hits` the lanes in which something was hit before tMax.
-template <class Block>
-RT_FN void testFlatAny(const ShapeRay& ray, const FlatList<Block>& list, Float8 tMax, Mask8& hits) {
-    for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) {
-        const LaneHits lanes = intersectBlock(ray, *block);
-        hits = hits | (lanes.mask & (lanes.t < tMax));
-    }
-}
-
-RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+RT_FN FlatBest noFlatHit(float tMax) {
     const Float8 zero = broadcast(0.0f);
-    FlatBest best{broadcast(tMax), zero, zero, {}};
-    if (shared::has(features, shared::kFeatureSpheres)) testFlat(ray, view.flatSpheres, best);
-    if (shared::has(features, shared::kFeatureMovingSpheres)) testFlat(ray, view.flatMovingSpheres, best);
-    if (shared::has(features, shared::kFeatureQuads)) testFlat(ray, view.flatQuads, best);
-    if (shared::has(features, shared::kFeatureTriangles)) testFlat(ray, view.flatTriangles, best);
+    const FlatBest best{broadcast(tMax), zero, zero, {}};
+    return best;
+}
 
+RT_FN void acceptFlat(const LaneHits& lanes, const std::uint32_t* names, FlatBest& best) {
+    const Mask8 nearer = lanes.mask & (lanes.t < best.t);
+    best.t = select(nearer, lanes.t, best.t);
+    best.u = select(nearer, lanes.u, best.u);
+    best.v = select(nearer, lanes.v, best.v);
+    best.name = select(nearer, loadIndex(names), best.name);
+}
+
+RT_FN shared::Hit nearestFlat(const FlatBest& best, float tMax) {
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
     const float t = least(best.t);
     if (!(t < tMax)) return hit;
@@ -105,14 +91,51 @@ RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const 
     return hit;
 }
 
+template <class Block, class Test>
+RT_FN void eachFlatBlock(const FlatList<Block>& list, const Test& test) {
+    for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) test(*block);
+}
+
+// Calls test(block) for every block of the scene.
+template <class Test>
+RT_FN void eachFlatBlock(shared::uint features, const AccelView& view, const Test& test) {
+    if (shared::has(features, shared::kFeatureSpheres)) eachFlatBlock(view.flatSpheres, test);
+    if (shared::has(features, shared::kFeatureMovingSpheres)) eachFlatBlock(view.flatMovingSpheres, test);
+    if (shared::has(features, shared::kFeatureQuads)) eachFlatBlock(view.flatQuads, test);
+    if (shared::has(features, shared::kFeatureTriangles)) eachFlatBlock(view.flatTriangles, test);
+}
+
+RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+    FlatBest best = noFlatHit(tMax);
+    eachFlatBlock(features, view,
+                  [&](const auto& block) { acceptFlat(intersectBlock(ray, block), block.primitive, best); });
+    return nearestFlat(best, tMax);
+}
+
 RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
     const Float8 end = broadcast(tMax);
     Mask8 hits = end < end;
-    if (shared::has(features, shared::kFeatureSpheres)) testFlatAny(ray, view.flatSpheres, end, hits);
-    if (shared::has(features, shared::kFeatureMovingSpheres)) testFlatAny(ray, view.flatMovingSpheres, end, hits);
-    if (shared::has(features, shared::kFeatureQuads)) testFlatAny(ray, view.flatQuads, end, hits);
-    if (shared::has(features, shared::kFeatureTriangles)) testFlatAny(ray, view.flatTriangles, end, hits);
+    eachFlatBlock(features, view, [&](const auto& block) {
+        const LaneHits lanes = intersectBlock(ray, block);
+        hits = hits | (lanes.mask & (lanes.t < end));
+    });
     return bits(hits) != 0;
+}
+
+// Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether anything lies
+// along `shadow` before shadowEnd.
+RT_FN shared::Hit traceFlatBoth(shared::uint features, const AccelView& view, const ShapeRay& ray,
+                                const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
+    const Float8 end = broadcast(shadowEnd);
+    Mask8 hits = end < end;
+    FlatBest best = noFlatHit(shared::kInfinity);
+    eachFlatBlock(features, view, [&](const auto& block) {
+        const LaneHits lanes = intersectBlock(shadow, block);
+        hits = hits | (lanes.mask & (lanes.t < end));
+        acceptFlat(intersectBlock(ray, block), block.primitive, best);
+    });
+    isOccluded = bits(hits) != 0;
+    return nearestFlat(best, shared::kInfinity);
 }
 
 // ---- nodes ----------------------------------------------------------------------------------------------------------

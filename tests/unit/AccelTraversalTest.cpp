@@ -117,6 +117,37 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
     }
 }
 
+TEST(AccelTraversal, BothQuestionsAtOnceHaveTheSameAnswers) {
+    for (NamedGeometry& scene : geometries(40)) {
+        for (std::uint32_t flatPrimitives : {0u, kAlwaysFlat}) {
+            const auto accel = buildAccel(scene.geometry, flatPrimitives);
+            const AccelView& view = accel->view();
+            Random random(13);
+            const std::vector<Ray> rays = randomRays(scene.geometry, random, 2000);
+            for (const NamedQuery& q : runnableQueries()) {
+                SCOPED_TRACE(scene.name + (view.flat ? ", flat, " : ", tree, ") + q.name);
+                const Tracer tracer = q.query->tracer(view.kinds);
+                int different = 0, wrong = 0, occluded = 0;
+                for (std::size_t i = 0; i < rays.size(); ++i) {
+                    // Every other one along the ray, to end before or behind what it hits.
+                    const Ray shadow{rays[i].origin, rays[i % 2 == 0 ? i : rays.size() - 1 - i].direction,
+                                     rays[i].time};
+                    const float end = i % 8 == 0 ? shared::kInfinity : 10.0f;
+                    bool isOccluded = i % 2 == 0;
+                    const Hit hit = tracer.both(view, rays[i], shadow.direction, end, isOccluded);
+                    different += !sameBits(hit, tracer.closest(view, rays[i], shared::kInfinity));
+                    wrong += isOccluded != tracer.occluded(view, shadow, end);
+                    occluded += isOccluded;
+                }
+                EXPECT_EQ(different, 0);
+                EXPECT_EQ(wrong, 0);
+                EXPECT_GT(occluded, 50);
+                EXPECT_LT(occluded, 1950);
+            }
+        }
+    }
+}
+
 // Small things of all kinds far from each other in a room.
 Geometry sparseCloud(Random& random) {
     Geometry g;
