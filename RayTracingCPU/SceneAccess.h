@@ -2,6 +2,7 @@
 // that fetch; everything here has internal linkage.
 #pragma once
 #include "Common/Accel/Prefetch.h"
+#include "Common/Accel/Simd.h"
 #include "Common/Shared/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 
@@ -128,11 +129,14 @@ RT_FN bool isOccluded(SceneRef scene, const Ray& ray, float tMax) {
     return scene.tracer.occluded(scene.accel, ray, tMax);
 }
 
-// In whole vectors of lights; the entries that pad the table have no intensity and so no weight.
-RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
-    LightWeights weights;
+// As in LightSelection.h, in whole vectors of lights; the entries that pad the table have no intensity and so no weight.
+#define RT_PICKS_CONTRIBUTIONS
+RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
+    static_assert(kContributionLights == 32);
+    alignas(32) float weights[kContributionLights];
+    alignas(32) float sums[kContributionLights];
     const cpu::LightBoundsSoa& bounds = *scene.lightBoundsSoa;
-    const uint padded = (scene.globals.lightCount + 7u) & ~7u;
+    const uint padded = (count + 7u) & ~7u;
     for (uint i = 0u; i < padded; i++) {
         LightBound bound;
         bound.center = vec3(bounds.centerX[i], bounds.centerY[i], bounds.centerZ[i]);
@@ -140,9 +144,21 @@ RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal)
         bound.axis = vec3(bounds.axisX[i], bounds.axisY[i], bounds.axisZ[i]);
         bound.twoSided = bounds.twoSided[i];
         bound.intensity = bounds.intensity[i];
-        weights.weight[i] = lightContribution(bound, position, normal);
+        weights[i] = lightContribution(bound, position, normal);
     }
-    return weights;
+    float total = 0.0f;
+    for (uint i = 0u; i < padded; i += 8u) {
+        const accel::Float8 eight = accel::runningSums(accel::load(weights + i));
+        accel::store(sums + i, eight + accel::broadcast(total));
+        total += accel::lane(eight, 7);
+    }
+    const float place = u * total;
+    unsigned above = 1u << 31; // the sums, a bit each
+    for (uint i = 0u; i < padded; i += 8u) {
+        above |= accel::bits(accel::broadcast(place) < accel::load(sums + i)) << i;
+    }
+    const uint light = min(accel::lowestBit(above), count - 1u);
+    return {light, weights[light], sums[light] - place, total};
 }
 
 RT_SHARED_END

@@ -1,8 +1,9 @@
 // Which light a vertex samples, and with what probability.
 // The includer provides SceneRef, loadGlobals, loadLight and
 //   LightWeights loadContributions(scene, position, normal): lightContribution() of each light of a table of at most
-//   kContributionLights; the remaining weights are zero;
-// and what LightTree.h names, for longer tables.
+//   kContributionLights;
+// and what LightTree.h names, for longer tables. With RT_PICKS_CONTRIBUTIONS it provides pickContribution() in place of
+// loadContributions().
 #ifndef RT_SHARED_LIGHT_SELECTION_H
 #define RT_SHARED_LIGHT_SELECTION_H
 #include "Features.h"
@@ -47,7 +48,7 @@ RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
             low = middle + 1u;
         }
     }
-    Light light = loadLight(scene, low);
+    RT_IN(Light) light = loadLight(scene, low);
     LightChoice choice;
     choice.light = light.selection > 0.0f ? low : kNone;
     choice.probability = light.selection;
@@ -63,31 +64,41 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     return choice;
 }
 
+#ifndef RT_PICKS_CONTRIBUTIONS
+// The share u of the way along the contributions of `count` lights, at least one.
+RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
+    LightWeights weights = loadContributions(scene, position, normal);
+    LightWeights sums;
+    LightPick pick;
+    pick.total = 0.0f;
+    for (uint i = 0u; i < count; i++) {
+        pick.total += weights.weight[i];
+        sums.weight[i] = pick.total;
+    }
+    float place = u * pick.total;
+    uint passed = 0u;
+    for (uint i = 0u; i < count; i++) passed += sums.weight[i] <= place ? 1u : 0u;
+    pick.light = min(passed, count - 1u);
+    pick.weight = weights.weight[pick.light];
+    pick.beyond = sums.weight[pick.light] - place;
+    return pick;
+}
+#endif
+
 // In proportion to the contributions of a short table.
 RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
     LightChoice choice;
     choice.light = kNone;
     choice.probability = 0.0f;
     choice.u = 0.0f;
-    // Sums of the weights before each light; the choice is the last light of any weight whose sum is not above the target.
-    LightWeights weights = loadContributions(scene, context.position, context.normal);
-    LightWeights before;
-    float total = 0.0f;
-    for (uint i = 0u; i < count; i++) {
-        before.weight[i] = total;
-        total += weights.weight[i];
-    }
-    context.total = total;
-    if (!(total > 0.0f)) return choice;
-    float target = u * total;
-    uint chosen = 0u;
-    for (uint i = 0u; i < count; i++) {
-        bool fits = before.weight[i] <= target && weights.weight[i] > 0.0f;
-        chosen = max(chosen, fits ? i : 0u);
-    }
-    choice.light = chosen;
-    choice.probability = weights.weight[chosen] / total;
-    choice.u = clamp((target - before.weight[chosen]) / weights.weight[chosen], 0.0f, 0.999999940395355f);
+    if (count == 0u) return choice;
+    LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
+    context.total = pick.total;
+    // All weights are 0 or, as rarely as a sum is rounded, one between others was met.
+    if (!(pick.weight > 0.0f)) return choice;
+    choice.light = pick.light;
+    choice.probability = pick.weight / pick.total;
+    choice.u = clamp(1.0f - pick.beyond / pick.weight, 0.0f, 0.999999940395355f);
     return choice;
 }
 

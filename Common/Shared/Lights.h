@@ -557,9 +557,10 @@ RT_FN float lightContribution(RT_IN(LightBound) bound, vec3 position, vec3 norma
     float r2 = r * r;
     float inverse2 = 1.0f / max(d2, 0.25f * r2);
     float inverse = sqrt(inverse2);
-    float receiver = isSurface(normal) ? meanClamped(dot(normal, v), r) * inverse : 1.0f;
+    float surface = isSurface(normal) ? 1.0f : 0.0f;
+    float receiver = surface * (meanClamped(dot(normal, v), r) * inverse) + (1.0f - surface);
     float facing = -dot(bound.axis, v);
-    facing = bound.twoSided > 0.0f ? abs(facing) : max(facing, 0.0f);
+    facing = max(facing, -facing * bound.twoSided);
     float emitter = dot(bound.axis, bound.axis) > 0.0f ? facing * inverse : 1.0f;
     return bound.intensity * receiver * emitter * inverse2;
 }

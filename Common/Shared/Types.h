@@ -171,6 +171,14 @@ struct LightWeights {
     float weight[kContributionLights];
 };
 
+// A place on the line along which the weights of a short table are laid end to end.
+struct LightPick {
+    uint light;   // whose weight is there
+    float weight; // of this light
+    float beyond; // the part of it behind the place
+    float total;  // of all weights
+};
+
 // ---- light tree ------------------------------------------------------------------------------------------------------
 // Over more lights `contribution` descends a tree. Node 0 is the root.
 
