@@ -33,11 +33,9 @@ RT_FN vec2 sinCosOctant(float r) {
 RT_FN vec2 sinCos2Pi(float u) {
     uint quadrant = uint(4.0f * u + 0.5f);
     vec2 sc = sinCosOctant(u - 0.25f * float(quadrant));
-    bool odd = (quadrant & 1u) != 0u;
-    float s = odd ? sc.y : sc.x;
-    float c = odd ? sc.x : sc.y;
-    return vec2(uintBitsToFloat(floatBitsToUint(s) ^ ((quadrant & 2u) << 30u)),
-                uintBitsToFloat(floatBitsToUint(c) ^ (((quadrant + 1u) & 2u) << 30u)));
+    exchangeIf((quadrant & 1u) != 0u, sc.x, sc.y);
+    return vec2(uintBitsToFloat(floatBitsToUint(sc.x) ^ ((quadrant & 2u) << 30u)),
+                uintBitsToFloat(floatBitsToUint(sc.y) ^ (((quadrant + 1u) & 2u) << 30u)));
 }
 
 // Angle of the vector (x, y) in [-pi, pi]; 0 for the zero vector. Relative error <= 3e-7, also of the smallest angles.

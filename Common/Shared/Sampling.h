@@ -53,9 +53,10 @@ RT_FN vec3 sampleDiskRadius(vec2 u) {
     float a = (2.0f * u.x - 1.0f) + kEpsilon;
     float b = (2.0f * u.y - 1.0f) + kEpsilon;
     bool wide = abs(a) > abs(b);
-    float r = wide ? a : b;
-    vec2 sc = sinCosOctant(0.125f * (wide ? b : a) / r);
-    return vec3(r * (wide ? sc.y : sc.x), r * (wide ? sc.x : sc.y), r);
+    exchangeIf(wide, a, b); // b is the radius
+    vec2 sc = sinCosOctant(0.125f * a / b);
+    exchangeIf(wide, sc.x, sc.y);
+    return vec3(b * sc.x, b * sc.y, b);
 }
 
 RT_FN vec2 sampleDisk(vec2 u) {

@@ -97,6 +97,12 @@ RT_FN uint floatBitsToUint(float x) {
 RT_FN float uintBitsToFloat(uint x) {
     return std::bit_cast<float>(x);
 }
+// Exchanges a and b where `is` holds. As bits, since a comparison would become a branch that no processor predicts.
+RT_FN void exchangeIf(bool is, float& a, float& b) {
+    const uint bits = (floatBitsToUint(a) ^ floatBitsToUint(b)) & (0u - uint(is));
+    a = uintBitsToFloat(floatBitsToUint(a) ^ bits);
+    b = uintBitsToFloat(floatBitsToUint(b) ^ bits);
+}
 // GLSL spells atan2 with two arguments of atan.
 RT_FN float atan(float y, float x) {
     return std::atan2(y, x);
@@ -124,6 +130,12 @@ RT_SHARED_END
 #define RT_LARGE_LOCAL(T, x)
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
+
+void exchangeIf(bool is, inout float a, inout float b) {
+    float first = is ? b : a;
+    b = is ? a : b;
+    a = first;
+}
 
 #endif
 
