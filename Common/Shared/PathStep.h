@@ -88,7 +88,7 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
     if (!has(features, kFeatureSky)) return;
     float weight = 1.0f;
     if (has(features, kFeatureSkyImage)) {
-        SceneGlobals globals = loadGlobals(scene);
+        RT_IN(SceneGlobals) globals = loadGlobals(scene);
         if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {
             float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
             weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
@@ -148,7 +148,7 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     float depth = 0.0f;
     uint count = loadGlobals(scene).mediumCount;
     for (uint i = 0u; i < count; i++) {
-        Medium medium = loadMedium(scene, i);
+        RT_IN(Medium) medium = loadMedium(scene, i);
         depth += medium.extinction * lengthWithin(mediumInterval(medium, ray.origin, ray.direction), tMax);
     }
     return transmittance(depth);
@@ -210,12 +210,12 @@ RT_FN DirectLight noDirectLight() {
 RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                                     RT_IN(Vertex) v, RT_INOUT(PathState) s) {
     DirectLight direct = noDirectLight();
-    SceneGlobals globals = loadGlobals(scene);
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
     vec2 u = v.numbers.light;
     LightChoice choice =
         chooseLight(features, scene, globals.lightCount, selectionNumbers(features, globals, smp, v), s.last);
     if (choice.light == kNone) return direct;
-    Light light = loadLight(scene, choice.light);
+    RT_IN(Light) light = loadLight(scene, choice.light);
     if (!usesLightTree(features, globals.lightCount)) u.x = choice.u;
     LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
     if (!(sampled.pdf > 0.0f)) return direct;
@@ -273,7 +273,7 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
     float sum = 0.0f;
     uint count = globals.lightCount + globals.targetCount;
     for (uint i = 0u; i < count; i++) {
-        Light light = loadLight(scene, i);
+        RT_IN(Light) light = loadLight(scene, i);
         float density = 0.0f;
         if (has(features, kFeatureSkyImage) && light.kind == kLightSky) {
             density = skyPdf(scene, wi);
@@ -309,7 +309,7 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(Render
 // Replaces the bsdf's direction by that of the one-sample mixture: half from the lights, half from the bsdf.
 RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                                RT_IN(Vertex) v, RT_IN(BsdfSample) b, float time, RT_INOUT(LightContext) context) {
-    SceneGlobals globals = loadGlobals(scene);
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
     if (globals.lightCount + globals.targetCount == 0u) return b;
     LightSample sampled = sampleMixtureLight(features, scene, params, globals, smp, v, time, context);
     // Where no light can contribute and there is no target, the lights' half of the mixture would be empty.
@@ -372,7 +372,7 @@ RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sa
     medium = kNone;
     uint count = loadGlobals(scene).mediumCount;
     for (uint i = 0u; i < count; i++) {
-        Medium candidate = loadMedium(scene, i);
+        RT_IN(Medium) candidate = loadMedium(scene, i);
         vec2 span = mediumInterval(candidate, ray.origin, ray.direction);
         float entry = max(span.x, 0.0f);
         float leave = min(span.y, nearest);
@@ -407,7 +407,7 @@ RT_FN Material blackMaterial() {
 }
 
 RT_FN Vertex mediumVertex(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index) {
-    Medium medium = loadMedium(scene, index);
+    RT_IN(Medium) medium = loadMedium(scene, index);
     Vertex v;
     v.index = s.vertex - 1u;
     v.inMedium = 1u;
@@ -464,7 +464,7 @@ RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, R
             return false;
         }
         Surface surface = makeSurface(features, scene, s.ray, hit);
-        Material material = loadMaterial(scene, surface.material);
+        RT_IN(Material) material = loadMaterial(scene, surface.material);
         addEmission(features, scene, params, surface, material, hit.t, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         v = surfaceVertex(features, scene, s, surface, material);

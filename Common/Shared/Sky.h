@@ -23,11 +23,11 @@ RT_FN uvec2 skyTexel(RT_IN(Image) image, vec2 uv) {
 }
 
 RT_FN vec3 skyRadiance(uint features, SceneRef scene, vec3 direction) {
-    SceneGlobals globals = loadGlobals(scene);
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
     if (globals.skyKind == kSkyBlack) return vec3(0.0f, 0.0f, 0.0f);
     if (globals.skyKind == kSkyGradient) return mix(globals.skyBottom, globals.skyTop, 0.5f * (direction.y + 1.0f));
     if (has(features, kFeatureSkyImage) && globals.skyKind == kSkyImage) {
-        Image image = loadImage(scene, globals.skyImage);
+        RT_IN(Image) image = loadImage(scene, globals.skyImage);
         uvec2 texel = skyTexel(image, skyUv(direction));
         return globals.skyTop * loadTexel(scene, image, texel.x, texel.y);
     }
@@ -60,14 +60,14 @@ RT_FN float skyTexelPdf(SceneRef scene, RT_IN(Image) image, uvec2 texel) {
 }
 
 RT_FN float skyPdf(SceneRef scene, vec3 direction) {
-    Image image = loadImage(scene, loadGlobals(scene).skyImage);
+    RT_IN(Image) image = loadImage(scene, loadGlobals(scene).skyImage);
     return skyTexelPdf(scene, image, skyTexel(image, skyUv(direction)));
 }
 
 // A direction with density proportional to the image, uniform in solid angle inside a texel.
 RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
-    SceneGlobals globals = loadGlobals(scene);
-    Image image = loadImage(scene, globals.skyImage);
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
+    RT_IN(Image) image = loadImage(scene, globals.skyImage);
     uint row = skyCell(scene, 0u, image.height, u.y);
     uint columns = image.height + 1u + row * (image.width + 1u);
     uint column = skyCell(scene, columns, image.width, u.x);

@@ -44,7 +44,7 @@ RT_FN vec3 sphereCenter(uint features, SceneRef scene, RT_IN(Sphere) sphere, uin
 }
 
 RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
-    Sphere sphere = loadSphere(scene, hit.primitive);
+    RT_IN(Sphere) sphere = loadSphere(scene, hit.primitive);
     vec3 center = sphereCenter(features, scene, sphere, hit.primitive, ray.time);
     SpherePoint point = spherePoint(ray, center, sphere.radius, hit.t);
     Surface s;
@@ -60,7 +60,7 @@ RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN
 }
 
 RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
-    Quad quad = loadQuad(scene, hit.primitive);
+    RT_IN(Quad) quad = loadQuad(scene, hit.primitive);
     Surface s;
     vec3 alongU = quad.edgeU * hit.u;
     vec3 alongV = quad.edgeV * hit.v;
@@ -77,7 +77,7 @@ RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
 
 RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     uvec3 index = loadTriangle(scene, hit.primitive);
-    Mesh mesh = loadMesh(scene, loadTriangleMesh(scene, hit.primitive));
+    RT_IN(Mesh) mesh = loadMesh(scene, loadTriangleMesh(scene, hit.primitive));
     vec3 p0 = loadPosition(scene, index.x);
     vec3 p1 = loadPosition(scene, index.y);
     vec3 p2 = loadPosition(scene, index.z);
@@ -116,7 +116,7 @@ RT_FN Surface primitiveSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT
 
 RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (!has(features, kFeatureInstances) || hit.instance == kNone) return primitiveSurface(features, scene, ray, hit);
-    Instance instance = loadInstance(scene, hit.instance);
+    RT_IN(Instance) instance = loadInstance(scene, hit.instance);
     Ray local = ray;
     local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
     local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
