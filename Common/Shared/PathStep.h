@@ -464,7 +464,7 @@ RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, R
             return false;
         }
         Surface surface = makeSurface(features, scene, s.ray, hit);
-        RT_IN(Material) material = loadMaterial(scene, surface.material);
+        Material material = loadMaterial(scene, surface.material); // the vertex keeps parts of it, in registers
         addEmission(features, scene, params, surface, material, hit.t, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         v = surfaceVertex(features, scene, s, surface, material);
