@@ -115,16 +115,19 @@ RT_FN Light partOfQuad(RT_IN(Light) light, RT_IN(QuadPart) part) {
 struct QuadView {
     vec3 corner; // relative to the point
     uint regime;
+    float weighting; // of solid angle by the cosines at the corners, 0 to 1
     bool swapped;    // edgeV is the long edge
     Columns columns; // in that regime
 };
 
-// Automatic: a rectangle at twice its short edge or farther is sampled by columns, a nearer one with regard to the cosine.
+// Automatic: a rectangle at twice its short edge or farther is sampled by columns, a nearer one more and more with regard to the
+// cosine.
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
     bool area = method == kShapeArea || wantsProjected(features, method, normal);
     q.regime = area ? kRegimeArea : kRegimeSolidAngle;
+    q.weighting = 0.0f;
     q.swapped = false;
     if (method != kShapeAuto) return q;
     if (isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV)) {
@@ -136,8 +139,10 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
         vec3 longEdge = q.swapped ? light.edgeV : light.edgeU;
         vec3 shortEdge = q.swapped ? light.edgeU : light.edgeV;
         q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
-        bool thin = 4.0f * min(u2, v2) * q.columns.inverse < columnsDistance2(q.columns);
-        q.regime = thin ? kRegimeColumns : isSurface(normal) ? kRegimeWeighted : kRegimeSolidAngle;
+        float shortEdges2 = columnsDistance2(q.columns) / (min(u2, v2) * q.columns.inverse);
+        if (shortEdges2 > 4.0f) q.regime = kRegimeColumns;
+        // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.
+        if (isSurface(normal)) q.weighting = clamp((4.0f - shortEdges2) * (1.0f / 3.0f), 0.0f, 1.0f);
     }
     return q;
 }
@@ -283,7 +288,7 @@ RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
 
 // Cosines to the receiver's normal at the corners of a rectangle. Within a rectangle that is cut by the horizon none is so small
 // that the density falls far below the cosine elsewhere.
-RT_FN Bilinear cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal) {
+RT_FN Bilinear cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighting) {
     float x = dot(normal, r.xAxis);
     float y = dot(normal, r.yAxis);
     float z = dot(normal, r.zAxis) * r.h;
@@ -298,17 +303,17 @@ RT_FN Bilinear cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal) {
     f.at10 = (x * x1 + y * y0 + z) * (1.0f / sqrt(x1 * x1 + y0 * y0 + h2));
     f.at01 = (x * x0 + y * y1 + z) * (1.0f / sqrt(x0 * x0 + y1 * y1 + h2));
     f.at11 = (x * x1 + y * y1 + z) * (1.0f / sqrt(x1 * x1 + y1 * y1 + h2));
-    float least = max(0.1f * max(max(f.at00, f.at10), max(f.at01, f.at11)), 1.0e-3f);
-    f.at00 = max(f.at00, least);
-    f.at10 = max(f.at10, least);
-    f.at01 = max(f.at01, least);
-    f.at11 = max(f.at11, least);
+    float most = max(max(max(f.at00, f.at10), max(f.at01, f.at11)), 0.01f);
+    f.at00 = mix(most, max(f.at00, 0.1f * most), weighting);
+    f.at10 = mix(most, max(f.at10, 0.1f * most), weighting);
+    f.at01 = mix(most, max(f.at01, 0.1f * most), weighting);
+    f.at11 = mix(most, max(f.at11, 0.1f * most), weighting);
     return f;
 }
 
 // By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly differ. A pdf
 // of 0 if the light is too small for that.
-RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 normal, bool weighted, vec2 u) {
+RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 normal, float weighting, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
     if (isRectangle(light)) {
@@ -316,8 +321,8 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 n
         if (!(r.solidAngle >= kTinySolidAngle)) return s;
         vec2 numbers = u;
         s.pdf = 1.0f / r.solidAngle;
-        if (weighted && r.solidAngle >= kSmallRectangle) {
-            Bilinear cosines = cornerCosines(r, normal);
+        if (weighting > 0.0f && r.solidAngle >= kSmallRectangle) {
+            Bilinear cosines = cornerCosines(r, normal, weighting);
             numbers = sampleBilinear(cosines, u);
             s.pdf *= bilinearDensity(cosines, numbers);
         }
@@ -344,7 +349,7 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 n
 }
 
 // The same for the direction to a point of the light, relative to the position.
-RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, bool weighted, vec3 toPoint) {
+RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, float weighting, vec3 toPoint) {
     vec3 corner = light.position - position;
     if (!isRectangle(light)) {
         float whole = quadHalf(light, corner, false).solidAngle + quadHalf(light, corner, true).solidAngle;
@@ -353,9 +358,9 @@ RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, bo
     SphericalRectangle r = rectangleShape(light, corner);
     if (!(r.solidAngle >= kTinySolidAngle)) return 0.0f;
     float pdf = 1.0f / r.solidAngle;
-    if (weighted && r.solidAngle >= kSmallRectangle) {
+    if (weighting > 0.0f && r.solidAngle >= kSmallRectangle) {
         vec2 place = vec2(dot(toPoint, r.xAxis) - r.x0, dot(toPoint, r.yAxis) - r.y0);
-        pdf *= bilinearDensity(cornerCosines(r, normal), wideRectangleNumbers(r, place));
+        pdf *= bilinearDensity(cornerCosines(r, normal, weighting), wideRectangleNumbers(r, place));
     }
     return pdf;
 }
@@ -398,10 +403,9 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     LightSample s = noLightSample();
-    if (view.regime == kRegimeSolidAngle || view.regime == kRegimeWeighted) {
+    if (view.regime == kRegimeSolidAngle) {
         QuadPart part = partAboveHorizon(light, view.corner, normal);
-        bool weighted = view.regime == kRegimeWeighted;
-        s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, weighted, u);
+        s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
         s.uv = part.from + s.uv * part.size;
         if (s.pdf > 0.0f) return s;
     }
@@ -420,10 +424,9 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
 RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    if (view.regime == kRegimeSolidAngle || view.regime == kRegimeWeighted) {
+    if (view.regime == kRegimeSolidAngle) {
         Light quad = partOfQuad(light, partAboveHorizon(light, view.corner, normal));
-        bool weighted = view.regime == kRegimeWeighted;
-        float pdf = quadSolidAnglePdf(quad, position, normal, weighted, wi * distance);
+        float pdf = quadSolidAnglePdf(quad, position, normal, view.weighting, wi * distance);
         if (pdf > 0.0f) return pdf;
     }
     float density = 1.0f;

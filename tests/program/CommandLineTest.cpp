@@ -60,7 +60,7 @@ TEST_F(CommandLine, UsageErrors) {
         {{"--aspect", "nan"}, "--aspect nan"},
         {{"--max-depth", "0"}, "--max-depth 0"},
         {{"--max-depth", "4097"}, "--max-depth 4097"},
-        {{"--light-sampling", "nee"}, "mis, mixture or bsdf"},
+        {{"--light-sampling", "nee"}, "mis, mis-balance, mixture or bsdf"},
         {{"--light-selection", "best"}, "contribution, power or uniform"},
         {{"--sphere-light", "disk"}, "--sphere-light disk"},
         {{"--quad-light", "cone"}, "--quad-light cone"},

@@ -388,7 +388,7 @@ TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
 TEST_F(OptionsTest, HelpAndVersion) {
     std::ostringstream help, version;
     EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--help"}, help).has_value());
-    for (const char* flag : {"--scene", "--light-sampling", "mis|mixture|bsdf", "--target-error", "--resume"})
+    for (const char* flag : {"--scene", "--light-sampling", "mis|mis-balance|mixture|bsdf", "--target-error", "--resume"})
         EXPECT_NE(help.str().find(flag), std::string::npos) << flag;
     EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--version"}, version).has_value());
     EXPECT_EQ(version.str().rfind("ray-tracing-cpu ", 0), 0u);
