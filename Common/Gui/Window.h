@@ -12,8 +12,8 @@ struct GLFWwindow;
 namespace rt::gui {
 
 struct WindowPlace {
-    int x = 0,
-        y = 0; // in the window's units, as its size; without a position the size is that at a monitor's scale of 1
+    // In the window's units, as the size; without a position that is the size at a monitor's scale of 1.
+    int x = 0, y = 0;
     int width = 1360, height = 860;
     bool hasPosition = false;
     bool maximised = false;
