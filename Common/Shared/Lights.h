@@ -288,27 +288,18 @@ RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
 
 // Cosines to the receiver's normal at the corners of a rectangle. Within a rectangle that is cut by the horizon none is so small
 // that the density falls far below the cosine elsewhere.
-RT_FN Bilinear cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighting) {
-    float x = dot(normal, r.xAxis);
-    float y = dot(normal, r.yAxis);
+RT_FN vec4 cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighting) {
+    float x1 = r.x0 + r.width;
+    float y1 = r.y0 + r.height;
+    float u0 = dot(normal, r.xAxis) * r.x0;
+    float u1 = dot(normal, r.xAxis) * x1;
+    float v0 = dot(normal, r.yAxis) * r.y0;
+    float v1 = dot(normal, r.yAxis) * y1;
     float z = dot(normal, r.zAxis) * r.h;
-    float x0 = r.x0;
-    float y0 = r.y0;
-    float x1 = x0 + r.width;
-    float y1 = y0 + r.height;
-    float h2 = r.h * r.h;
-    Bilinear f;
-    // The reciprocals are those of wideRectangleSolidAngle.
-    f.at00 = (x * x0 + y * y0 + z) * (1.0f / sqrt(x0 * x0 + y0 * y0 + h2));
-    f.at10 = (x * x1 + y * y0 + z) * (1.0f / sqrt(x1 * x1 + y0 * y0 + h2));
-    f.at01 = (x * x0 + y * y1 + z) * (1.0f / sqrt(x0 * x0 + y1 * y1 + h2));
-    f.at11 = (x * x1 + y * y1 + z) * (1.0f / sqrt(x1 * x1 + y1 * y1 + h2));
-    float most = max(max(max(f.at00, f.at10), max(f.at01, f.at11)), 0.01f);
-    f.at00 = mix(most, max(f.at00, 0.1f * most), weighting);
-    f.at10 = mix(most, max(f.at10, 0.1f * most), weighting);
-    f.at01 = mix(most, max(f.at01, 0.1f * most), weighting);
-    f.at11 = mix(most, max(f.at11, 0.1f * most), weighting);
-    return f;
+    vec4 heights = vec4(u0 + v0 + z, u1 + v0 + z, u0 + v1 + z, u1 + v1 + z);
+    vec4 cosines = heights * cornerReciprocals(r.x0, x1, r.y0, y1, r.h);
+    float most = max(max(max(cosines.x, cosines.y), max(cosines.z, cosines.w)), 0.01f);
+    return mix(vec4(most), max(cosines, vec4(0.1f * most)), weighting);
 }
 
 // By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly differ. A pdf
@@ -322,7 +313,7 @@ RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 n
         vec2 numbers = u;
         s.pdf = 1.0f / r.solidAngle;
         if (weighting > 0.0f && r.solidAngle >= kSmallRectangle) {
-            Bilinear cosines = cornerCosines(r, normal, weighting);
+            vec4 cosines = cornerCosines(r, normal, weighting);
             numbers = sampleBilinear(cosines, u);
             s.pdf *= bilinearDensity(cosines, numbers);
         }

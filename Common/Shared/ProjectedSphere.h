@@ -103,13 +103,8 @@ RT_FN float capDensity(RT_IN(ProjectedCap) cap, float psi, RT_IN(CapSlice) slice
 
 // A point on the sphere, seen along cone.axis * cosine + across, |across|^2 = sine2.
 RT_FN ConeSample placeOnSphere(RT_IN(SphereCone) cone, float radius, vec3 across, float sine2) {
-    ConeSample result;
     float cosine = sqrt(max(1.0f - sine2, 0.0f));
-    result.direction = normalize(across + cone.axis * cosine);
-    float w = sqrt(max(0.0f, 1.0f - sine2 / (cone.sine * cone.sine)));
-    result.distance = (cone.distance - radius) * (cone.distance + radius) / (cone.distance * cosine + radius * w);
-    result.normal = across * (result.distance / radius) - cone.axis * (sine2 / cone.sine + cosine * w);
-    return result;
+    return meetSphere(cone, radius, normalize(across + cone.axis * cosine), cosine, across, sine2);
 }
 
 // A direction with its density on the unit disk of the tangent plane: density per steradian is that times the cosine.

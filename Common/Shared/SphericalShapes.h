@@ -41,6 +41,17 @@ struct ConeSample {
     vec3 normal;
 };
 
+// What a direction of the cone meets: `cosine` is that to the axis, `across` the part across it, of the squared length sine2 or a
+// little more.
+RT_FN ConeSample meetSphere(RT_IN(SphereCone) s, float radius, vec3 direction, float cosine, vec3 across, float sine2) {
+    ConeSample result;
+    result.direction = direction;
+    float w = sqrt(max(0.0f, 1.0f - sine2 / (s.sine * s.sine))); // half chord / radius, 0 at the rim
+    result.distance = (s.distance - radius) * (s.distance + radius) / (s.distance * cosine + radius * w);
+    result.normal = across * (result.distance / radius) - s.axis * (sine2 / s.sine + cosine * w);
+    return result;
+}
+
 RT_FN ConeSample sampleSphereCone(RT_IN(SphereCone) s, float radius, vec2 u) {
     float q = u.x * s.oneMinusCosine; // 1 - cos of the angle to the axis
     float cosine = 1.0f - q;
@@ -133,21 +144,25 @@ RT_FN vec2 complexProduct(vec2 a, vec2 b) {
     return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
 }
 
+// 1 / distance of the corners (x0, y0), (x1, y0), (x0, y1), (x1, y1) of a rectangle at height h.
+RT_FN vec4 cornerReciprocals(float x0, float x1, float y0, float y1, float h) {
+    float h2 = h * h;
+    return vec4(1.0f / sqrt(x0 * x0 + y0 * y0 + h2), 1.0f / sqrt(x1 * x1 + y0 * y0 + h2),
+                1.0f / sqrt(x0 * x0 + y1 * y1 + h2), 1.0f / sqrt(x1 * x1 + y1 * y1 + h2));
+}
+
 // Solid angle of a rectangle that no coordinate axis through the foot (0, 0) crosses, or that is small as seen from
 // there: two triangles, without cancellation however small they are.
 RT_FN float smallRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
     float x1 = x0 + width;
     float y1 = y0 + height;
     float h2 = h * h;
-    float i00 = 1.0f / sqrt(x0 * x0 + y0 * y0 + h2);
-    float i10 = 1.0f / sqrt(x1 * x1 + y0 * y0 + h2);
-    float i11 = 1.0f / sqrt(x1 * x1 + y1 * y1 + h2);
-    float i01 = 1.0f / sqrt(x0 * x0 + y1 * y1 + h2);
-    float diagonal = (x0 * x1 + y0 * y1 + h2) * i00 * i11;
-    float det = width * i00 * (height * i11) * h;
-    float d1 = 1.0f + diagonal + (x0 * x1 + y0 * y0 + h2) * i00 * i10 + (x1 * x1 + y0 * y1 + h2) * i10 * i11;
-    float d2 = 1.0f + diagonal + (x0 * x1 + y1 * y1 + h2) * i11 * i01 + (x0 * x0 + y0 * y1 + h2) * i01 * i00;
-    vec2 z = complexProduct(vec2(d1, det * i10), vec2(d2, det * i01));
+    vec4 i = cornerReciprocals(x0, x1, y0, y1, h);
+    float diagonal = (x0 * x1 + y0 * y1 + h2) * i.x * i.w;
+    float det = width * i.x * (height * i.w) * h;
+    float d1 = 1.0f + diagonal + (x0 * x1 + y0 * y0 + h2) * i.x * i.y + (x1 * x1 + y0 * y1 + h2) * i.y * i.w;
+    float d2 = 1.0f + diagonal + (x0 * x1 + y1 * y1 + h2) * i.w * i.z + (x0 * x0 + y0 * y1 + h2) * i.z * i.x;
+    vec2 z = complexProduct(vec2(d1, det * i.y), vec2(d2, det * i.z));
     return 2.0f * arcTan(z.y, z.x);
 }
 
@@ -156,14 +171,10 @@ RT_FN float smallRectangleSolidAngle(float x0, float width, float y0, float heig
 RT_FN float wideRectangleSolidAngle(float x0, float width, float y0, float height, float h) {
     float x1 = x0 + width;
     float y1 = y0 + height;
-    float h2 = h * h;
-    float i00 = 1.0f / sqrt(x0 * x0 + y0 * y0 + h2);
-    float i10 = 1.0f / sqrt(x1 * x1 + y0 * y0 + h2);
-    float i11 = 1.0f / sqrt(x1 * x1 + y1 * y1 + h2);
-    float i01 = 1.0f / sqrt(x0 * x0 + y1 * y1 + h2);
+    vec4 i = cornerReciprocals(x0, x1, y0, y1, h);
     vec2 z =
-        complexProduct(complexProduct(vec2(h * i00, x0 * i00 * (y0 * i00)), vec2(h * i10, -x1 * i10 * (y0 * i10))),
-                       complexProduct(vec2(h * i11, x1 * i11 * (y1 * i11)), vec2(h * i01, -x0 * i01 * (y1 * i01))));
+        complexProduct(complexProduct(vec2(h * i.x, x0 * i.x * (y0 * i.x)), vec2(h * i.y, -x1 * i.y * (y0 * i.y))),
+                       complexProduct(vec2(h * i.w, x1 * i.w * (y1 * i.w)), vec2(h * i.z, -x0 * i.z * (y1 * i.z))));
     float angle = arcTan(z.y, z.x);
     // Small negative angles are the noise of small rectangles.
     return angle < -4.0e-6f ? angle + 2.0f * kPi : angle;

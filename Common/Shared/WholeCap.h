@@ -23,16 +23,11 @@ RT_FN ConeSample sampleWholeCap(RT_IN(SphereCone) cone, float radius, vec3 norma
     vec2 e = sampleDisk(u);
     e -= axis * (dot(e, axis) / (1.0f + dot(cone.axis, normal)));
     vec2 q = axis * cone.cosine + e * cone.sine;
-    ConeSample result;
-    result.direction = f.tangent * q.x + f.bitangent * q.y + normal * sqrt(max(1.0f - dot(q, q), 0.0f));
-    float cosine = dot(result.direction, cone.axis);
-    vec3 across = result.direction - cone.axis * cosine;
-    float limit = cone.sine * cone.sine;
-    float sine2 = min(dot(across, across), limit);
-    float w = sqrt(1.0f - sine2 / limit);
-    result.distance = (cone.distance - radius) * (cone.distance + radius) / (cone.distance * cosine + radius * w);
-    result.normal = across * (result.distance / radius) - cone.axis * (sine2 / cone.sine + cosine * w);
-    return result;
+    vec3 direction = f.tangent * q.x + f.bitangent * q.y + normal * sqrt(max(1.0f - dot(q, q), 0.0f));
+    float cosine = dot(direction, cone.axis);
+    vec3 across = direction - cone.axis * cosine;
+    float sine2 = min(dot(across, across), cone.sine * cone.sine);
+    return meetSphere(cone, radius, direction, cosine, across, sine2);
 }
 
 RT_SHARED_END
