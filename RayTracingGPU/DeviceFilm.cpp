@@ -161,10 +161,13 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
     launch.keepSquares = squares_ ? 1u : 0u;
 }
 
+bool DeviceFilm::isWhole() const {
+    return slotCount() == tilesX_ * ((desc_.height + shared::kTile - 1) / shared::kTile) * desc_.replicates;
+}
+
 std::uint32_t DeviceFilm::bandSlots() const {
     constexpr std::uint32_t kBands = 37; // a prime, so that the bands of hardly any image begin all at one column
-    const bool isWhole = slotCount() == tilesX_ * ((desc_.height + shared::kTile - 1) / shared::kTile) * desc_.replicates;
-    return isWhole ? (slotCount() + kBands - 1) / kBands : slotCount();
+    return isWhole() ? (slotCount() + kBands - 1) / kBands : slotCount();
 }
 
 std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {

@@ -29,6 +29,7 @@ class DeviceFilm {
 
     std::uint32_t firstTile() const { return firstTile_; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
+    bool isWhole() const;               // it holds all tiles of the image
     std::uint64_t leastSamples() const; // of any pixel, all replicates
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
     std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }

@@ -93,7 +93,6 @@ class GpuEngine final : public app::Engine {
     void refresh();
 
     std::uint64_t pixels() const { return std::uint64_t{settings_.width} * settings_.height; }
-    bool isOneRegion() const { return region_->slotCount() == film_.tileCount() * settings_.replicates; }
 
     vulkan::VulkanContext& context_;
     GpuEngineOptions options_;
@@ -227,9 +226,9 @@ bool GpuEngine::beginPass(double seconds) {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
-    const std::uint64_t least = isOneRegion() ? region_->leastSamples() : film_.minSamples();
+    const std::uint64_t least = region_->isWhole() ? region_->leastSamples() : film_.minSamples();
     std::uint64_t end = (least / round + kRegionRounds) * round;
-    if (isOneRegion()) {
+    if (region_->isWhole()) {
         const std::uint64_t fitting = launchSize_->suggest(seconds) / pixels();
         const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
         end = seconds < kLaunchSeconds
@@ -315,7 +314,7 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
 
 // Goes on to the next part of a large film. False: this one was the last.
 bool GpuEngine::nextRegion() {
-    if (isOneRegion()) return false;
+    if (region_->isWhole()) return false;
     refresh();
     const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;
     if (next >= film_.tileCount()) return false;

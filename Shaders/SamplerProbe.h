@@ -318,8 +318,8 @@ RT_FN LightBound loadLightBound(SceneRef scene, uint i) {
 
 RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
     LightWeights w;
-    for (uint i = 0u; i < kContributionLights; i++)
-        w.weight[i] = i < kProbeLights ? lightContribution(loadLightBound(scene, i), position, normal) : 0.0f;
+    for (uint i = 0u; i < kProbeLights; i++)
+        w.weight[i] = lightContribution(loadLightBound(scene, i), position, normal);
     return w;
 }
 
