@@ -7,7 +7,6 @@
 #include "Common/App/Platform.h"
 #include "Common/App/RenderLoop.h"
 #include "Common/Image/Summary.h"
-#include "Common/Image/Summary.h"
 
 namespace rt::bench {
 namespace {
@@ -74,7 +73,6 @@ class Measurer {
         }
     }
 
-    // What takes a moment is timed several times over, as its time is mostly chance.
     // What takes a moment is timed several times over, since chance has a large part in the time of one.
     void toSamples(const Ladder& ladder) {
         std::vector<Times> times;

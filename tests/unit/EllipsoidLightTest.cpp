@@ -11,6 +11,7 @@
 #include "Common/Scene/SceneBuilder.h"
 #include "Common/Scene/SceneCompiler.h"
 #include "Common/Shared/LightDensity.h"
+#include "tests/unit/LightDraws.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -24,7 +25,6 @@ using test::Mean;
 using test::Uniforms;
 
 constexpr double kPiD = test::kPi;
-const vec3 kUp(0, 0, 1);
 
 Light ellipsoid(const dvec3& center, const dmat3& axes, uint sides = kSidesFront) {
     Light light{};
@@ -36,12 +36,6 @@ Light ellipsoid(const dvec3& center, const dmat3& axes, uint sides = kSidesFront
     light.emission = vec3(1);
     light.sides = sides;
     return light;
-}
-
-RenderParams withMethod(uint method) {
-    RenderParams params{};
-    params.sphereLight = method;
-    return params;
 }
 
 dvec3 unitVector(Uniforms& uniform) {
@@ -189,13 +183,7 @@ TEST(Ellipsoids, DrawsHaveTheDistributionOfTheDensity) {
 TEST(Ellipsoids, VarianceOfConesAndAreaSampling) {
     const auto variance = [](const dvec3& axes, double height, uint method) {
         const Light light = ellipsoid({0, 0, height}, {axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z});
-        Uniforms uniform(1);
-        Mean mean;
-        for (int i = 0; i < 1 << 18; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
-            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
-        }
-        return mean.relativeVariance();
+        return irradianceEstimates(light, method, 1, 1 << 18).relativeVariance();
     };
     const dvec3 disk(1, 1, 0.05), needle(1, 0.05, 0.05);
     EXPECT_NEAR(variance(disk, 1, kShapeAuto), 0.0098, 0.001);

@@ -5,7 +5,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "Common/Shared/Lights.h"
+#include "tests/unit/LightDraws.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -63,12 +63,6 @@ Light ellipsoid(const dvec3& center, const glm::dmat3& axes) {
 
 glm::dmat3 axesOf(const Light& ellipsoid) {
     return {ellipsoid.edgeU, ellipsoid.edgeV, ellipsoid.normal};
-}
-
-RenderParams withMethod(uint method) {
-    RenderParams params{};
-    params.sphereLight = params.quadLight = params.triangleLight = method;
-    return params;
 }
 
 std::vector<dvec3> vertices(const Light& light) {
@@ -146,7 +140,6 @@ std::vector<Case> cases() {
 }
 
 const std::array kMethods{kShapeAuto, kShapeSolidAngle, kShapeProjected, kShapeArea};
-const vec3 kUp(0, 0, 1);
 
 class LightCase : public testing::TestWithParam<Case> {};
 
@@ -154,12 +147,7 @@ TEST_P(LightCase, IrradianceIsAnalyticForEveryMethod) {
     const auto& [name, light, areaIsHopeless] = GetParam();
     for (const uint method : kMethods) {
         if (method == kShapeArea && areaIsHopeless) continue;
-        Uniforms uniform(1);
-        Mean mean;
-        for (int i = 0; i < 1 << 16; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
-            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
-        }
+        const Mean mean = irradianceEstimates(light, method, 1, 1 << 16);
         EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kUp)))) << name << ", method " << method;
     }
 }
@@ -330,13 +318,7 @@ TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
 // angle leaves, whether the horizon cuts it or not; overhead, where the cosine is the same at all corners, not more.
 TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     const auto variance = [](const Light& light, uint method) {
-        Uniforms uniform(21);
-        Mean mean;
-        for (int i = 0; i < 1 << 14; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
-            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
-        }
-        return mean.relativeVariance();
+        return irradianceEstimates(light, method, 21, 1 << 14).relativeVariance();
     };
     for (const Light& light : {sphere({0.3, -0.4, 1}, 0.9), sphere({2, 1, 0.6}, 0.5), sphere({0, 3, 2}, 0.2)}) {
         EXPECT_LT(variance(light, kShapeAuto), 1e-10);
@@ -405,26 +387,14 @@ TEST_P(LightCase, ProjectedHasNoVariance) {
     if (light.kind == kLightEllipsoid) return; // sampled by the cone
     const double extent = light.kind == kLightSphere ? double(light.radius) : double(glm::length(light.edgeU));
     if (extent < 2e-3 * glm::length(dvec3(light.position))) return; // sampled otherwise
-    Uniforms uniform(12);
-    Mean mean;
-    for (int i = 0; i < 1 << 15; ++i) {
-        const LightSample s =
-            sampleLight(kFeatureAll, withMethod(kShapeProjected), light, vec3(0), kUp, 0, uniform.pair());
-        mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
-    }
+    const Mean mean = irradianceEstimates(light, kShapeProjected, 12, 1 << 15);
     EXPECT_LE(mean.relativeVariance(), name == "triangle sliver" ? 1e-2 : 1e-3) << name;
 }
 
 // Relative variances of single samples of the irradiance, to 10 %.
 TEST(Lights, VarianceOfSolidAngleAndAreaSampling) {
     const auto variance = [](const Light& light, uint method = kShapeSolidAngle) {
-        Uniforms uniform(7);
-        Mean mean;
-        for (int i = 0; i < 1 << 18; ++i) {
-            const LightSample s = sampleLight(kFeatureAll, withMethod(method), light, vec3(0), kUp, 0, uniform.pair());
-            mean.add(s.pdf > 0 ? double(s.wi.z) / double(s.pdf) : 0);
-        }
-        return mean.relativeVariance();
+        return irradianceEstimates(light, method, 7, 1 << 18).relativeVariance();
     };
     EXPECT_NEAR(variance(quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0})), 0.059, 0.006);
     EXPECT_NEAR(variance(quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2})), 0.34, 0.034);
