@@ -1,7 +1,7 @@
 #include "Common/App/Draft.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
 
 namespace rt::app {
 namespace {
@@ -10,29 +10,44 @@ namespace {
 class Enlarged {
   public:
     Enlarged(const image::Image& image, std::uint32_t width, std::uint32_t height)
-        : image_(image),
-          scaleX_(static_cast<float>(image.width) / static_cast<float>(width)),
-          scaleY_(static_cast<float>(image.height) / static_cast<float>(height)) {}
+        : image_(image), columns_(places(image.width, width)), rows_(places(image.height, height)) {}
 
     void read(std::uint32_t x, std::uint32_t y, float* value) const {
-        const float fx = std::max(0.0f, (static_cast<float>(x) + 0.5f) * scaleX_ - 0.5f);
-        const float fy = std::max(0.0f, (static_cast<float>(y) + 0.5f) * scaleY_ - 0.5f);
-        const std::uint32_t x0 = std::min(static_cast<std::uint32_t>(fx), image_.width - 1);
-        const std::uint32_t y0 = std::min(static_cast<std::uint32_t>(fy), image_.height - 1);
-        const std::uint32_t x1 = std::min(x0 + 1, image_.width - 1);
-        const std::uint32_t y1 = std::min(y0 + 1, image_.height - 1);
-        const float u = fx - static_cast<float>(x0);
-        const float v = fy - static_cast<float>(y0);
-        for (std::uint32_t c = 0; c < image_.channels; ++c) {
-            const float top = std::lerp(image_.pixel(x0, y0)[c], image_.pixel(x1, y0)[c], u);
-            const float bottom = std::lerp(image_.pixel(x0, y1)[c], image_.pixel(x1, y1)[c], u);
-            value[c] = std::lerp(top, bottom, v);
+        const Place& column = columns_[x];
+        const Place& row = rows_[y];
+        const float* upper = image_.pixel(0, row.first);
+        const float* lower = image_.pixel(0, row.second);
+        const std::size_t left = std::size_t{column.first} * image_.channels;
+        const std::size_t right = std::size_t{column.second} * image_.channels;
+        for (std::size_t c = 0; c < image_.channels; ++c) {
+            const float top = mix(upper[left + c], upper[right + c], column.weight);
+            const float bottom = mix(lower[left + c], lower[right + c], column.weight);
+            value[c] = mix(top, bottom, row.weight);
         }
     }
 
   private:
+    // Between which two of the small image's columns or rows one of the large image's lies.
+    struct Place {
+        std::uint32_t first, second;
+        float weight; // of the second
+    };
+
+    static std::vector<Place> places(std::uint32_t small, std::uint32_t large) {
+        std::vector<Place> result(large);
+        const float scale = static_cast<float>(small) / static_cast<float>(large);
+        for (std::uint32_t i = 0; i < large; ++i) {
+            const float at = std::max(0.0f, (static_cast<float>(i) + 0.5f) * scale - 0.5f);
+            const std::uint32_t first = std::min(static_cast<std::uint32_t>(at), small - 1);
+            result[i] = {first, std::min(first + 1, small - 1), at - static_cast<float>(first)};
+        }
+        return result;
+    }
+
+    static float mix(float a, float b, float weight) { return a + weight * (b - a); }
+
     const image::Image& image_;
-    float scaleX_, scaleY_;
+    std::vector<Place> columns_, rows_;
 };
 
 } // namespace

@@ -77,6 +77,17 @@ void InteractiveSession::startFilm() {
     featureIsFull_ = false;
     curve_.clear();
     if (round_ == 0) renderDraft(settings);
+    if (!draft_.data.empty() && cameraMovesOn()) {
+        setStage("");
+        postponedFilm_ = settings;
+        return;
+    }
+    beginFilm(settings);
+    if (draft_.data.empty() && unshown_) renderFirstPass();
+}
+
+void InteractiveSession::beginFilm(RenderSettings settings) {
+    postponedFilm_.reset();
     engine_->reset(camera_, settings);
     settings_ = settings;
     filmIsStale_ = false;
@@ -96,6 +107,11 @@ void InteractiveSession::startFilm() {
         state.relmse.reset();
         state.curve.clear();
     });
+}
+
+void InteractiveSession::learnSpeed(std::uint64_t samples, double seconds) {
+    if (samples == 0) return;
+    samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(samples) / std::max(seconds, 1e-4);
 }
 
 // Something to look at at once, where the first samples of the whole image would take longer.
@@ -118,8 +134,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     RenderStatus status;
     do status = engine_->renderSome({std::chrono::duration<double>(setup_.sliceSeconds), &cancelBuild_});
     while (!status.finished && !cancelBuild_ && (!cancelRender_ || watch.seconds() < kMostDraftSeconds));
-    const double seconds = std::max(watch.seconds(), 1e-4);
-    samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status.samplesDone) / seconds;
+    learnSpeed(status.samplesDone, watch.seconds());
     if (!status.finished) return;
     draft_ = engine_->film().resolve();
     Picture picture;
@@ -142,8 +157,20 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     noteAnswer();
 }
 
+// What is shown first after a change where that takes no longer than a draft would. The next change does not interrupt it either.
+void InteractiveSession::renderFirstPass() {
+    const std::uint64_t pass = status_.samplesTotal / settings_.spp * std::min(settings_.spp, image::Film::kBlock);
+    const Stopwatch watch;
+    do status_ = engine_->renderSome({std::chrono::duration<double>(kLeastSlice), &cancelBuild_});
+    while (status_.samplesDone < pass && !cancelBuild_ && watch.seconds() < kMostDraftSeconds);
+    renderSeconds_ += watch.seconds();
+    learnSpeed(status_.samplesDone, watch.seconds());
+    publish();
+}
+
 void InteractiveSession::renderSlice() {
     if (filmIsStale_) startFilm();
+    if (filmIsStale_) return;
     const Stopwatch watch;
     const std::uint64_t before = status_.samplesDone;
     const double untilDue = std::max(pictureInterval() - sincePublished_.seconds(), kLeastSlice);
@@ -190,9 +217,7 @@ bool InteractiveSession::isFrameDue() const {
 
 // What the engine holds becomes the reference, or a run of the history.
 void InteractiveSession::finish(StopReason reason) {
-    if (!request_.accumulate && renderSeconds_ > 0) { // slices of a short frame say too little
-        samplesPerSecond_ = 0.5 * samplesPerSecond_ + 0.5 * static_cast<double>(status_.samplesDone) / renderSeconds_;
-    }
+    if (!request_.accumulate) learnSpeed(status_.samplesDone, renderSeconds_); // slices of a short frame say too little
     publish();
     const std::uint64_t spp = engine_->film().minSamples();
     if (referenceSpp_) {

@@ -168,21 +168,22 @@ void InteractiveSession::work() {
     lowerThreadPriority();
     while (true) {
         Requests requests = take();
-        if (requests.quit) {
-            for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
-            writeEnd(StopReason::Interrupted);
-            break;
-        }
+        const bool quit = requests.quit;
         try {
-            apply(std::move(requests));
-            if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
+            // While nothing but the camera moves, draft follows draft. All else wants the film that the engine should hold.
+            if (postponedFilm_ && !requests.movesCameraAlone()) beginFilm(*postponedFilm_);
+            if (!quit) apply(std::move(requests));
+            if (!quit && hasWork()) isPreviewing() ? renderPreview() : renderSlice();
         } catch (...) {
             fail(std::current_exception(), false);
             setStage("");
             setActivity(Activity::Failed);
             filmIsStale_ = true;
         }
+        if (quit) break;
     }
+    for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
+    writeEnd(StopReason::Interrupted);
     engine_.reset();
 }
 
@@ -194,6 +195,11 @@ InteractiveSession::Requests InteractiveSession::take() {
     if (unanswered_ && !unshown_) unshown_ = unanswered_;
     unanswered_.reset();
     return std::exchange(requests_, {});
+}
+
+bool InteractiveSession::cameraMovesOn() const {
+    const std::scoped_lock lock(mutex_);
+    return requests_.movesCameraAlone();
 }
 
 void InteractiveSession::apply(Requests requests) {

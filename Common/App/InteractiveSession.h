@@ -90,10 +90,12 @@ class InteractiveSession {
         std::optional<std::uint32_t> referenceSpp;
         std::optional<std::string> referenceFile;
         std::optional<std::array<std::uint32_t, 2>> focus;
-        bool any() const {
-            return quit || engine || request || scene || camera || command || !saves.empty() || view || preview ||
-                   referenceSpp || referenceFile || focus;
+        bool anyButCamera() const {
+            return quit || engine || request || scene || command || !saves.empty() || view || preview || referenceSpp ||
+                   referenceFile || focus;
         }
+        bool any() const { return camera || anyButCamera(); }
+        bool movesCameraAlone() const { return camera && !anyButCamera(); }
         bool changesWhatIsSeen() const { return engine || request || scene || camera || preview; }
     };
 
@@ -119,8 +121,12 @@ class InteractiveSession {
     void switchPreview(bool on);
     void renderPreview();
     void writePreview(const SaveRequest& request);
+    bool cameraMovesOn() const;
     void startFilm();
+    void beginFilm(RenderSettings settings);
+    void learnSpeed(std::uint64_t samples, double seconds);
     void renderDraft(const RenderSettings& settings);
+    void renderFirstPass();
     void renderSlice();
     std::uint32_t samplesOfFrame(const RenderSettings& settings) const;
     double pictureInterval() const;
@@ -188,7 +194,8 @@ class InteractiveSession {
     double loadSeconds_ = 0;
     double samplesPerSecond_ = 2e5; // for the size of drafts; a cautious guess at first
     image::Image draft_;
-    std::vector<SaveRequest> waiting_; // to be written
+    std::optional<RenderSettings> postponedFilm_; // not begun, since the camera moved on when its draft was shown
+    std::vector<SaveRequest> waiting_;            // to be written
     bool previewIsWanted_ = false;
     bool previewIsStale_ = true;
     Preview preview_;

@@ -1,6 +1,10 @@
 // Films of a window: begun, paused, ended, begun anew.
+#include <atomic>
 #include <chrono>
+#include <functional>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +83,60 @@ TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     EXPECT_EQ(session.state().picture.serial, serial);
     session.moveCamera(camera, 1);
     EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return isFinished(s) && s.picture.serial > serial; }));
+}
+
+// Takes a microsecond for each sample, and calls back when it has taken some.
+class PacedEngine : public FakeEngine {
+  public:
+    explicit PacedEngine(std::function<void(const RenderSettings&)> onSamples) : onSamples_(std::move(onSamples)) {}
+
+    void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override {
+        FakeEngine::reset(camera, settings);
+        settings_ = settings;
+    }
+    RenderStatus renderSome(const Budget& budget) override {
+        std::this_thread::sleep_for(std::chrono::microseconds(settings_.width * settings_.height));
+        onSamples_(settings_);
+        return FakeEngine::renderSome(budget);
+    }
+
+  private:
+    std::function<void(const RenderSettings&)> onSamples_;
+    RenderSettings settings_;
+};
+
+// The camera moves on whenever samples are taken, so that the next change waits at the end of every picture. With drafts no
+// film is begun meanwhile; what else is asked for in between finds the film that belongs to the last draft.
+TEST_F(InteractiveSessionTest, ACameraInMotionShowsPictures) {
+    for (const std::uint32_t width : {24u, 400u}) {
+        constexpr int kMoves = 64;
+        std::atomic<InteractiveSession*> flying{nullptr};
+        std::atomic<int> moves{0}, filmsInFlight{0};
+        scene::CameraDesc camera;
+        InteractiveSession::Setup s = setup(1'000'000);
+        s.request.size.width = width;
+        s.makeEngine = [&](const EngineChoice&) {
+            return std::make_unique<PacedEngine>([&](const RenderSettings& settings) {
+                InteractiveSession* session = flying;
+                if (session == nullptr || moves == kMoves) return;
+                if (moves > 0 && settings.width == width) ++filmsInFlight; // where no draft is needed it is one a move
+                camera.lookFrom.x += 0.01;
+                if (++moves == kMoves) return session->stop();
+                session->moveCamera(camera, 1);
+            });
+        };
+        InteractiveSession session(s);
+        ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.serial > 0; }));
+        camera = session.state().scene->camera;
+        const std::uint64_t serial = session.state().picture.serial;
+        flying = &session;
+        ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
+        EXPECT_GE(session.state().picture.serial, serial + kMoves / image::Film::kBlock - 1) << width;
+        EXPECT_EQ(session.state().picture.image->width, width);
+        if (width == 400) {
+            EXPECT_LE(filmsInFlight, 1);
+        }
+    }
 }
 
 TEST_F(InteractiveSessionTest, LoopsAndFramesThatAreNotAccumulatedTakeOtherSeeds) {
