@@ -1,6 +1,7 @@
 #include "RayTracingGPU/GpuEngine.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -31,11 +32,24 @@ using vulkan::Memory;
 
 constexpr std::uint32_t kInvocations = 1u << 18;    // that share the work of a launch; fills the largest devices
 constexpr std::uint64_t kMaxBlockSums = 10'000'000; // of a launch: 120 MB
+constexpr std::uint64_t kOpenSamples = 2;           // of the block at the end of a long pass
 constexpr std::uint64_t kRegionRounds = 8;          // per pass where regions take turns, each turn costing two copies
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
+
+// What is handed to the device at a time.
+struct Launch {
+    explicit Launch(vulkan::VulkanContext& context)
+        : run(context), counters(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
+
+    vulkan::Run run;
+    vulkan::Buffer counters; // of it, when it has ended
+    DeviceFilm::Work work;   // that it does
+};
 
 // What a kernel is compiled for.
 struct KernelKey {
@@ -56,7 +70,7 @@ class GpuEngine final : public app::Engine {
           constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
                      "constants"),
           counters_(context, kCounterBytes, 0, Memory::Device, "counters"),
-          countersOnHost_(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
+          launches_{Launch(context), Launch(context)} {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
@@ -79,8 +93,6 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report() const override;
 
   private:
-    static constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
-
     bool isCompute() const { return engine_ == app::GpuEngineKind::Compute; }
     std::unique_ptr<Kernel> makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const;
     std::uint32_t maxInvocations() const;
@@ -88,7 +100,11 @@ class GpuEngine final : public app::Engine {
     void uploadConstants(const scene::CameraDesc& camera);
     bool beginPass(double seconds);
     void launchNext(double seconds);
-    void run(const shared::FilmLaunch& launch);
+    void beginLaunch(const shared::FilmLaunch& launch);
+    void endLaunch();
+    void endLaunches();
+    void dropLaunches();
+    double secondsAhead() const;
     bool nextRegion();
     void refresh();
 
@@ -102,7 +118,6 @@ class GpuEngine final : public app::Engine {
     FilmReducer reducer_;
     vulkan::Buffer constants_;
     vulkan::Buffer counters_;
-    vulkan::Buffer countersOnHost_;
     vulkan::Buffer blockSums_;
 
     std::unique_ptr<GpuScene> scene_;
@@ -125,6 +140,10 @@ class GpuEngine final : public app::Engine {
     double passSamples_ = 0;               // of each slot's pixels
     std::uint32_t nextSlot_ = 0;           // of each of the region's bands: the first that the pass has not launched
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
+    // The next launch is recorded while the device works at one, or it would have nothing to do in between.
+    std::array<Launch, 2> launches_;
+    std::uint64_t begun_ = 0; // launches, of which number n is launches_[n % 2]
+    std::uint64_t ended_ = 0;
     app::EngineReport report_;
 };
 
@@ -205,11 +224,16 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
             if (!inPass_ && !beginPass(seconds)) break;
             launchNext(seconds);
-            if (secondsSince(start) >= seconds) break;
+            if (secondsSince(start) + secondsAhead() >= seconds) break;
         }
+        endLaunches();
         if (dirty_ && secondsSince(refreshed_) > kRefreshSeconds) refresh();
     } catch (const vulkan::DeviceLostError&) {
         failed_ = true;
+        dropLaunches();
+        throw;
+    } catch (...) {
+        dropLaunches();
         throw;
     }
     app::RenderStatus status;
@@ -219,9 +243,10 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-// Opens the next pass, which takes every pixel some rounds further, a round being one block of each replicate: as many as fit
-// in a launch, but at least one. Where launches must be short, a part of a round if no more fits: an invocation takes its samples one
-// after the other, and 16 long paths in a medium may last longer than the launch. False: all done.
+// Opens the next pass, which takes every pixel as many samples further as fit in a launch, but at least one of each replicate. An
+// invocation takes its samples one after the other, and 16 long paths in a medium may last longer than the launch should; so
+// passes may end within a block. Long ones do so soon after the beginning of one: its items are the last that a launch has left.
+// Large films go on by whole blocks.
 bool GpuEngine::beginPass(double seconds) {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
@@ -229,11 +254,12 @@ bool GpuEngine::beginPass(double seconds) {
     const std::uint64_t least = region_->isWhole() ? region_->leastSamples() : film_.minSamples();
     std::uint64_t end = (least / round + kRegionRounds) * round;
     if (region_->isWhole()) {
-        const std::uint64_t fitting = launchSize_->suggest(seconds) / pixels();
         const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
-        end = seconds < kLaunchSeconds
-                  ? least + std::max<std::uint64_t>(settings_.replicates, std::min(fitting, room))
-                  : (least / round + std::max<std::uint64_t>(1, std::min(fitting, room) / round)) * round;
+        const std::uint64_t fitting = std::min(launchSize_->suggest(seconds) / pixels(), room);
+        end = least + std::max<std::uint64_t>(settings_.replicates, fitting);
+        const std::uint64_t open = kOpenSamples * settings_.replicates;
+        if (end >= open && (end - open) / round * round + open >= least + round)
+            end = (end - open) / round * round + open;
     }
     end = std::min<std::uint64_t>(end, settings_.spp);
     passEnd_ = static_cast<std::uint32_t>(end);
@@ -253,11 +279,11 @@ void GpuEngine::launchNext(double seconds) {
     const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (passRounds_ * pixels), 1);
     const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - nextSlot_, room);
     const auto width = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, most));
-    shared::FilmLaunch launch{};
-    region_->describe(launch, nextSlot_, width);
-    launch.blocks = passRounds_;
-    launch.spp = passEnd_;
-    run(launch);
+    shared::FilmLaunch push{};
+    region_->describe(push, nextSlot_, width);
+    push.blocks = passRounds_;
+    push.spp = passEnd_;
+    beginLaunch(push);
     nextSlot_ += width;
     if (nextSlot_ == region_->bandSlots()) inPass_ = nextRegion();
 }
@@ -266,37 +292,46 @@ std::uint32_t GpuEngine::maxInvocations() const {
     return isCompute() ? kInvocations : std::min(kInvocations, context_.limits().maxInvocations);
 }
 
-void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
-    shared::FilmLaunch launch = launchWithoutBuffers;
-    const std::uint32_t items = launch.slotCount * launch.blocks * shared::kTilePixels;
+// Hands a launch to the device, while that works at no more than one other.
+void GpuEngine::beginLaunch(const shared::FilmLaunch& filmLaunch) {
+    if (begun_ - ended_ == launches_.size()) endLaunch();
+    shared::FilmLaunch push = filmLaunch;
+    const std::uint32_t items = push.slotCount * push.blocks * shared::kTilePixels;
     const VkDeviceSize bytes = VkDeviceSize{items} * sizeof(shared::vec3);
     if (blockSums_.bytes() < bytes) {
+        endLaunches();
         blockSums_ = {};
         blockSums_ = vulkan::Buffer(context_, bytes, 0, Memory::Device, "a launch");
     }
-    launch.blockSums = blockSums_.address();
-    launch.counters = counters_.address();
-    const std::uint32_t invocations = std::min(items, maxInvocations());
-    const auto record = [&](VkCommandBuffer commands) {
+    push.blockSums = blockSums_.address();
+    push.counters = counters_.address();
+    Launch& next = launches_[begun_ % launches_.size()];
+    next.run.begin([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
-        kernel_->launch(commands, launch, invocations);
+        kernel_->launch(commands, push, std::min(items, maxInvocations()));
         vulkan::barrier(commands);
-        reducer_.reduce(commands, launch);
+        reducer_.reduce(commands, push);
         const VkBufferCopy all{0, 0, kCounterBytes};
-        vkCmdCopyBuffer(commands, counters_.get(), countersOnHost_.get(), 1, &all);
+        vkCmdCopyBuffer(commands, counters_.get(), next.counters.get(), 1, &all);
         vulkan::barrier(commands);
-    };
-    DeviceFilm::Work added;
-    const double seconds = context_.runTimed(record, [&] { added = region_->advance(launch); });
+    });
+    ++begun_;
+    next.work = region_->advance(push);
+    samplesDone_ += next.work.samples;
     dirty_ = true;
-    samplesDone_ += added.samples;
-    launchSize_->measured(added.samples, seconds);
+}
+
+// Waits for the end of the oldest launch that has not ended.
+void GpuEngine::endLaunch() {
+    Launch& launch = launches_[ended_++ % launches_.size()];
+    const double seconds = context_.finishTimed(launch.run);
+    launchSize_->measured(launch.work.samples, seconds);
 
     report_.renderDeviceSeconds += seconds;
-    report_.rays.camera += added.samples;
+    report_.rays.camera += launch.work.samples;
     std::uint64_t finished = 0;
-    const std::span<const std::uint32_t> counters = countersOnHost_.mapped<const std::uint32_t>();
+    const std::span<const std::uint32_t> counters = launch.counters.mapped<const std::uint32_t>();
     for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
         report_.rays.scattered += counters[line + shared::kCounterScattered];
         report_.rays.shadow += counters[line + shared::kCounterShadow];
@@ -304,17 +339,39 @@ void GpuEngine::run(const shared::FilmLaunch& launchWithoutBuffers) {
         finished += counters[line + shared::kCounterItems];
     }
     // Drivers have been seen that end long loops early.
-    if (finished != added.items) {
+    if (finished != launch.work.items) {
         failed_ = true; // what is on the device is not a film
         throw RenderError(context_.info().name + " ended a shader before its work was done (" +
-                          std::to_string(finished) + " of " + std::to_string(added.items) +
+                          std::to_string(finished) + " of " + std::to_string(launch.work.items) +
                           " items); a newer driver may help");
+    }
+}
+
+void GpuEngine::endLaunches() {
+    while (ended_ < begun_) endLaunch();
+}
+
+// How long the device is going to be at what it has been handed.
+double GpuEngine::secondsAhead() const {
+    std::uint64_t samples = 0;
+    for (std::uint64_t i = ended_; i < begun_; ++i) samples += launches_[i % launches_.size()].work.samples;
+    return launchSize_->secondsFor(samples);
+}
+
+// After a failure: nothing that the device still works at may be touched.
+void GpuEngine::dropLaunches() {
+    for (; ended_ < begun_; ++ended_) {
+        try {
+            launches_[ended_ % launches_.size()].run.finish();
+        } catch (const RenderError&) { // as the one before
+        }
     }
 }
 
 // Goes on to the next part of a large film. False: this one was the last.
 bool GpuEngine::nextRegion() {
     if (region_->isWhole()) return false;
+    endLaunches();
     refresh();
     const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;
     if (next >= film_.tileCount()) return false;

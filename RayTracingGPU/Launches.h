@@ -33,6 +33,9 @@ class LaunchSize {
         samples_ = done * std::min(kLaunchSeconds / std::max(seconds, 1e-6), kLargestStep);
     }
 
+    // How long the device is going to take for them, as far as is known.
+    double secondsFor(std::uint64_t samples) const { return static_cast<double>(samples) / samples_ * kLaunchSeconds; }
+
   private:
     double samples_; // that take kLaunchSeconds, as far as is known
     double suggested_ = 0;

@@ -42,8 +42,7 @@ void main() {
         uvec2 range = blockRange(done, block, end);
         if (range.x >= range.y) break;
         samples = range.y;
-        uint item = (position * launch.blocks + block) * kTilePixels + gl_LocalInvocationID.x;
-        vec3 blockSum = launch.blockSums.at[item];
+        vec3 blockSum = launch.blockSums.at[itemOf(launch, position, block, gl_LocalInvocationID.x)];
         if (range.y % kBlock == 0u) {
             add(sum, blockSum);
             if (squares) add(square, blockSum * blockSum / float(kBlock));

@@ -169,7 +169,8 @@ RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }
 
-// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike.
+// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike. All slots' first
+// blocks come first, their last blocks last: those may be short, so that the invocations of a launch end at much the same time.
 struct WorkItem {
     uint slot;
     uint block;
@@ -180,9 +181,14 @@ RT_FN WorkItem workItem(FilmLaunch launch, uint item) {
     WorkItem w;
     w.tilePixel = item % kTilePixels;
     uint rest = item / kTilePixels;
-    w.slot = launchSlot(launch, rest / launch.blocks);
-    w.block = rest % launch.blocks;
+    w.slot = launchSlot(launch, rest % launch.slotCount);
+    w.block = rest / launch.slotCount;
     return w;
+}
+
+// The item that is about this block of slot i of a launch.
+RT_FN uint itemOf(FilmLaunch launch, uint i, uint block, uint tilePixel) {
+    return (block * launch.slotCount + i) * kTilePixels + tilePixel;
 }
 
 RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {

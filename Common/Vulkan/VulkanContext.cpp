@@ -1,8 +1,6 @@
 #include "Common/Vulkan/VulkanContext.h"
 
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstring>
 #include <limits>
 
@@ -11,11 +9,6 @@
 
 namespace rt::vulkan {
 namespace {
-
-constexpr std::uint32_t kBegin = 0; // the two timestamps of runTimed
-constexpr std::uint32_t kEnd = 1;
-// All that is run takes far less: launches are cut to hundredths of a second.
-constexpr std::chrono::duration<std::uint64_t, std::nano> kPatience = std::chrono::seconds(60);
 
 template <class Function>
 void load(VkDevice device, const char* name, Function& function) {
@@ -39,25 +32,8 @@ VulkanContext::VulkanContext(const ContextOptions& options)
         check(vkCreateCommandPool(device_, &pool, nullptr, &commandPool), "Creating a command pool");
         commandPool_ = {device_, commandPool, vkDestroyCommandPool};
 
-        VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-        buffer.commandPool = commandPool;
-        buffer.commandBufferCount = 1;
-        check(vkAllocateCommandBuffers(device_, &buffer, &commands_), "Creating a command buffer");
-
-        const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-        VkFence fence = VK_NULL_HANDLE;
-        check(vkCreateFence(device_, &fenceInfo, nullptr, &fence), "Creating a fence");
-        fence_ = {device_, fence, vkDestroyFence};
-
-        VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-        queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
-        queries.queryCount = 2;
-        VkQueryPool queryPool = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(device_, &queries, nullptr, &queryPool), "Creating timestamps");
-        timestamps_ = {device_, queryPool, vkDestroyQueryPool};
+        run_.emplace(*this);
     } catch (...) {
-        timestamps_ = {};
-        fence_ = {};
         commandPool_ = {};
         vkDestroyDevice(device_, nullptr);
         throw;
@@ -70,8 +46,7 @@ VulkanContext::~VulkanContext() {
         return;
     }
     vkDeviceWaitIdle(device_);
-    timestamps_ = {};
-    fence_ = {};
+    run_.reset();
     commandPool_ = {};
     vkDestroyDevice(device_, nullptr);
 }
@@ -164,60 +139,29 @@ void VulkanContext::queryLimits() {
     limits_.timestampMask = bits >= 64 ? std::numeric_limits<std::uint64_t>::max() : (std::uint64_t{1} << bits) - 1;
 }
 
-void VulkanContext::run(const Record& record, const std::function<void()>& meanwhile) {
-    // Its commands may still be in use.
-    if (device_ == abandonedDevice) throw DeviceLostError("Running on " + info_.name + ": the device was lost before");
-    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
-    record(commands_);
-    check(vkEndCommandBuffer(commands_), "Recording commands");
-    submit(commands_, meanwhile);
-}
-
-void VulkanContext::submit(VkCommandBuffer commands, const std::function<void()>& meanwhile) {
+void VulkanContext::submit(VkCommandBuffer commands, VkFence fence) {
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
-    const VkFence fence = fence_.get();
-    const std::string what = "Running on " + info_.name;
-    const auto checkRun = [&](VkResult result) {
-        if (result == VK_TIMEOUT || result == VK_ERROR_DEVICE_LOST) abandonedDevice = device_;
-        if (result == VK_TIMEOUT) throw DeviceLostError(what + ": no answer for a minute; a newer driver may help");
-        check(result, what);
-    };
-    checkRun(vkQueueSubmit(queue_, 1, &submit, fence));
-    if (meanwhile) meanwhile();
-    const bool patient = info_.type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    checkRun(vkWaitForFences(device_, 1, &fence, VK_TRUE,
-                             patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count()));
-    check(vkResetFences(device_, 1, &fence), what);
+    const VkResult result = vkQueueSubmit(queue_, 1, &submit, fence);
+    if (result == VK_ERROR_DEVICE_LOST) abandonedDevice = device_;
+    check(result, "Running on " + info_.name);
 }
 
-double VulkanContext::runTimed(const Record& record, const std::function<void()>& meanwhile) {
-    using Clock = std::chrono::steady_clock;
-    const Clock::time_point start = Clock::now();
-    const bool clock = limits_.timestampSeconds > 0;
-    const VkQueryPool pool = timestamps_.get();
-    const auto recordTimed = [&](VkCommandBuffer commands) {
-        if (clock) {
-            vkCmdResetQueryPool(commands, pool, 0, 2);
-            vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, pool, kBegin);
-        }
-        record(commands);
-        if (clock) vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, kEnd);
-    };
-    run(recordTimed, meanwhile);
-    const auto timed = [this](double seconds) {
-        longestRun_ = std::max(longestRun_, seconds);
-        return seconds;
-    };
-    if (!clock) return timed(std::chrono::duration<double>(Clock::now() - start).count());
-    std::array<std::uint64_t, 2> ticks{};
-    check(vkGetQueryPoolResults(device_, pool, 0, 2, sizeof ticks, ticks.data(), sizeof ticks[0],
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "Reading timestamps");
-    return timed(static_cast<double>((ticks[kEnd] - ticks[kBegin]) & limits_.timestampMask) * limits_.timestampSeconds);
+void VulkanContext::run(const Record& record) {
+    run_->begin(record);
+    run_->finish();
+}
+
+double VulkanContext::runTimed(const Record& record) {
+    run_->begin(record);
+    return finishTimed(*run_);
+}
+
+double VulkanContext::finishTimed(Run& run) {
+    const double seconds = run.finish();
+    longestRun_ = std::max(longestRun_, seconds);
+    return seconds;
 }
 
 std::uint32_t VulkanContext::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,

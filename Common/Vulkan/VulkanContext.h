@@ -3,7 +3,7 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <functional>
+#include <optional>
 #include <string>
 
 #include <vulkan/vulkan.h>
@@ -11,6 +11,7 @@
 #include "Common/Vulkan/DeviceSelection.h"
 #include "Common/Vulkan/Handle.h"
 #include "Common/Vulkan/Instance.h"
+#include "Common/Vulkan/Run.h"
 
 namespace rt::vulkan {
 
@@ -68,12 +69,12 @@ class VulkanContext {
     const RayTracingFunctions& rayTracing() const { return rayTracing_; }
     std::uint64_t validationMessages() const { return instance_.validationMessages(); }
 
-    using Record = std::function<void(VkCommandBuffer)>;
-    // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError. `meanwhile` is called while
-    // the device is at work.
-    void run(const Record& record, const std::function<void()>& meanwhile = {});
-    // The same, and returns how long the device took for it in seconds: by its own clock if it has one.
-    double runTimed(const Record& record, const std::function<void()>& meanwhile = {});
+    // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError.
+    void run(const Record& record);
+    // The same, and returns how long the device took for it in seconds.
+    double runTimed(const Record& record);
+    // Ends what was begun, timed as well.
+    double finishTimed(Run& run);
     double longestRun() const { return longestRun_; } // of all that were timed, in seconds
 
     // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
@@ -84,9 +85,9 @@ class VulkanContext {
     std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
 
   protected:
-    // Hands recorded commands to the device and waits, but for no more than a minute where it is not the CPU that works: not
-    // every system has a watchdog for that. Throws DeviceLostError then. Virtual for tests, whose devices can fail.
-    virtual void submit(VkCommandBuffer commands, const std::function<void()>& meanwhile);
+    friend class Run;
+    // Hands recorded commands to the device. Virtual for tests, whose devices can fail.
+    virtual void submit(VkCommandBuffer commands, VkFence fence);
 
   private:
     void createDevice();
@@ -101,9 +102,7 @@ class VulkanContext {
     VkQueue queue_ = VK_NULL_HANDLE;
     RayTracingFunctions rayTracing_;
     Handle<VkCommandPool> commandPool_;
-    Handle<VkFence> fence_;
-    Handle<VkQueryPool> timestamps_;
-    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    std::optional<Run> run_;
     double longestRun_ = 0;
     std::atomic<std::uint64_t> deviceBytes_{0};
 };

@@ -148,9 +148,9 @@ class FailingContext : public vulkan::VulkanContext {
     bool lost = false;
 
   protected:
-    void submit(VkCommandBuffer commands, const std::function<void()>& meanwhile) override {
+    void submit(VkCommandBuffer commands, VkFence fence) override {
         if (lost) throw vulkan::DeviceLostError("the device was lost");
-        VulkanContext::submit(commands, meanwhile);
+        VulkanContext::submit(commands, fence);
     }
 };
 

@@ -1,0 +1,93 @@
+#include "Common/Vulkan/Run.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/VulkanContext.h"
+
+namespace rt::vulkan {
+namespace {
+
+constexpr std::uint32_t kBegin = 0; // the two timestamps of a run
+constexpr std::uint32_t kEnd = 1;
+// All that is run takes far less: launches are cut to hundredths of a second.
+constexpr std::chrono::duration<std::uint64_t, std::nano> kPatience = std::chrono::seconds(60);
+
+} // namespace
+
+Run::Run(VulkanContext& context) : context_(context) {
+    const VkDevice device = context.device();
+    VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    buffer.commandPool = context.commandPool_.get();
+    buffer.commandBufferCount = 1;
+
+    const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    VkFence fence = VK_NULL_HANDLE;
+    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
+    fence_ = {device, fence, vkDestroyFence};
+
+    VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    queries.queryCount = 2;
+    VkQueryPool queryPool = VK_NULL_HANDLE;
+    check(vkCreateQueryPool(device, &queries, nullptr, &queryPool), "Creating timestamps");
+    timestamps_ = {device, queryPool, vkDestroyQueryPool};
+    check(vkAllocateCommandBuffers(device, &buffer, &commands_), "Creating a command buffer");
+}
+
+Run::~Run() {
+    if (context_.device() == abandonedDevice) return;
+    vkFreeCommandBuffers(context_.device(), context_.commandPool_.get(), 1, &commands_);
+}
+
+void Run::begin(const Record& record) {
+    // Its commands may still be in use.
+    if (context_.device() == abandonedDevice) {
+        throw DeviceLostError("Running on " + context_.info().name + ": the device was lost before");
+    }
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
+    const bool clock = context_.limits().timestampSeconds > 0;
+    // At the bottom of the pipe also the first: what was begun before belongs to another run.
+    const auto stamp = [&](std::uint32_t which) {
+        if (clock) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_.get(), which);
+    };
+    if (clock) vkCmdResetQueryPool(commands_, timestamps_.get(), 0, 2);
+    stamp(kBegin);
+    record(commands_);
+    stamp(kEnd);
+    check(vkEndCommandBuffer(commands_), "Recording commands");
+    begun_ = std::chrono::steady_clock::now();
+    context_.submit(commands_, fence_.get());
+}
+
+double Run::finish() {
+    await();
+    const DeviceLimits& limits = context_.limits();
+    if (limits.timestampSeconds <= 0) {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begun_).count();
+    }
+    std::array<std::uint64_t, 2> ticks{};
+    check(vkGetQueryPoolResults(context_.device(), timestamps_.get(), 0, 2, sizeof ticks, ticks.data(), sizeof ticks[0],
+                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+          "Reading timestamps");
+    return static_cast<double>((ticks[kEnd] - ticks[kBegin]) & limits.timestampMask) * limits.timestampSeconds;
+}
+
+void Run::await() {
+    const std::string what = "Running on " + context_.info().name;
+    const bool patient = context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const VkFence fence = fence_.get();
+    const VkResult result = vkWaitForFences(context_.device(), 1, &fence, VK_TRUE,
+                                            patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
+    if (result == VK_TIMEOUT || result == VK_ERROR_DEVICE_LOST) abandonedDevice = context_.device();
+    if (result == VK_TIMEOUT) throw DeviceLostError(what + ": no answer for a minute; a newer driver may help");
+    check(result, what);
+    check(vkResetFences(context_.device(), 1, &fence), what);
+}
+
+} // namespace rt::vulkan
