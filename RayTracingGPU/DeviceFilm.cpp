@@ -1,11 +1,12 @@
 #include "RayTracingGPU/DeviceFilm.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <span>
 
 #include "Common/Vulkan/Pipelines.h"
-#include "RayTracingGPU/EmbeddedShaders.h"
 
 namespace rt::gpu {
 namespace {
@@ -202,23 +203,68 @@ DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
     return added;
 }
 
-// ---- reduction -------------------------------------------------------------------------------------------------------
+app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
+    shared::ResolveLaunch launch{};
+    launch.samples = samplesBuffer_.address();
+    launch.sums = sums_.address();
+    launch.open = open_.address();
+    launch.width = desc_.width;
+    launch.height = desc_.height;
+    launch.tilesX = tilesX_;
+    launch.replicates = desc_.replicates;
+    app::Snapshot result{resolver.resolve(launch), {}};
+    result.tileSamples.assign(samples_.size() / desc_.replicates, 0);
+    for (std::size_t slot = 0; slot < samples_.size(); ++slot) {
+        result.tileSamples[slot / desc_.replicates] += samples_[slot];
+    }
+    return result;
+}
 
-FilmReducer::FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache) {
+// ---- pipelines -------------------------------------------------------------------------------------------------------
+
+FilmPipeline::FilmPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, Shader shader,
+                           std::uint32_t pushBytes) {
     const VkDevice device = context.device();
     constexpr const char* kWhat = "Creating the film's pipeline";
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(shared::FilmLaunch)};
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes};
     layout_ = vulkan::makePipelineLayout(device, push, VK_NULL_HANDLE, kWhat);
-    const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::FilmReduce));
+    const auto module = vulkan::makeShaderModule(device, shaderCode(shader));
     pipeline_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), nullptr, kWhat);
 }
 
-void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const {
+void FilmPipeline::record(VkCommandBuffer commands, const void* push, std::uint32_t bytes, std::uint32_t groups) const {
     constexpr std::uint32_t kMaxGroups = 65535; // per dimension, the least that Vulkan guarantees
-    const std::uint32_t columns = std::min(launch.slotCount, kMaxGroups);
+    const std::uint32_t columns = std::min(groups, kMaxGroups);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.get());
-    vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
-    vkCmdDispatch(commands, columns, (launch.slotCount + columns - 1) / columns, 1);
+    vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, push);
+    vkCmdDispatch(commands, columns, (groups + columns - 1) / columns, 1);
+}
+
+FilmReducer::FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache)
+    : pipeline_(context, cache, Shader::FilmReduce, sizeof(shared::FilmLaunch)) {}
+
+void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const {
+    pipeline_.run(commands, launch, launch.slotCount);
+}
+
+FilmResolver::FilmResolver(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache)
+    : context_(context), pipeline_(context, cache, Shader::FilmResolve, sizeof(shared::ResolveLaunch)) {}
+
+image::Image FilmResolver::resolve(shared::ResolveLaunch launch) {
+    image::Image image(launch.width, launch.height);
+    const std::size_t bytes = image.data.size() * sizeof image.data[0];
+    if (pixels_.bytes() < bytes) {
+        pixels_ = {};
+        pixels_ = vulkan::Buffer(context_, bytes, 0, vulkan::Memory::ReadBack, "a picture");
+    }
+    launch.pixels = pixels_.address();
+    const std::uint32_t rows = (launch.height + shared::kTile - 1) / shared::kTile;
+    context_.run([&](VkCommandBuffer commands) {
+        pipeline_.run(commands, launch, launch.tilesX * rows);
+        vulkan::barrier(commands);
+    });
+    std::memcpy(image.data.data(), pixels_.mapped<std::byte>().data(), bytes);
+    return image;
 }
 
 } // namespace rt::gpu

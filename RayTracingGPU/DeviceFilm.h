@@ -1,14 +1,57 @@
-// The part of a film that is on the device: the sums of consecutive tiles.
+// The part of a film that is on the device: the sums of consecutive tiles; and what is done with them there.
 #pragma once
 #include <cstdint>
 #include <vector>
 
+#include "Common/App/Engine.h"
 #include "Common/Image/Film.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanResources.h"
+#include "RayTracingGPU/EmbeddedShaders.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
+
+// A compute pipeline with a group for each of some slots or tiles.
+class FilmPipeline {
+  public:
+    // `pushBytes` is the size of its push constants.
+    FilmPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, Shader shader,
+                 std::uint32_t pushBytes);
+    template <class Push>
+    void run(VkCommandBuffer commands, const Push& push, std::uint32_t groups) const {
+        record(commands, &push, sizeof push, groups);
+    }
+
+  private:
+    void record(VkCommandBuffer commands, const void* push, std::uint32_t bytes, std::uint32_t groups) const;
+
+    vulkan::Handle<VkPipelineLayout> layout_;
+    vulkan::Handle<VkPipeline> pipeline_;
+};
+
+// Adds the block sums of a launch to the film.
+class FilmReducer {
+  public:
+    FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
+    void reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const;
+
+  private:
+    FilmPipeline pipeline_;
+};
+
+// Makes pictures of films.
+class FilmResolver {
+  public:
+    FilmResolver(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
+    // launch.pixels need not be set.
+    image::Image resolve(shared::ResolveLaunch launch);
+
+  private:
+    vulkan::VulkanContext& context_;
+    FilmPipeline pipeline_;
+    vulkan::Buffer pixels_; // of the host, of the largest so far
+};
 
 // A slot is a tile in one replicate; slots are counted from the first tile here.
 class DeviceFilm {
@@ -24,6 +67,8 @@ class DeviceFilm {
     void load(const image::Film& film, std::uint32_t firstTile);
     // Copies the contents into the film.
     void store(image::Film& film) const;
+    // What Film::resolve() would return, and the samples of each tile; isWhole() is required.
+    app::Snapshot snapshot(FilmResolver& resolver) const;
     // Makes room for blocks that stay open.
     void reserveOpenBlocks();
 
@@ -57,17 +102,6 @@ class DeviceFilm {
     vulkan::Buffer sums_;
     vulkan::Buffer squares_; // empty without second moments
     vulkan::Buffer open_;    // empty until reserved
-};
-
-// The compute pipeline that adds the block sums of a launch to the film.
-class FilmReducer {
-  public:
-    FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
-    void reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const;
-
-  private:
-    vulkan::Handle<VkPipelineLayout> layout_;
-    vulkan::Handle<VkPipeline> pipeline_;
 };
 
 } // namespace rt::gpu

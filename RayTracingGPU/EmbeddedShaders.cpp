@@ -13,6 +13,7 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
+#include <FilmResolve.comp.h>
 #include <PathTrace.Projected.comp.h>
 #include <PathTrace.comp.h>
 #include <Preview.comp.h>
@@ -71,6 +72,8 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return ProjectedSphere_rcall;
         case Shader::FilmReduce:
             return FilmReduce_comp;
+        case Shader::FilmResolve:
+            return FilmResolve_comp;
         case Shader::PreviewVertex:
             return Preview_vert;
         case Shader::PreviewFragment:

@@ -25,6 +25,7 @@ enum class Shader {
     ProjectedPolygon,
     ProjectedSphere,
     FilmReduce,
+    FilmResolve,
     PreviewVertex,
     PreviewFragment,
     PreviewFinish,

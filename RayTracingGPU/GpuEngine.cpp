@@ -19,7 +19,6 @@
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
-#include "RayTracingGPU/Launches.h"
 #include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RtPipeline.h"
 
@@ -85,6 +84,7 @@ class GpuEngine final : public app::Engine {
     void restore(Film film) override { setFilm(std::move(film)); }
     app::RenderStatus renderSome(const app::Budget& budget) override;
     const Film& film() override;
+    app::Snapshot snapshot() override;
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
     bool knowsCost(app::Cost cost) const override { return cost == app::Cost::Rays || context_.info().hasShaderClock; }
     image::Image renderCost(app::Cost cost, std::uint32_t samples) override;
@@ -93,13 +93,14 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report() const override;
 
   private:
+    bool isSoftware() const { return context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool isCompute() const { return engine_ == app::GpuEngineKind::Compute; }
     std::unique_ptr<Kernel> makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const;
     std::uint32_t maxInvocations() const;
     void setFilm(Film film);
     void uploadConstants(const scene::CameraDesc& camera);
-    bool beginPass(double seconds);
-    void launchNext(double seconds);
+    bool beginPass();
+    void launchNext();
     void beginLaunch(const shared::FilmLaunch& launch);
     void endLaunch();
     void endLaunches();
@@ -116,6 +117,7 @@ class GpuEngine final : public app::Engine {
     app::GpuEngineKind engine_; // which was chosen
     RenderBindings bindings_;
     FilmReducer reducer_;
+    std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer constants_;
     vulkan::Buffer counters_;
     vulkan::Buffer blockSums_;
@@ -175,7 +177,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         report_.pipelineSeconds = secondsSince(start);
         launchSize_.reset();
     }
-    if (!launchSize_) launchSize_.emplace(context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU, settings.maxDepth);
+    if (!launchSize_) launchSize_.emplace(isSoftware(), settings.maxDepth);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;
@@ -222,8 +224,8 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     const double seconds = budget.time.count();
     try {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
-            if (!inPass_ && !beginPass(seconds)) break;
-            launchNext(seconds);
+            if (!inPass_ && !beginPass()) break;
+            launchNext();
             if (secondsSince(start) + secondsAhead() >= seconds) break;
         }
         endLaunches();
@@ -247,7 +249,7 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
 // invocation takes its samples one after the other, and 16 long paths in a medium may last longer than the launch should; so
 // passes may end within a block. Long ones do so soon after the beginning of one: its items are the last that a launch has left.
 // Large films go on by whole blocks.
-bool GpuEngine::beginPass(double seconds) {
+bool GpuEngine::beginPass() {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
@@ -255,7 +257,7 @@ bool GpuEngine::beginPass(double seconds) {
     std::uint64_t end = (least / round + kRegionRounds) * round;
     if (region_->isWhole()) {
         const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
-        const std::uint64_t fitting = std::min(launchSize_->suggest(seconds) / pixels(), room);
+        const std::uint64_t fitting = std::min(launchSize_->suggest(options_.launchSeconds) / pixels(), room);
         end = least + std::max<std::uint64_t>(settings_.replicates, fitting);
         const std::uint64_t open = kOpenSamples * settings_.replicates;
         if (end >= open && (end - open) / round * round + open >= least + round)
@@ -272,9 +274,9 @@ bool GpuEngine::beginPass(double seconds) {
 }
 
 // Launches the next slots of the pass in all bands; behind the last ones of the last region the pass is over.
-void GpuEngine::launchNext(double seconds) {
+void GpuEngine::launchNext() {
     const std::uint64_t pixels = std::uint64_t{region_->bands()} * shared::kTilePixels; // of one slot in each band
-    const auto fitting = static_cast<std::uint64_t>(static_cast<double>(launchSize_->suggest(seconds)) /
+    const auto fitting = static_cast<std::uint64_t>(static_cast<double>(launchSize_->suggest(options_.launchSeconds)) /
                                                     (static_cast<double>(pixels) * passSamples_));
     const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (passRounds_ * pixels), 1);
     const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - nextSlot_, room);
@@ -396,6 +398,17 @@ const Film& GpuEngine::film() {
         }
     }
     return film_;
+}
+
+app::Snapshot GpuEngine::snapshot() {
+    if (failed_ || !region_ || !region_->isWhole()) return Engine::snapshot();
+    try {
+        if (!resolver_) resolver_.emplace(context_, cache_);
+        return region_->snapshot(*resolver_);
+    } catch (const RenderError&) {
+        failed_ = true; // the next call returns what there is
+        throw;
+    }
 }
 
 // ---- the rest --------------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include "Common/App/Engine.h"
 #include "Common/App/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
+#include "RayTracingGPU/Launches.h"
 
 namespace rt::gpu {
 
@@ -18,6 +19,7 @@ struct GpuEngineOptions {
     // rendered part by part, to the same bits.
     std::uint32_t regionSlots = 1u << 18;
     app::GpuEngineKind engine = app::GpuEngineKind::Auto;
+    double launchSeconds = kLaunchSeconds; // that the device is kept busy at a time, about
 };
 
 // `context` must outlive the engine. Throws NoDeviceError when its device has no ray tracing pipeline and one is asked for.

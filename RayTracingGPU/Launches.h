@@ -7,8 +7,12 @@ namespace rt::gpu {
 
 // No watchdog fires and a cancelled render ends soon when launches are short; a device is busy when they are not too short.
 inline constexpr double kLaunchSeconds = 0.04;
-// A window's draws wait for at most one launch, which leaves them half of a frame.
+// A window's draws wait for at most one launch, which leaves them half of a frame. Those of software are threads among threads.
 inline constexpr double kWindowLaunchSeconds = 0.008;
+inline constexpr double kSoftWindowLaunchSeconds = 0.025;
+inline double windowLaunchSeconds(bool isSoftware) {
+    return isSoftware ? kSoftWindowLaunchSeconds : kWindowLaunchSeconds;
+}
 
 class LaunchSize {
   public:

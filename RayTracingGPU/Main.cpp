@@ -43,11 +43,17 @@ rt::ExitCode render(const rt::app::Options& options) {
 
 #ifdef RT_HAS_WINDOW
 
+bool isSoftware(const rt::vulkan::VulkanContext& context) {
+    return context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+}
+
 // An engine and the device that it alone uses.
 class OwningEngine final : public rt::app::Engine {
   public:
     OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind)
-        : context_(options), engine_(rt::gpu::makeGpuEngine(context_, {.engine = kind})) {}
+        : context_(options),
+          engine_(rt::gpu::makeGpuEngine(
+              context_, {.engine = kind, .launchSeconds = rt::gpu::windowLaunchSeconds(isSoftware(context_))})) {}
 
     bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         return engine_->setScene(std::move(scene), cancel);
@@ -58,6 +64,7 @@ class OwningEngine final : public rt::app::Engine {
     void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
     rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override { return engine_->renderSome(budget); }
     const rt::image::Film& film() override { return engine_->film(); }
+    rt::app::Snapshot snapshot() override { return engine_->snapshot(); }
     rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
         return engine_->renderAovs(request, samples);
     }

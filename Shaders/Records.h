@@ -143,6 +143,18 @@ struct FilmLaunch {
     uint keepSquares;
 };
 
+// Push constants of FilmResolve.comp, for a film that is whole.
+struct ResolveLaunch {
+    MutableWordArray samples; // as FilmLaunch's, and so are the next two
+    FilmSumArray sums;
+    MutableVectorArray open;
+    MutableVectorArray pixels; // the means, row by row; 0 where there are no samples
+    uint width;
+    uint height;
+    uint tilesX;
+    uint replicates;
+};
+
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
 const uint kCounterWork = 0u;      // of line 0: items handed out
 const uint kCounterScattered = 1u; // rays

@@ -61,13 +61,14 @@ image::Image enlarge(const image::Image& image, std::uint32_t width, std::uint32
     return result;
 }
 
-void fillFromDraft(image::Image& picture, const image::Film& film, const image::Image& draft) {
+void fillFromDraft(image::Image& picture, std::span<const std::uint64_t> tileSamples, const image::Image& draft) {
     const Enlarged source(draft, picture.width, picture.height);
     constexpr std::uint32_t kTile = image::Film::kTile;
-    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) {
-        if (film.samples(tile) > 0) continue;
-        const std::uint32_t x0 = tile % film.tilesX() * kTile;
-        const std::uint32_t y0 = tile / film.tilesX() * kTile;
+    const std::uint32_t tilesX = (picture.width + kTile - 1) / kTile;
+    for (std::uint32_t tile = 0; tile < tileSamples.size(); ++tile) {
+        if (tileSamples[tile] > 0) continue;
+        const std::uint32_t x0 = tile % tilesX * kTile;
+        const std::uint32_t y0 = tile / tilesX * kTile;
         for (std::uint32_t y = y0; y < std::min(y0 + kTile, picture.height); ++y)
             for (std::uint32_t x = x0; x < std::min(x0 + kTile, picture.width); ++x)
                 source.read(x, y, picture.pixel(x, y));

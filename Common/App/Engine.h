@@ -1,5 +1,6 @@
 // What drives a renderer: no window, no file, no flag. The CPU engine and the GPU engine implement it, Session uses it.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -59,6 +60,15 @@ struct AovImages {
     image::Image albedo, normal, depth;
 };
 
+// The film as a picture.
+struct Snapshot {
+    image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
+    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as in image::Film
+    std::uint64_t leastSamples() const {
+        return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
+    }
+};
+
 // The scene as rasterisation draws it at once: lit without shadows, one ray a pixel.
 struct Preview {
     image::Image picture; // linear radiance
@@ -84,6 +94,8 @@ struct Engine {
     // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to date that
     // is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
+    // film() resolved, but for rounding; it may cost far less than the film on the host.
+    virtual Snapshot snapshot();
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
     // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine that
     // does not know the cost returns an image without pixels.

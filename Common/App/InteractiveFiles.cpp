@@ -133,8 +133,7 @@ void InteractiveSession::readReferenceFile(const std::string& file) {
 
 // The error so far, at times that grow by a tenth.
 void InteractiveSession::followError(const image::Image& picture, bool last) {
-    const std::uint64_t spp = engine_->film().minSamples();
-    if (spp == 0 || !referenceFits()) return;
+    if (!referenceFits()) return;
     if (!curve_.empty() && !last && renderSeconds_ < 1.1 * curve_.back().seconds) return;
     if (!curve_.empty() && renderSeconds_ <= curve_.back().seconds) return;
     const double pixels = static_cast<double>(settings_.width) * settings_.height;

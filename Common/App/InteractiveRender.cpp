@@ -23,6 +23,7 @@ constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while
 // second, when they differ less.
 constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
 constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
+constexpr double kPassSlice = 0.005;     // where the picture is shown as soon as it has its first samples
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
 
@@ -136,7 +137,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
     while (!status.finished && !cancelBuild_ && (!cancelRender_ || watch.seconds() < kMostDraftSeconds));
     learnSpeed(status.samplesDone, watch.seconds());
     if (!status.finished) return;
-    draft_ = engine_->film().resolve();
+    draft_ = engine_->snapshot().radiance;
     Picture picture;
     picture.radiance = std::make_shared<image::Image>(enlarge(draft_, settings.width, settings.height));
     picture.image = picture.radiance;
@@ -161,7 +162,7 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
 void InteractiveSession::renderFirstPass() {
     const std::uint64_t pass = status_.samplesTotal / settings_.spp * std::min(settings_.spp, image::Film::kBlock);
     const Stopwatch watch;
-    do status_ = engine_->renderSome({std::chrono::duration<double>(kLeastSlice), &cancelBuild_});
+    do status_ = engine_->renderSome({std::chrono::duration<double>(kPassSlice), &cancelBuild_});
     while (status_.samplesDone < pass && !cancelBuild_ && watch.seconds() < kMostDraftSeconds);
     renderSeconds_ += watch.seconds();
     learnSpeed(status_.samplesDone, watch.seconds());
@@ -286,15 +287,16 @@ void InteractiveSession::publish() {
     if (isPreviewing()) return;
     const Stopwatch watch;
     const auto viewBefore = featureView_;
-    const image::Film& film = engine_->film();
-    auto radiance = std::make_shared<image::Image>(film.resolve());
+    Snapshot snapshot = engine_->snapshot();
+    auto radiance = std::make_shared<image::Image>(std::move(snapshot.radiance));
     Picture picture;
-    picture.spp = film.minSamples();
-    if (picture.spp == 0 && !draft_.data.empty()) fillFromDraft(*radiance, film, draft_);
-    followError(*radiance, status_.finished);
+    picture.spp = snapshot.leastSamples();
+    if (picture.spp == 0 && !draft_.data.empty()) fillFromDraft(*radiance, snapshot.tileSamples, draft_);
+    if (picture.spp > 0) followError(*radiance, status_.finished);
     picture.image = picture.radiance = std::move(radiance);
-    if (const auto view = shownView(*picture.radiance)) show(view, picture);
+    if (const auto view = shownView(picture)) show(view, picture);
     if (view_.inspect) {
+        const image::Film& film = engine_->film();
         picture.samples = std::make_shared<image::Image>(film.sampleCounts());
         if (hasVariance(film)) picture.variance = std::make_shared<image::Image>(film.varianceOfMean());
     }
@@ -302,7 +304,7 @@ void InteractiveSession::publish() {
     if (!curve_.empty())
         relmse = curve_.back().relmse;
     else if (status_.finished)
-        relmse = estimate(film).relmse;
+        relmse = estimate(engine_->film()).relmse;
     const EngineReport report = engine_->report();
     update([&](SessionState& state) {
         picture.serial = state.picture.serial + 1;
@@ -330,7 +332,7 @@ void InteractiveSession::noteAnswer() {
 }
 
 // None where it is the radiance that is to be shown.
-std::shared_ptr<const ViewImage> InteractiveSession::shownView(const image::Image& radiance) {
+std::shared_ptr<const ViewImage> InteractiveSession::shownView(const Picture& picture) {
     const double pixels = static_cast<double>(settings_.width) * settings_.height;
     const auto affordable = [&](std::uint32_t most) { // samples
         return static_cast<std::uint32_t>(std::clamp(samplesPerSecond_ * kFeatureSeconds / pixels, 1.0, most * 1.0));
@@ -342,8 +344,8 @@ std::shared_ptr<const ViewImage> InteractiveSession::shownView(const image::Imag
             if (!hasVariance(engine_->film())) break;
             return std::make_shared<ViewImage>(showNoise(engine_->film(), view_.scale));
         case ViewMode::Error:
-            if (!referenceFits() || engine_->film().minSamples() == 0) break;
-            return std::make_shared<ViewImage>(showError(radiance, *reference_, view_.scale));
+            if (!referenceFits() || picture.spp == 0) break;
+            return std::make_shared<ViewImage>(showError(*picture.radiance, *reference_, view_.scale));
         case ViewMode::Heat:
         case ViewMode::Albedo:
         case ViewMode::Normal:

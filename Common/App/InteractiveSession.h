@@ -156,7 +156,7 @@ class InteractiveSession {
     void followError(const image::Image& picture, bool last);
     void findFocus(std::uint32_t x, std::uint32_t y);
     RunRecord makeRecord() const;
-    std::shared_ptr<const ViewImage> shownView(const image::Image& radiance);
+    std::shared_ptr<const ViewImage> shownView(const Picture& picture);
 
     Setup setup_;
 

@@ -52,9 +52,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
     setup.preview = !settings.rayTracing;
-    // Draws wait for launches on the same device; those of software are threads among threads. Threads of the processor wait for
-    // each other at the end of a slice, and requests that do not interrupt it for that end.
-    setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : device.isSoftware() ? 0.03 : 0.008;
+    // Threads of the processor wait for each other at the end of a slice, and requests that do not interrupt it for that end.
+    setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
     setup.onChange = [&isNews] { isNews = true; };

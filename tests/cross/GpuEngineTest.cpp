@@ -41,7 +41,11 @@ class GpuEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, GpuEngineTest, kBothEngines, engineName);
 
 gpu::GpuEngineOptions testedEngine(std::uint32_t regionSlots = gpu::GpuEngineOptions().regionSlots) {
-    return {.pipelineCache = false, .regionSlots = regionSlots, .engine = GpuEngineTest::GetParam()};
+    gpu::GpuEngineOptions options;
+    options.pipelineCache = false;
+    options.regionSlots = regionSlots;
+    options.engine = GpuEngineTest::GetParam();
+    return options;
 }
 
 struct Render {
@@ -111,20 +115,56 @@ TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
 }
 
 // A film that is rendered part by part, in launches of single tiles: the same bits.
-TEST_P(GpuEngineTest, NeitherPartsNorBudgetsShow) {
+TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
     app::RenderSettings settings = settingsFor(150);
     settings.replicates = 2;
     settings.secondMoments = true;
     Render whole(settings);
     const Film& expected = whole.finish();
-    for (const std::uint32_t slots : {1u, 6u}) {
-        for (const double seconds : {1e-9, 0.2}) {
-            Render parts(settings, testedEngine(slots));
-            const Film& actual = parts.finish({std::chrono::duration<double>(seconds), nullptr});
+    for (const std::uint32_t slots : {1u, 6u, gpu::GpuEngineOptions().regionSlots}) {
+        for (const double seconds : {1e-9, gpu::kWindowLaunchSeconds}) {
+            gpu::GpuEngineOptions options = testedEngine(slots);
+            options.launchSeconds = seconds;
+            Render parts(settings, options);
+            const Film& actual = parts.finish();
             EXPECT_EQ(actual.resolve().data, expected.resolve().data) << slots << ", " << seconds;
             EXPECT_EQ(actual.varianceOfMean().data, expected.varianceOfMean().data) << slots << ", " << seconds;
             EXPECT_EQ(parts.engine->report().rays.camera, whole.engine->report().rays.camera);
         }
+    }
+}
+
+// Made on the device or, of a film in parts, on the host: in the middle of a block, with several replicates, from a film.
+TEST_P(GpuEngineTest, ASnapshotIsTheResolvedFilm) {
+    const auto expectSame = [](app::Engine& engine) {
+        const app::Snapshot snapshot = engine.snapshot();
+        const Film& film = engine.film();
+        const image::Image expected = film.resolve();
+        ASSERT_EQ(snapshot.radiance.data.size(), expected.data.size());
+        for (std::size_t i = 0; i < expected.data.size(); ++i) {
+            EXPECT_NEAR(snapshot.radiance.data[i], expected.data[i], 3e-7f * expected.data[i]) << i;
+        }
+        ASSERT_EQ(snapshot.tileSamples.size(), film.tileCount());
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) {
+            EXPECT_EQ(snapshot.tileSamples[tile], film.samples(tile));
+        }
+        EXPECT_EQ(snapshot.leastSamples(), film.minSamples());
+    };
+    for (const std::uint32_t slots : {4u, gpu::GpuEngineOptions().regionSlots}) {
+        app::RenderSettings settings = settingsFor(45);
+        settings.width = 30;
+        settings.replicates = 2;
+        settings.sampler = app::SamplerKind::Independent;
+        Render render(settings, testedEngine(slots));
+        expectSame(*render.engine); // no samples
+        render.finish();
+        expectSame(*render.engine);
+        settings.spp = 64;
+        Render resumed(settings, testedEngine(slots));
+        resumed.engine->restore(render.engine->film());
+        expectSame(*resumed.engine);
+        resumed.finish();
+        expectSame(*resumed.engine);
     }
 }
 

@@ -1,0 +1,28 @@
+// The picture of a film.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_buffer_reference : require
+#extension GL_EXT_scalar_block_layout : require
+#include "Records.h"
+
+layout(local_size_x = 64) in; // the pixels of one tile
+layout(push_constant, scalar) uniform Launch { ResolveLaunch launch; };
+
+void main() {
+    uint tile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    uint tilePixel = gl_LocalInvocationID.x;
+    uvec2 pixel = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile + uvec2(tilePixel % kTile, tilePixel / kTile);
+    if (pixel.x >= launch.width || pixel.y >= launch.height) return;
+    vec3 sum = vec3(0.0f);
+    uint samples = 0u;
+    for (uint replicate = 0u; replicate < launch.replicates; replicate++) {
+        uint slot = tile * launch.replicates + replicate;
+        uint at = slot * kTilePixels + tilePixel;
+        uint done = launch.samples.at[slot];
+        vec3 low = launch.sums.at[at].low;
+        if (done % kBlock != 0u) low += launch.open.at[at];
+        sum += launch.sums.at[at].high + low;
+        samples += done;
+    }
+    launch.pixels.at[pixel.y * launch.width + pixel.x] = sum / float(max(samples, 1u));
+}
