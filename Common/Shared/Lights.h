@@ -403,9 +403,9 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
     s.uv = u;
     float density = 1.0f;
     if (view.regime == kRegimeColumns) {
-        ColumnSample c = sampleColumns(view.columns, u.x);
+        ColumnSample c = sampleColumns(view.columns, view.swapped ? u.y : u.x);
         density = c.pdf;
-        s.uv = view.swapped ? vec2(u.y, c.a) : vec2(c.a, u.y);
+        s.uv = view.swapped ? vec2(u.x, c.a) : vec2(c.a, u.y);
     }
     placeOnLight(s, light, position);
     s.pdf = density * areaPdf(light.area, s.distance, dot(light.normal, s.wi));

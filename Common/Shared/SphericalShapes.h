@@ -318,7 +318,7 @@ RT_FN vec2 wideRectangleNumbers(RT_IN(SphericalRectangle) r, vec2 position) {
 struct Columns {
     float start; // p of the edge's beginning; its end is at start + 1
     float d;
-    float rest0; // 1 - p / sqrt(p^2 + d) at one end and the other, p counted towards the side where most of the edge is
+    float rest0; // 1 - p / sqrt(p^2 + d) at the beginning and the end, p counted towards the side where most of the edge is
     float rest1;
     float mirror;  // that side: 1 or -1
     float inverse; // 1 / length^2 of the edge
@@ -345,9 +345,8 @@ RT_FN Columns makeColumns(vec3 middle, vec3 edge, float width2) {
     vec3 across = middle - edge * c.start;
     c.d = (dot(across, across) + width2 * (1.0f / 12.0f)) * c.inverse; // mean over the width
     c.mirror = signOf(c.start + 0.5f);
-    float low = c.mirror > 0.0f ? c.start : -1.0f - c.start;
-    c.rest0 = columnRest(low, c.d);
-    c.rest1 = columnRest(low + 1.0f, c.d);
+    c.rest0 = columnRest(c.mirror * c.start, c.d);
+    c.rest1 = columnRest(c.mirror * (c.start + 1.0f), c.d);
     return c;
 }
 
@@ -362,14 +361,14 @@ RT_FN ColumnSample sampleColumns(RT_IN(Columns) c, float u) {
     float r = sqrt(c.d / max(cosine2, 1.0e-37f));
     ColumnSample s;
     s.a = clamp((1.0f - rest) * r * c.mirror - c.start, 0.0f, 1.0f);
-    s.pdf = cosine2 / (r * (c.rest0 - c.rest1));
+    s.pdf = cosine2 / (r * abs(c.rest0 - c.rest1));
     return s;
 }
 
 // The same density at the coordinate p.
 RT_FN float columnsPdf(RT_IN(Columns) c, float p) {
     float r2 = p * p + c.d;
-    return c.d / (r2 * sqrt(r2) * (c.rest0 - c.rest1));
+    return c.d / (r2 * sqrt(r2) * abs(c.rest0 - c.rest1));
 }
 
 // ---- points uniform in area -----------------------------------------------------------------------------------------

@@ -59,21 +59,16 @@ double error(app::Engine& engine, const CompiledScene& scene, app::SamplerKind s
 
 // Independent numbers: -1/2. Sobol's over position in the pixel and on the light, four dimensions: at least -0.7; a
 // scrambling that is not nested, or one for several dimensions, makes it -1/2. At a distance of 3 the way in which the quad is
-// sampled changes within many pixels. Their errors, a ten thousandth of the radiance at 1024 samples, come from position in the pixel
-// and on the light together, and only either pair of dimensions is stratified.
+// sampled changes within many pixels; where equal numbers then led to other points, it was -0.66.
 TEST(Convergence, SobolIsSteeperThanIndependentAndNeverWorse) {
-    struct Case {
-        SceneDesc desc;
-        double slope;
-    };
-    for (const Case& c : {Case{litFloor(true), 0.7}, Case{litFloor(false), 0.7}, Case{litFloor(false, 3), 0.6}}) {
-        const auto scene = compileScene(c.desc);
+    for (const SceneDesc& desc : {litFloor(true), litFloor(false), litFloor(false, 3)}) {
+        const auto scene = compileScene(desc);
         const auto engine = cpu::makeCpuEngine({});
         engine->setScene(scene, nullptr);
         const image::Image reference = renderOnce(*engine, *scene, app::SamplerKind::Sobol, 1u << 14, 77);
         const double few = error(*engine, *scene, app::SamplerKind::Sobol, 16, reference);
         const double many = error(*engine, *scene, app::SamplerKind::Sobol, 1024, reference);
-        EXPECT_GE(std::log(few / many) / std::log(64.0), c.slope) << few << " to " << many;
+        EXPECT_GE(std::log(few / many) / std::log(64.0), 0.7) << few << " to " << many;
         for (const std::uint32_t spp : {1u, 4u, 16u, 64u, 256u}) {
             EXPECT_LE(error(*engine, *scene, app::SamplerKind::Sobol, spp, reference),
                       1.05 * error(*engine, *scene, app::SamplerKind::Independent, spp, reference))

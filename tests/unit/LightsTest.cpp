@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <glm/matrix.hpp>
@@ -329,6 +330,33 @@ TEST(Lights, AutomaticSamplingKnowsTheCosine) {
         EXPECT_LT(4.5 * variance(light, kShapeAuto), variance(light, kShapeSolidAngle));
     const Light overhead = quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0});
     EXPECT_LT(variance(overhead, kShapeAuto), 1.01 * variance(overhead, kShapeSolidAngle));
+}
+
+// Where the way of sampling a rectangle changes, by columns or by solid angle, equal numbers lead to much the same point: points
+// that are stratified within a pixel stay so. Both ways round, and seen from either side of the middle.
+TEST(Lights, EqualNumbersLeadToNeighboursWhereTheMethodChanges) {
+    const auto rectangle = [](bool swapped, double shift, double distance) {
+        const dvec3 along(2, 0, 0), across(0, 1.5, 0);
+        return quad({shift - 1, -0.75, distance}, swapped ? across : along, swapped ? along : across);
+    };
+    Uniforms uniform(31);
+    for (const bool swapped : {false, true}) {
+        for (const double shift : {-1.5, -0.2, 0.2, 1.5}) {
+            for (int i = 0; i < 32; ++i) {
+                const vec2 numbers = uniform.pair();
+                std::optional<vec2> before;
+                for (double distance = 2; distance < 4; distance += 0.01) {
+                    const vec2 uv = sampleLight(kFeatureAll, withMethod(kShapeAuto),
+                                                rectangle(swapped, shift, distance), vec3(0), kUp, 0, numbers)
+                                        .uv;
+                    if (before) {
+                        ASSERT_LT(glm::length(uv - *before), 0.05f) << swapped << ", " << shift << ", " << distance;
+                    }
+                    before = uv;
+                }
+            }
+        }
+    }
 }
 
 TEST(Lights, InsideASphere) {
