@@ -196,7 +196,7 @@ class FailingContext : public vulkan::VulkanContext {
 
 TEST_P(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
     FailingContext context;
-    Render render(settingsFor(1u << 20), testedEngine(), context);
+    Render render(settingsFor(1u << 30), testedEngine(), context);
     render.engine->renderSome({});
     const Film copy = render.engine->film();
     EXPECT_GT(copy.totalSamples(), 0u);
@@ -210,7 +210,7 @@ TEST_P(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
 
 TEST_P(GpuEngineTest, AFilmThatCannotBeReadIsAnErrorOnce) {
     FailingContext context;
-    Render render(settingsFor(1u << 20), testedEngine(), context);
+    Render render(settingsFor(1u << 30), testedEngine(), context);
     render.engine->renderSome({});
     context.lost = true;
     EXPECT_THROW(render.engine->film(), RenderError);
