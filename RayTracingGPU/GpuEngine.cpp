@@ -31,7 +31,8 @@ using vulkan::Memory;
 
 constexpr std::uint32_t kInvocations = 1u << 18;    // that share the work of a launch; fills the largest devices
 constexpr std::uint64_t kMaxBlockSums = 10'000'000; // of a launch: 120 MB
-constexpr std::uint64_t kOpenSamples = 2;           // of the block at the end of a long pass
+constexpr std::uint64_t kLongRounds = 4;            // of blocks, which make a pass long
+constexpr std::uint64_t kOpenSamples = 2;           // of the block at the end of a shorter pass
 constexpr std::uint64_t kRegionRounds = 8;          // per pass where regions take turns, each turn costing two copies
 
 double secondsSince(Clock::time_point start) {
@@ -137,9 +138,10 @@ class GpuEngine final : public app::Engine {
     Clock::time_point refreshed_;
     std::uint64_t samplesDone_ = 0;
     bool inPass_ = false;
-    std::uint32_t passEnd_ = 0;            // samples per pixel that the pass in progress leads to
-    std::uint32_t passRounds_ = 0;         // blocks of each slot that it takes, the first and last perhaps in part
-    double passSamples_ = 0;               // of each slot's pixels
+    std::uint32_t passEnd_ = 0;    // samples per pixel that the pass in progress leads to
+    std::uint32_t passRounds_ = 0; // blocks of each slot that it takes, the first and last perhaps in part
+    double passSamples_ = 0;       // of each slot's pixels
+    bool passIsLong_ = false;
     std::uint32_t nextSlot_ = 0;           // of each of the region's bands: the first that the pass has not launched
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     // The next launch is recorded while the device works at one, or it would have nothing to do in between.
@@ -245,28 +247,31 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-// Opens the next pass, which takes every pixel as many samples further as fit in a launch, but at least one of each replicate. An
-// invocation takes its samples one after the other, and 16 long paths in a medium may last longer than the launch should; so
-// passes may end within a block. Long ones do so soon after the beginning of one: its items are the last that a launch has left.
-// Large films go on by whole blocks.
+// Opens the next pass, which takes every pixel as many samples further as fit in a launch, but at least one of each replicate. Many
+// are rounded to whole blocks. Few may end within a block: an invocation takes its samples one after the other, and 16 long paths in
+// a medium may last longer than a launch should. More than a block end soon after the beginning of the last one, whose items
+// a launch then has left at its end. Large films go on by whole blocks.
 bool GpuEngine::beginPass() {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
     const std::uint64_t least = region_->isWhole() ? region_->leastSamples() : film_.minSamples();
     std::uint64_t end = (least / round + kRegionRounds) * round;
+    bool isLong = true;
     if (region_->isWhole()) {
         const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
         const std::uint64_t fitting = std::min(launchSize_->suggest(options_.launchSeconds) / pixels(), room);
+        isLong = fitting >= kLongRounds * round;
         end = least + std::max<std::uint64_t>(settings_.replicates, fitting);
-        const std::uint64_t open = kOpenSamples * settings_.replicates;
-        if (end >= open && (end - open) / round * round + open >= least + round)
-            end = (end - open) / round * round + open;
+        const std::uint64_t open = isLong ? 0 : kOpenSamples * settings_.replicates;
+        const std::uint64_t rounded = end < open ? 0 : (end - open) / round * round + open;
+        if (rounded >= least + round) end = rounded;
     }
     end = std::min<std::uint64_t>(end, settings_.spp);
     passEnd_ = static_cast<std::uint32_t>(end);
     passRounds_ = static_cast<std::uint32_t>((end + round - 1) / round - least / round);
     passSamples_ = static_cast<double>(end - least) / settings_.replicates;
+    passIsLong_ = isLong;
     if (end % round != 0) region_->reserveOpenBlocks();
     nextSlot_ = 0;
     inPass_ = true;
@@ -285,6 +290,7 @@ void GpuEngine::launchNext() {
     region_->describe(push, nextSlot_, width);
     push.blocks = passRounds_;
     push.spp = passEnd_;
+    push.byBlock = passIsLong_ ? 0u : 1u;
     beginLaunch(push);
     nextSlot_ += width;
     if (nextSlot_ == region_->bandSlots()) inPass_ = nextRegion();

@@ -140,6 +140,7 @@ struct FilmLaunch {
     uint slotCount; // bandWidth times the bands
     uint blocks;    // that the launch may take each slot further
     uint spp;       // per pixel, all replicates, at which the launch stops
+    uint byBlock;   // the order of items, see below
     uint keepSquares;
 };
 
@@ -181,8 +182,9 @@ RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }
 
-// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike. All slots' first
-// blocks come first, their last blocks last: those may be short, so that the invocations of a launch end at much the same time.
+// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike. A slot's blocks
+// follow each other, so that rays of one time are, too; or by block, all slots' first ones before their second ones: if the last are
+// short, the invocations of a launch end at much the same time.
 struct WorkItem {
     uint slot;
     uint block;
@@ -193,14 +195,16 @@ RT_FN WorkItem workItem(FilmLaunch launch, uint item) {
     WorkItem w;
     w.tilePixel = item % kTilePixels;
     uint rest = item / kTilePixels;
-    w.slot = launchSlot(launch, rest % launch.slotCount);
-    w.block = rest / launch.slotCount;
+    bool byBlock = launch.byBlock != 0u;
+    w.slot = launchSlot(launch, byBlock ? rest % launch.slotCount : rest / launch.blocks);
+    w.block = byBlock ? rest / launch.slotCount : rest % launch.blocks;
     return w;
 }
 
 // The item that is about this block of slot i of a launch.
 RT_FN uint itemOf(FilmLaunch launch, uint i, uint block, uint tilePixel) {
-    return (block * launch.slotCount + i) * kTilePixels + tilePixel;
+    uint rest = launch.byBlock != 0u ? block * launch.slotCount + i : i * launch.blocks + block;
+    return rest * kTilePixels + tilePixel;
 }
 
 RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
