@@ -10,7 +10,7 @@
 namespace rt::app {
 namespace {
 
-constexpr double kDraftSeconds = 0.025; // of what is shown first after a change, which may wait for the end of another
+constexpr double kDraftSeconds = 0.02; // of what is shown first after a change, which may wait for the end of another
 constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
 constexpr std::uint32_t kDraftSpp = 4;     // at most
 constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
