@@ -43,11 +43,15 @@ Run::~Run() {
     vkFreeCommandBuffers(context_.device(), context_.commandPool_.get(), 1, &commands_);
 }
 
-void Run::begin(const Record& record) {
-    // Its commands may still be in use.
+// What an abandoned device was given may still be in use, and would be waited for in vain.
+void Run::requireDevice() const {
     if (context_.device() == abandonedDevice) {
         throw DeviceLostError("Running on " + context_.info().name + ": the device was lost before");
     }
+}
+
+void Run::begin(const Record& record) {
+    requireDevice();
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands_, &begin), "Recording commands");
@@ -79,6 +83,7 @@ double Run::finish() {
 }
 
 void Run::await() {
+    requireDevice();
     const std::string what = "Running on " + context_.info().name;
     const bool patient = context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
     const VkFence fence = fence_.get();

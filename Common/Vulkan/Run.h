@@ -27,6 +27,7 @@ class Run {
     double finish();
 
   private:
+    void requireDevice() const;
     void await();
 
     VulkanContext& context_;
