@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "Common/Vulkan/Pipelines.h"
@@ -179,12 +180,13 @@ std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
 
 std::uint64_t DeviceFilm::leastSamples() const {
     std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    for (std::size_t tile = 0; tile < samples_.size(); tile += desc_.replicates) {
-        std::uint64_t samples = 0;
-        for (std::uint32_t r = 0; r < desc_.replicates; ++r) samples += samples_[tile + r];
-        least = std::min(least, samples);
-    }
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, tileSamples(tile));
     return least;
+}
+
+std::uint64_t DeviceFilm::tileSamples(std::uint32_t tile) const {
+    const auto first = samples_.begin() + std::ptrdiff_t{tile} * desc_.replicates;
+    return std::accumulate(first, first + desc_.replicates, std::uint64_t{0});
 }
 
 DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
@@ -213,10 +215,8 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     launch.tilesX = tilesX_;
     launch.replicates = desc_.replicates;
     app::Snapshot result{resolver.resolve(launch), {}};
-    result.tileSamples.assign(samples_.size() / desc_.replicates, 0);
-    for (std::size_t slot = 0; slot < samples_.size(); ++slot) {
-        result.tileSamples[slot / desc_.replicates] += samples_[slot];
-    }
+    result.tileSamples.reserve(tileCount());
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) result.tileSamples.push_back(tileSamples(tile));
     return result;
 }
 

@@ -90,6 +90,8 @@ class DeviceFilm {
 
   private:
     void clear();
+    std::uint32_t tileCount() const { return slotCount() / desc_.replicates; } // that it holds
+    std::uint64_t tileSamples(std::uint32_t tile) const; // counted from the first tile; all replicates
     std::uint32_t pixelsInside(std::uint32_t slot) const;
 
     vulkan::VulkanContext& context_;

@@ -7,7 +7,7 @@ namespace rt::gpu {
 using app::GpuEngineKind;
 
 bool computeIsFaster(const vulkan::DeviceInfo& device) {
-    return device.type == VK_PHYSICAL_DEVICE_TYPE_CPU || !device.hasRayQueries;
+    return device.isSoftware() || !device.hasRayQueries;
 }
 
 GpuEngineKind chooseEngine(GpuEngineKind wish, const vulkan::DeviceInfo& device) {

@@ -94,7 +94,6 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report() const override;
 
   private:
-    bool isSoftware() const { return context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool isCompute() const { return engine_ == app::GpuEngineKind::Compute; }
     std::unique_ptr<Kernel> makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const;
     std::uint32_t maxInvocations() const;
@@ -179,7 +178,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         report_.pipelineSeconds = secondsSince(start);
         launchSize_.reset();
     }
-    if (!launchSize_) launchSize_.emplace(isSoftware(), settings.maxDepth);
+    if (!launchSize_) launchSize_.emplace(context_.info().isSoftware(), settings.maxDepth);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;

@@ -43,17 +43,14 @@ rt::ExitCode render(const rt::app::Options& options) {
 
 #ifdef RT_HAS_WINDOW
 
-bool isSoftware(const rt::vulkan::VulkanContext& context) {
-    return context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
-}
-
 // An engine and the device that it alone uses.
 class OwningEngine final : public rt::app::Engine {
   public:
     OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind)
         : context_(options),
           engine_(rt::gpu::makeGpuEngine(
-              context_, {.engine = kind, .launchSeconds = rt::gpu::windowLaunchSeconds(isSoftware(context_))})) {}
+              context_,
+              {.engine = kind, .launchSeconds = rt::gpu::windowLaunchSeconds(context_.info().isSoftware())})) {}
 
     bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         return engine_->setScene(std::move(scene), cancel);

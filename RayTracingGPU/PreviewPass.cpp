@@ -83,7 +83,7 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
                  "constants"),
       clearing_(makePreviewRenderPass(context.device(), true)),
       goingOn_(makePreviewRenderPass(context.device(), false)),
-      vertices_(context.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU, 1) {
+      vertices_(context.info().isSoftware(), 1) {
     if (!context.info().draws) throw RenderError(context.info().name + " cannot draw: there is no preview");
     listDraws();
     createPipelines(cache);

@@ -39,6 +39,11 @@ RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
     return settings;
 }
 
+// Samples until every pixel has a block of them, or all.
+std::uint64_t firstPass(const RenderSettings& settings) {
+    return std::uint64_t{settings.width} * settings.height * std::min(settings.spp, image::Film::kBlock);
+}
+
 void show(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
     picture.image = {view, &view->image};
     picture.legend = view->legend;
@@ -119,9 +124,8 @@ void InteractiveSession::learnSpeed(std::uint64_t samples, double seconds) {
 void InteractiveSession::renderDraft(const RenderSettings& settings) {
     const double pixels = static_cast<double>(settings.width) * settings.height;
     const double affordable = samplesPerSecond_ * kDraftSeconds;
-    const double firstPass = pixels * std::min(settings.spp, image::Film::kBlock);
     draft_ = {};
-    if (affordable >= firstPass) return;
+    if (affordable >= static_cast<double>(firstPass(settings))) return;
     const double scale = std::sqrt(std::min(1.0, affordable / pixels));
     RenderSettings draft = settings;
     draft.width = std::max(1u, static_cast<std::uint32_t>(settings.width * scale));
@@ -160,10 +164,9 @@ void InteractiveSession::renderDraft(const RenderSettings& settings) {
 
 // What is shown first after a change where that takes no longer than a draft would. The next change does not interrupt it either.
 void InteractiveSession::renderFirstPass() {
-    const std::uint64_t pass = status_.samplesTotal / settings_.spp * std::min(settings_.spp, image::Film::kBlock);
     const Stopwatch watch;
     do status_ = engine_->renderSome({std::chrono::duration<double>(kPassSlice), &cancelBuild_});
-    while (status_.samplesDone < pass && !cancelBuild_ && watch.seconds() < kMostDraftSeconds);
+    while (status_.samplesDone < firstPass(settings_) && !cancelBuild_ && watch.seconds() < kMostDraftSeconds);
     renderSeconds_ += watch.seconds();
     learnSpeed(status_.samplesDone, watch.seconds());
     publish();

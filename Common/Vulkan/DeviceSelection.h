@@ -24,6 +24,7 @@ struct DeviceInfo {
     bool hasRayQueries = false;     // any shader may trace rays; of no use to us, but see computeIsFaster()
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
+    bool isSoftware() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool suitable() const { return missing.empty(); }
     bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
 };

@@ -20,10 +20,6 @@ constexpr std::chrono::duration<std::uint64_t, std::nano> kPatience = std::chron
 
 Run::Run(VulkanContext& context) : context_(context) {
     const VkDevice device = context.device();
-    VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    buffer.commandPool = context.commandPool_.get();
-    buffer.commandBufferCount = 1;
-
     const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     VkFence fence = VK_NULL_HANDLE;
     check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
@@ -35,6 +31,10 @@ Run::Run(VulkanContext& context) : context_(context) {
     VkQueryPool queryPool = VK_NULL_HANDLE;
     check(vkCreateQueryPool(device, &queries, nullptr, &queryPool), "Creating timestamps");
     timestamps_ = {device, queryPool, vkDestroyQueryPool};
+
+    VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    buffer.commandPool = context.commandPool_.get();
+    buffer.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device, &buffer, &commands_), "Creating a command buffer");
 }
 
@@ -85,7 +85,7 @@ double Run::finish() {
 void Run::await() {
     requireDevice();
     const std::string what = "Running on " + context_.info().name;
-    const bool patient = context_.info().type == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    const bool patient = context_.info().isSoftware();
     const VkFence fence = fence_.get();
     const VkResult result = vkWaitForFences(context_.device(), 1, &fence, VK_TRUE,
                                             patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
