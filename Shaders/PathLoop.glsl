@@ -52,12 +52,20 @@ void tracePaths(uint invocation) {
     uint shadow = 0u;
     uint nonfinite = 0u;
     Work work;
-    // Without work the sampler is undefined, and so would a path be.
-    if (!takeWork(work)) return;
-    PathState path = beginPath(params, work);
+    work.smp.index = 0u;
+    work.end = 0u; // nothing is left of it
+    PathState path;
     DirectLight direct = noDirectLight();
+    bool begins = true;
     bool goesOn = false; // the path has a next vertex
     for (;;) {
+        // Paths begin in one place: compilers round two copies of it differently, and it is the launch that decides which samples
+        // an invocation begins with.
+        if (begins) {
+            if (work.smp.index == work.end && !takeWork(work)) break;
+            path = beginPath(params, work);
+            begins = false;
+        }
         bool checking = direct.distance > 0.0f;
         Hit hit = traceStep(path, direct, checking, nonfinite);
         if (checking) {
@@ -79,9 +87,8 @@ void tracePaths(uint invocation) {
         if (++work.smp.index == work.end) {
             launch.blockSums.at[work.item] = work.sum;
             atomicAdd(launch.counters.at[line + kCounterItems], 1u);
-            if (!takeWork(work)) break;
         }
-        path = beginPath(params, work);
+        begins = true;
     }
     atomicAdd(launch.counters.at[line + kCounterScattered], scattered);
     atomicAdd(launch.counters.at[line + kCounterShadow], shadow);
