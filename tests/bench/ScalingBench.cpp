@@ -19,7 +19,8 @@
 namespace rt::bench {
 namespace {
 
-constexpr double kSeconds = 1; // of a measurement
+constexpr double kWarmUp = 0.1; // seconds: clocks, caches
+constexpr double kSeconds = 1;   // of a measurement of Embree
 
 // The renderer on so many threads.
 class Renderer {
@@ -28,16 +29,18 @@ class Renderer {
         : scene_(std::move(scene)), engine_(cpu::makeCpuEngine({.threads = threads})) {
         engine_->setScene(scene_, nullptr);
         settings_.width = settings_.height = 600;
-        settings_.spp = 1u << 20;
+        settings_.spp = image::Film::kBlock;
     }
 
+    // Of the whole image: its parts differ, and in a given time more threads get to more of them.
     double samplesPerSecond() {
         engine_->reset(scene_->camera, settings_);
-        engine_->renderSome({std::chrono::duration<double>(0.1 * kSeconds), nullptr}); // clocks, caches
-        const std::uint64_t before = engine_->film().totalSamples();
+        engine_->renderSome({std::chrono::duration<double>(kWarmUp), nullptr});
+        engine_->reset(scene_->camera, settings_);
         const app::Stopwatch watch;
-        engine_->renderSome({std::chrono::duration<double>(kSeconds), nullptr});
-        return static_cast<double>(engine_->film().totalSamples() - before) / watch.seconds();
+        while (!engine_->renderSome({std::chrono::duration<double>(kSeconds), nullptr}).finished) {
+        }
+        return static_cast<double>(engine_->film().totalSamples()) / watch.seconds();
     }
 
   private:
