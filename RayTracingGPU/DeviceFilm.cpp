@@ -240,13 +240,6 @@ void FilmPipeline::record(VkCommandBuffer commands, const void* push, std::uint3
     vkCmdDispatch(commands, columns, (groups + columns - 1) / columns, 1);
 }
 
-FilmReducer::FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache)
-    : pipeline_(context, cache, Shader::FilmReduce, sizeof(shared::FilmLaunch)) {}
-
-void FilmReducer::reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const {
-    pipeline_.run(commands, launch, launch.slotCount);
-}
-
 FilmResolver::FilmResolver(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache)
     : context_(context), pipeline_(context, cache, Shader::FilmResolve, sizeof(shared::ResolveLaunch)) {}
 

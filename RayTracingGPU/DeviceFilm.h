@@ -30,16 +30,6 @@ class FilmPipeline {
     vulkan::Handle<VkPipeline> pipeline_;
 };
 
-// Adds the block sums of a launch to the film.
-class FilmReducer {
-  public:
-    FilmReducer(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
-    void reduce(VkCommandBuffer commands, const shared::FilmLaunch& launch) const;
-
-  private:
-    FilmPipeline pipeline_;
-};
-
 // Makes pictures of films.
 class FilmResolver {
   public:

@@ -1,7 +1,6 @@
 #include "RayTracingGPU/GpuEngine.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <optional>
 #include <span>
@@ -19,6 +18,7 @@
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
+#include "RayTracingGPU/LaunchQueue.h"
 #include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RtPipeline.h"
 
@@ -39,23 +39,20 @@ double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
-
-// What is handed to the device at a time.
-struct Launch {
-    explicit Launch(vulkan::VulkanContext& context)
-        : run(context), counters(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
-
-    vulkan::Run run;
-    vulkan::Buffer counters; // of it, when it has ended
-    DeviceFilm::Work work;   // that it does
-};
-
 // What a kernel is compiled for.
 struct KernelKey {
     PipelineDecisions decisions;
     TraversalShape shape; // of the compute engine
     bool operator==(const KernelKey&) const = default;
+};
+
+// Takes every pixel further, slot by slot.
+struct Pass {
+    std::uint32_t end = 0;      // samples per pixel that it leads to
+    std::uint32_t rounds = 0;   // blocks of each slot that it takes, the first and last perhaps in part
+    double samples = 0;         // of each slot's pixels
+    bool isLong = false;        // it takes many blocks
+    std::uint32_t nextSlot = 0; // of each of the region's bands: the first that it has not launched
 };
 
 class GpuEngine final : public app::Engine {
@@ -66,11 +63,9 @@ class GpuEngine final : public app::Engine {
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
           engine_(chooseEngine(options.engine, context.info())),
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
-          reducer_(context, cache_),
           constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
                      "constants"),
-          counters_(context, kCounterBytes, 0, Memory::Device, "counters"),
-          launches_{Launch(context), Launch(context)} {}
+          launches_(context, cache_) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
@@ -104,8 +99,6 @@ class GpuEngine final : public app::Engine {
     void beginLaunch(const shared::FilmLaunch& launch);
     void endLaunch();
     void endLaunches();
-    void dropLaunches();
-    double secondsAhead() const;
     bool nextRegion();
     void refresh();
 
@@ -116,11 +109,9 @@ class GpuEngine final : public app::Engine {
     vulkan::PipelineCache cache_;
     app::GpuEngineKind engine_; // which was chosen
     RenderBindings bindings_;
-    FilmReducer reducer_;
     std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer constants_;
-    vulkan::Buffer counters_;
-    vulkan::Buffer blockSums_;
+    LaunchQueue launches_;
 
     std::unique_ptr<GpuScene> scene_;
     std::optional<PreviewPass> preview_; // of the scene, once it was asked for
@@ -136,17 +127,8 @@ class GpuEngine final : public app::Engine {
     bool failed_ = false;                // the device did: nothing may be read from it any more
     Clock::time_point refreshed_;
     std::uint64_t samplesDone_ = 0;
-    bool inPass_ = false;
-    std::uint32_t passEnd_ = 0;    // samples per pixel that the pass in progress leads to
-    std::uint32_t passRounds_ = 0; // blocks of each slot that it takes, the first and last perhaps in part
-    double passSamples_ = 0;       // of each slot's pixels
-    bool passIsLong_ = false;
-    std::uint32_t nextSlot_ = 0;           // of each of the region's bands: the first that the pass has not launched
+    std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
-    // The next launch is recorded while the device works at one, or it would have nothing to do in between.
-    std::array<Launch, 2> launches_;
-    std::uint64_t begun_ = 0; // launches, of which number n is launches_[n % 2]
-    std::uint64_t ended_ = 0;
     app::EngineReport report_;
 };
 
@@ -213,7 +195,7 @@ void GpuEngine::setFilm(Film film) {
     samplesDone_ = film_.totalSamples();
     dirty_ = false;
     failed_ = false;
-    inPass_ = false;
+    pass_.reset();
     refreshed_ = Clock::now();
 }
 
@@ -225,18 +207,18 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     const double seconds = budget.time.count();
     try {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
-            if (!inPass_ && !beginPass()) break;
+            if (!pass_ && !beginPass()) break;
             launchNext();
-            if (secondsSince(start) + secondsAhead() >= seconds) break;
+            if (secondsSince(start) + launchSize_->secondsFor(launches_.samplesAhead()) >= seconds) break;
         }
         endLaunches();
         if (dirty_ && secondsSince(refreshed_) > kRefreshSeconds) refresh();
     } catch (const vulkan::DeviceLostError&) {
         failed_ = true;
-        dropLaunches();
+        launches_.drop();
         throw;
     } catch (...) {
-        dropLaunches();
+        launches_.drop();
         throw;
     }
     app::RenderStatus status;
@@ -267,13 +249,11 @@ bool GpuEngine::beginPass() {
         if (rounded >= least + round) end = rounded;
     }
     end = std::min<std::uint64_t>(end, settings_.spp);
-    passEnd_ = static_cast<std::uint32_t>(end);
-    passRounds_ = static_cast<std::uint32_t>((end + round - 1) / round - least / round);
-    passSamples_ = static_cast<double>(end - least) / settings_.replicates;
-    passIsLong_ = isLong;
     if (end % round != 0) region_->reserveOpenBlocks();
-    nextSlot_ = 0;
-    inPass_ = true;
+    pass_ = Pass{.end = static_cast<std::uint32_t>(end),
+                 .rounds = static_cast<std::uint32_t>((end + round - 1) / round - least / round),
+                 .samples = static_cast<double>(end - least) / settings_.replicates,
+                 .isLong = isLong};
     return true;
 }
 
@@ -281,98 +261,49 @@ bool GpuEngine::beginPass() {
 void GpuEngine::launchNext() {
     const std::uint64_t pixels = std::uint64_t{region_->bands()} * shared::kTilePixels; // of one slot in each band
     const auto fitting = static_cast<std::uint64_t>(static_cast<double>(launchSize_->suggest(options_.launchSeconds)) /
-                                                    (static_cast<double>(pixels) * passSamples_));
-    const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (passRounds_ * pixels), 1);
-    const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - nextSlot_, room);
+                                                    (static_cast<double>(pixels) * pass_->samples));
+    const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (pass_->rounds * pixels), 1);
+    const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - pass_->nextSlot, room);
     const auto width = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, most));
     shared::FilmLaunch push{};
-    region_->describe(push, nextSlot_, width);
-    push.blocks = passRounds_;
-    push.spp = passEnd_;
-    push.byBlock = passIsLong_ ? 0u : 1u;
+    region_->describe(push, pass_->nextSlot, width);
+    push.blocks = pass_->rounds;
+    push.spp = pass_->end;
+    push.byBlock = pass_->isLong ? 0u : 1u;
     beginLaunch(push);
-    nextSlot_ += width;
-    if (nextSlot_ == region_->bandSlots()) inPass_ = nextRegion();
+    pass_->nextSlot += width;
+    if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) pass_.reset();
 }
 
 std::uint32_t GpuEngine::maxInvocations() const {
     return isCompute() ? kInvocations : std::min(kInvocations, context_.limits().maxInvocations);
 }
 
-// Hands a launch to the device, while that works at no more than one other.
-void GpuEngine::beginLaunch(const shared::FilmLaunch& filmLaunch) {
-    if (begun_ - ended_ == launches_.size()) endLaunch();
-    shared::FilmLaunch push = filmLaunch;
-    const std::uint32_t items = push.slotCount * push.blocks * shared::kTilePixels;
-    const VkDeviceSize bytes = VkDeviceSize{items} * sizeof(shared::vec3);
-    if (blockSums_.bytes() < bytes) {
-        endLaunches();
-        blockSums_ = {};
-        blockSums_ = vulkan::Buffer(context_, bytes, 0, Memory::Device, "a launch");
-    }
-    push.blockSums = blockSums_.address();
-    push.counters = counters_.address();
-    Launch& next = launches_[begun_ % launches_.size()];
-    next.run.begin([&](VkCommandBuffer commands) {
-        vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
-        vulkan::barrier(commands);
-        kernel_->launch(commands, push, std::min(items, maxInvocations()));
-        vulkan::barrier(commands);
-        reducer_.reduce(commands, push);
-        const VkBufferCopy all{0, 0, kCounterBytes};
-        vkCmdCopyBuffer(commands, counters_.get(), next.counters.get(), 1, &all);
-        vulkan::barrier(commands);
-    });
-    ++begun_;
-    next.work = region_->advance(push);
-    samplesDone_ += next.work.samples;
+void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
+    while (!launches_.hasRoom(launch)) endLaunch();
+    samplesDone_ += launches_.begin(*kernel_, *region_, launch, maxInvocations()).samples;
     dirty_ = true;
 }
 
 // Waits for the end of the oldest launch that has not ended.
 void GpuEngine::endLaunch() {
-    Launch& launch = launches_[ended_++ % launches_.size()];
-    const double seconds = context_.finishTimed(launch.run);
-    launchSize_->measured(launch.work.samples, seconds);
-
-    report_.renderDeviceSeconds += seconds;
-    report_.rays.camera += launch.work.samples;
-    std::uint64_t finished = 0;
-    const std::span<const std::uint32_t> counters = launch.counters.mapped<const std::uint32_t>();
-    for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
-        report_.rays.scattered += counters[line + shared::kCounterScattered];
-        report_.rays.shadow += counters[line + shared::kCounterShadow];
-        report_.nonfiniteSamples += counters[line + shared::kCounterNonfinite];
-        finished += counters[line + shared::kCounterItems];
-    }
-    // Drivers have been seen that end long loops early.
-    if (finished != launch.work.items) {
+    const LaunchQueue::Ended ended = launches_.end();
+    launchSize_->measured(ended.work.samples, ended.seconds);
+    report_.renderDeviceSeconds += ended.seconds;
+    report_.rays.camera += ended.work.samples;
+    report_.rays.scattered += ended.scattered;
+    report_.rays.shadow += ended.shadow;
+    report_.nonfiniteSamples += ended.nonfinite;
+    if (ended.itemsDone != ended.work.items) {
         failed_ = true; // what is on the device is not a film
         throw RenderError(context_.info().name + " ended a shader before its work was done (" +
-                          std::to_string(finished) + " of " + std::to_string(launch.work.items) +
+                          std::to_string(ended.itemsDone) + " of " + std::to_string(ended.work.items) +
                           " items); a newer driver may help");
     }
 }
 
 void GpuEngine::endLaunches() {
-    while (ended_ < begun_) endLaunch();
-}
-
-// How long the device is going to be at what it has been handed.
-double GpuEngine::secondsAhead() const {
-    std::uint64_t samples = 0;
-    for (std::uint64_t i = ended_; i < begun_; ++i) samples += launches_[i % launches_.size()].work.samples;
-    return launchSize_->secondsFor(samples);
-}
-
-// After a failure: nothing that the device still works at may be touched.
-void GpuEngine::dropLaunches() {
-    for (; ended_ < begun_; ++ended_) {
-        try {
-            launches_[ended_ % launches_.size()].run.finish();
-        } catch (const RenderError&) { // as the one before
-        }
-    }
+    while (!launches_.isEmpty()) endLaunch();
 }
 
 // Goes on to the next part of a large film. False: this one was the last.
@@ -383,7 +314,7 @@ bool GpuEngine::nextRegion() {
     const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;
     if (next >= film_.tileCount()) return false;
     region_->load(film_, next);
-    nextSlot_ = 0;
+    pass_->nextSlot = 0;
     return true;
 }
 

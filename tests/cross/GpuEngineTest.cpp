@@ -311,7 +311,7 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
     constexpr std::uint32_t kPerLaunch = 4096;
     vulkan::VulkanContext& context = device();
     const vulkan::PipelineCache cache(context, "");
-    const gpu::FilmReducer reducer(context, cache);
+    const gpu::FilmPipeline reducer(context, cache, gpu::Shader::FilmReduce, sizeof(shared::FilmLaunch));
     Film film({8, 8, 1, false});
     gpu::DeviceFilm onDevice(context, film.desc(), 1);
     onDevice.load(film, 0);
@@ -330,7 +330,7 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
         launch.blocks = kPerLaunch;
         launch.spp = (done + kPerLaunch) * shared::kBlock;
         context.run([&](VkCommandBuffer commands) {
-            reducer.reduce(commands, launch);
+            reducer.run(commands, launch, launch.slotCount);
             vulkan::barrier(commands);
         });
         onDevice.advance(launch);
