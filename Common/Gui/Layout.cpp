@@ -13,7 +13,6 @@ namespace {
 
 constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
 constexpr float kBottomShare = 0.4f; // of the height
-constexpr float kHeaderStays = 25;   // heights of the font: in lower windows the header scrolls with the panels
 
 bool hasSide(std::span<const Panel> panels) {
     return std::any_of(panels.begin(), panels.end(),
@@ -84,6 +83,7 @@ Rect layOut(std::span<const Panel> panels, float scale, const std::function<void
     constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                         ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+    constexpr float kHeaderStays = 25; // heights of the font: in lower windows the header scrolls with the panels
     const ImVec2 padding = ImGui::GetStyle().WindowPadding;
     const float statusHeight = std::min(ImGui::GetTextLineHeight() + padding.y, viewport->Size.y);
     const float height = std::max(1.0f, viewport->Size.y - statusHeight);

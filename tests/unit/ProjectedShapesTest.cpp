@@ -48,7 +48,7 @@ TEST(ProjectedCap, MeanIsTheProjectedSolidAngleAndVarianceIsThatOfTheFit) {
             if (s * rise > 1 && rise < 1e9) continue;
             const Cap c = capAt(uniform, s, rise == 1e9 ? 1 / s : rise);
             const ProjectedCap cap = makeProjectedCap(makeSphereCone(c.toCenter, c.radius), c.normal);
-            Mean mean, cosine;
+            Mean mean;
             for (int i = 0; i < 1 << 13; ++i) {
                 const ProjectedDirection d = sampleProjectedCap(cap, c.radius, uniform.pair());
                 ASSERT_TRUE(isFinite(d.place.direction) && isFinite(d.density) && d.density > 0) << s << " " << rise;

@@ -149,7 +149,7 @@ class SphericalTriangleCase : public testing::TestWithParam<TriangleCase> {};
 
 // Cells: the similar sub-triangles of a 16 x 16 subdivision, whose exact solid angles are known.
 TEST_P(SphericalTriangleCase, IsUniformInSolidAngle) {
-    const auto [name, a, b, c] = GetParam();
+    const dvec3 a = GetParam().a, b = GetParam().b, c = GetParam().c;
     const SphericalTriangle t = seen(a, b, c);
     ASSERT_GE(t.solidAngle, 1e-8f);
     const dvec3 e1 = b - a, e2 = c - a, n = glm::cross(e1, e2);
