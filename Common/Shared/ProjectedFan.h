@@ -222,8 +222,9 @@ RT_FN FanSlice fanSlice(RT_IN(ProjectedFan) fan, RT_IN(FanSector) sector, float 
     slice.p = swapped ? b : a;
     slice.span = vec2(dot(onward, slice.uvSpan), dot(upward, slice.uvSpan));
     // Twice the triangle between the receiver and the slice, over the receiver's height above the light's plane.
-    float lean = fan.plane.y * d.x - fan.plane.x * d.y;
-    float sine2 = (1.0f - lean) * (1.0f + lean);
+    // The sine is that of the angle between light and slice, which is small where a light is seen edge-on, upright.
+    float along = fan.plane.x * d.x + fan.plane.y * d.y;
+    float sine2 = fan.plane.z * fan.plane.z + along * along;
     if (!(sine2 > 0.0f)) return slice;
     vec3 chord = fan.edgeU * slice.uvSpan.x + fan.edgeV * slice.uvSpan.y;
     slice.mass =

@@ -176,6 +176,35 @@ TEST_P(ProjectedFanOfSize, MeanIsTheIrradiance) {
     }
 }
 
+// Upright, and nearly in a plane with the receiver's normal.
+TEST_P(ProjectedFanOfSize, MeanIsTheIrradianceOfLightsSeenEdgeOn) {
+    Uniforms uniform(5);
+    for (const double height : {1e-2, 3e-3, 1e-3, 3e-4}) {
+        for (int k = 0; k < 20; ++k) {
+            const double s = GetParam();
+            const dvec3 n = direction(uniform), side = glm::normalize(glm::cross(n, direction(uniform)));
+            const dvec3 away = glm::cross(side, n);
+            const auto edge = [&] {
+                const double x = uniform.between(-s, s), y = uniform.between(-s, s);
+                return x * away + y * n;
+            };
+            const dvec3 u = edge(), v = edge();
+            const Flat f = flat(away + uniform.between(0.1, 1) * n + height * side, u, v, k % 2 == 0, n);
+            const double exact = f.irradiance();
+            if (isMarginal(exact) || glm::length(glm::cross(u, v)) < 0.01 * s * s) continue;
+            const ProjectedFan fan = f.fan();
+            Mean mean;
+            for (int i = 0; i < 1 << 12; ++i) {
+                const FanSample sample = draw(fan, uniform.pair());
+                mean.add(sample.density > 0 ? 1 / double(sample.density) : 0);
+            }
+            const double rounding = 1e-6 / height;
+            EXPECT_NEAR(mean.mean() / exact, 1, 1e-3 + 5 * mean.standardError() / exact + rounding)
+                << height << ", " << k;
+        }
+    }
+}
+
 // Of every light, slivers, grazing ones and those around the zenith included.
 TEST_P(ProjectedFanOfSize, VarianceIsAtMostAThousandth) {
     Uniforms uniform(7);
