@@ -10,7 +10,7 @@ namespace {
 
 using vulkan::Memory;
 
-constexpr VkDeviceSize kCounterBytes = shared::kCounterLines * shared::kCounters * sizeof(std::uint32_t);
+constexpr VkDeviceSize kCounterBytes = VkDeviceSize{shared::kCounterLines} * shared::kCounters * sizeof(std::uint32_t);
 
 std::uint32_t itemsOf(const shared::FilmLaunch& launch) {
     return launch.slotCount * launch.blocks * shared::kTilePixels;
