@@ -8,7 +8,7 @@
 #if __has_include(<execution>)
 #include <execution>
 #endif
-#if !defined(__cpp_lib_execution) && !defined(__cpp_lib_parallel_algorithm)
+#if !defined(__cpp_lib_execution)
 #include <tbb/parallel_for_each.h>
 #define RT_NO_STD_EXECUTION 1
 #endif

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "Common/Core/Error.h"
 
@@ -36,11 +38,12 @@ std::uint32_t parseWhole(const std::string& flag, const std::string& text, std::
 }
 
 double parseReal(const std::string& flag, const std::string& text, double min, double max, const std::string& allowed) {
+    std::istringstream stream(text); // libc++ has no std::from_chars of real numbers
+    stream.imbue(std::locale::classic());
     double value = 0;
-    const char* end = text.data() + text.size();
-    const auto [rest, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc{} || rest != end || !std::isfinite(value) || value < min || value > max)
-        refuseValue(flag, text, allowed);
+    stream >> std::noskipws >> value;
+    const bool isNumber = !stream.fail() && stream.peek() == std::istringstream::traits_type::eof();
+    if (!isNumber || !std::isfinite(value) || value < min || value > max) refuseValue(flag, text, allowed);
     return value;
 }
 

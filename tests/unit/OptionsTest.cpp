@@ -208,7 +208,7 @@ TEST_F(OptionsTest, ErrorsNameFlagValueAndWhatIsAllowed) {
     EXPECT_EQ(error({"cornell"}), "cornell: unknown flag; --help lists them all");
     for (const char* bad : {"nan", "inf", "-inf", "0", "-1", "1e400", "x", ""})
         EXPECT_EQ(error({"--time-limit", bad}).rfind("--time-limit ", 0), 0u) << bad;
-    for (const char* bad : {"nan", "inf", "1e9", "one"})
+    for (const char* bad : {"nan", "inf", "1e9", "one", "1e", "1,5", " 1", "1 ", "0x10", "1.5.2"})
         EXPECT_EQ(error({"--exposure", bad}).rfind("--exposure ", 0), 0u) << bad;
     EXPECT_NE(error({"--spp"}), "no error"); // the value is missing: --headless is taken for it
 }
