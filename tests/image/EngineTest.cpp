@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <future>
 #include <mutex>
 #include <set>
 #include <sstream>
@@ -151,7 +152,7 @@ TEST(CpuEngine, InterruptionsDoNotShow) {
     // In the end it is long enough for a tile, however slow.
     for (std::chrono::microseconds wait = 3ms; !finished; wait += wait / 8) {
         cancel = false;
-        std::jthread interrupter([&cancel, wait] {
+        const auto interruption = std::async(std::launch::async, [&cancel, wait] {
             std::this_thread::sleep_for(wait);
             cancel = true;
         });
