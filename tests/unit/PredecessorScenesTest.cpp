@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SphereDesc& sphereOf(SceneDesc& scene, const std::string& material) {
+SphereDesc& sphereOf(SceneDesc& scene, const char* material) {
     for (ObjectDesc& object : scene.objects)
         if (auto* sphere = std::get_if<SphereDesc>(&object.shape); sphere && sphere->material == material)
             return *sphere;
