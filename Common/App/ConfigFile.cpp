@@ -26,8 +26,8 @@ std::string readAll(std::istream& input, const std::string& file) {
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
     if (app_.get_option("--no-config")->count() > 0) {
-        const bool named = app_.get_option("--config")->count() > 0; // the user's own file is counted only after this
-        if (named) throw UsageError("--no-config: contradicts --config");
+        // Whether --config was given cannot be told by its count: some versions of CLI11 count the user's own file.
+        if (path() != usersOwn_) throw UsageError("--no-config: contradicts --config");
         return {};
     }
     std::vector<CLI::ConfigItem> items;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "Common/Gui/Panels.h"
 #include "Common/Gui/Theme.h"
@@ -68,8 +69,10 @@ void drawFiles(Gui& gui) {
     row("Open file", "A scene file (.json) or a model (.obj); files can also be dropped on the window (Ctrl+O)");
     const float width = ImGui::CalcTextSize("Open").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemInnerSpacing.x);
-    if (gui.focusOpen) ImGui::SetKeyboardFocusHere();
-    gui.focusOpen = false;
+    if (std::exchange(gui.focusOpen, false)) {
+        ImGui::SetWindowFocus(); // ImGui 1.90 looks for the field in the window that had the focus before
+        ImGui::SetKeyboardFocusHere();
+    }
     const bool entered = inputText("##path", "path", gui.path);
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     if ((button("Open", nullptr, !gui.path.empty()) || entered) && !gui.path.empty()) gui.openScene(gui.path);

@@ -103,6 +103,7 @@ void Desktop::start(const std::string& program, const std::vector<std::string>& 
     std::vector<std::pair<std::string, std::string>> environment = {
         {"DISPLAY", display_},
         {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+        {"XDG_RUNTIME_DIR", folder_.string()}, // newer drivers complain where there is none
         {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}};
     environment.insert(environment.end(), environment_.begin(), environment_.end());
     program_ = spawn(all, environment, folder_ / "program.log");
