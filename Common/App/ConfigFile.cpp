@@ -26,8 +26,7 @@ std::string readAll(std::istream& input, const std::string& file) {
 
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
     if (app_.get_option("--no-config")->count() > 0) {
-        // Whether --config was given cannot be told by its count: some versions of CLI11 count the user's own file.
-        if (path() != usersOwn_) throw UsageError("--no-config: contradicts --config");
+        if (isNamed_) throw UsageError("--no-config: contradicts --config");
         return {};
     }
     std::vector<CLI::ConfigItem> items;

@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -12,8 +11,7 @@ namespace rt::app {
 
 class ConfigFile : public CLI::ConfigBase {
   public:
-    // `usersOwn` is the file that is read where --config names none; it may be empty.
-    ConfigFile(const CLI::App& app, std::string usersOwn) : app_(app), usersOwn_(std::move(usersOwn)) {}
+    explicit ConfigFile(const CLI::App& app) : app_(app) {}
 
     // Nothing with --no-config; without the flags that leaveOut() named. Throws UsageError.
     std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
@@ -21,12 +19,13 @@ class ConfigFile : public CLI::ConfigBase {
     void leaveOut(const std::string& flag) { leftOut_.insert(flag); }
     // "FILE:LINE: ", or without the line, where the flag's value comes from the file; else empty.
     std::string placeOf(const std::string& flag) const;
-    const std::string& usersOwn() const { return usersOwn_; }
-    std::string path() const { return app_.get_option("--config")->as<std::string>(); } // of the one that is read
+    std::string path() const { return app_.get_option("--config")->as<std::string>(); }
+    // Whether the command line has --config. Some versions of CLI11 count the user's own file as given, too.
+    void setNamed(bool named) { isNamed_ = named; }
 
   private:
     const CLI::App& app_;
-    std::string usersOwn_;
+    bool isNamed_ = false;
     std::set<std::string> leftOut_;
     mutable std::map<std::string, std::string> places_; // mutable: the base class reads through a const member
 };

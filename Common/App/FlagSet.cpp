@@ -23,12 +23,12 @@ std::string oneLine(std::string text) {
 } // namespace
 
 FlagSet::FlagSet(const std::string& program, const std::string& description)
-    : app_(description, program), config_(std::make_shared<ConfigFile>(app_, userConfigFile())) {
+    : app_(description, program), config_(std::make_shared<ConfigFile>(app_)) {
     app_.option_defaults()->take_last();
     app_.allow_extras();
     app_.allow_config_extras(CLI::config_extras_mode::error);
     app_.config_formatter(config_);
-    app_.set_config("--config", config_->usersOwn(), "defaults of flags, as TOML, INI or JSON")
+    app_.set_config("--config", userConfigFile(), "defaults of flags, as TOML, INI or JSON")
         ->type_name("F")
         ->configurable(false);
     addSwitch("--no-config", noConfig_, "ignore the user's configuration file")->configurable(false);
@@ -105,6 +105,9 @@ void FlagSet::applyEnvironment() {
 }
 
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
+    config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+        return argument == "--config" || argument.starts_with("--config=");
+    }));
     std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
     try {
         app_.parse(std::move(arguments));

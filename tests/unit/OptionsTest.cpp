@@ -343,9 +343,10 @@ TEST_F(OptionsTest, ConfigurationFiles) {
 }
 
 TEST_F(OptionsTest, TheUsersConfigurationIsReadUnlessRefused) {
-    writeFile("ray-tracing/config.json", R"({"spp": 13})");
+    const std::string own = writeFile("ray-tracing/config.json", R"({"spp": 13})");
     EXPECT_EQ(render({}).settings.spp, 13u);
     EXPECT_EQ(render({"--no-config"}).settings.spp, 100u);
+    EXPECT_EQ(error({"--config=" + own, "--no-config"}), "--no-config: contradicts --config");
     writeFile("ray-tracing/config.toml", "spp = 17\n");
     EXPECT_EQ(render({}).settings.spp, 17u);
     writeFile("ray-tracing/config.toml", "spp = zero\n");
