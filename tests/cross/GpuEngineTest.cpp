@@ -65,31 +65,12 @@ struct Render {
     }
 };
 
-// The same bits, or how many differ and by how much.
-::testing::AssertionResult areSame(const std::vector<float>& actual, const std::vector<float>& expected) {
-    if (actual.size() != expected.size()) {
-        return ::testing::AssertionFailure() << actual.size() << " values instead of " << expected.size();
-    }
-    std::size_t differing = 0;
-    std::size_t first = 0;
-    float largest = 0;
-    for (std::size_t i = 0; i < actual.size(); ++i) {
-        if (actual[i] == expected[i]) continue;
-        if (differing++ == 0) first = i;
-        largest = std::max(largest, std::abs(actual[i] - expected[i]) / std::abs(expected[i]));
-    }
-    if (differing == 0) return ::testing::AssertionSuccess();
-    return ::testing::AssertionFailure() << differing << " of " << actual.size() << " values differ, first number "
-                                         << first << ": " << actual[first] << " instead of " << expected[first]
-                                         << ", by up to " << largest << " of the value";
-}
-
 TEST_P(GpuEngineTest, SameSeedSameBits) {
     app::RenderSettings settings = settingsFor(40);
     settings.replicates = 3;
     const std::vector<float> first = Render(settings).finish().resolve().data;
     const std::vector<float> second = Render(settings).finish().resolve().data;
-    EXPECT_TRUE(areSame(second, first));
+    EXPECT_TRUE(sameBits(first, second));
     settings.seed = 1;
     EXPECT_NE(first, Render(settings).finish().resolve().data);
 }
@@ -107,8 +88,8 @@ TEST_P(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
     Render resumed(settings);
     resumed.engine->restore(std::move(film));
     const Film& actual = resumed.finish();
-    EXPECT_TRUE(areSame(actual.resolve().data, expected.resolve().data));
-    EXPECT_TRUE(areSame(actual.varianceOfMean().data, expected.varianceOfMean().data));
+    EXPECT_TRUE(sameBits(expected.resolve().data, actual.resolve().data));
+    EXPECT_TRUE(sameBits(expected.varianceOfMean().data, actual.varianceOfMean().data));
     EXPECT_EQ(actual.totalSamples(), std::uint64_t{kSide} * kSide * settings.spp);
 }
 
@@ -130,7 +111,7 @@ TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
     const std::atomic<bool> cancel{true};
     EXPECT_FALSE(render.engine->renderSome({std::chrono::seconds(1), &cancel}).finished);
     EXPECT_EQ(render.engine->film().totalSamples(), 0u);
-    EXPECT_TRUE(areSame(render.finish().resolve().data, Render(settingsFor(40)).finish().resolve().data));
+    EXPECT_TRUE(sameBits(Render(settingsFor(40)).finish().resolve().data, render.finish().resolve().data));
 }
 
 // A film that is rendered part by part, in launches of single tiles: the same bits.
@@ -146,8 +127,8 @@ TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
             options.launchSeconds = seconds;
             Render parts(settings, options);
             const Film& actual = parts.finish();
-            EXPECT_TRUE(areSame(actual.resolve().data, expected.resolve().data)) << slots << ", " << seconds;
-            EXPECT_TRUE(areSame(actual.varianceOfMean().data, expected.varianceOfMean().data))
+            EXPECT_TRUE(sameBits(expected.resolve().data, actual.resolve().data)) << slots << ", " << seconds;
+            EXPECT_TRUE(sameBits(expected.varianceOfMean().data, actual.varianceOfMean().data))
                 << slots << ", " << seconds;
             EXPECT_EQ(parts.engine->report().rays.camera, whole.engine->report().rays.camera);
         }
@@ -197,7 +178,7 @@ TEST_P(GpuEngineTest, PartsGoOnFromAFilm) {
     Film film = Render(part, options).finish();
     Render resumed(settings, options);
     resumed.engine->restore(std::move(film));
-    EXPECT_TRUE(areSame(resumed.finish().resolve().data, expected));
+    EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
 }
 
 // ---- failure ---------------------------------------------------------------------------------------------------------
@@ -224,7 +205,7 @@ TEST_P(GpuEngineTest, ALostDeviceLeavesTheLastCopyOfTheFilm) {
     context.lost = true;
     EXPECT_THROW(render.engine->renderSome({}), RenderError);
     EXPECT_EQ(render.engine->film().totalSamples(), copy.totalSamples());
-    EXPECT_TRUE(areSame(render.engine->film().resolve().data, copy.resolve().data));
+    EXPECT_TRUE(sameBits(copy.resolve().data, render.engine->film().resolve().data));
     EXPECT_GT(render.engine->report().rays.camera, copy.totalSamples());
 }
 

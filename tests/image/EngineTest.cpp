@@ -2,7 +2,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 #include <future>
 #include <mutex>
 #include <set>
@@ -42,10 +41,6 @@ std::vector<float> renderBits(const scene::CompiledScene& scene, const app::Rend
     engine->reset(scene.camera, settings);
     finish(*engine);
     return engine->film().resolve().data;
-}
-
-bool sameBits(const std::vector<float>& a, const std::vector<float>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
 TEST(CpuEngine, TheImageDependsOnNeitherThreadsNorPolicy) {

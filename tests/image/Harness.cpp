@@ -60,6 +60,24 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings) {
     return render(*scene::compileScene(desc), settings);
 }
 
+::testing::AssertionResult sameBits(const std::vector<float>& expected, const std::vector<float>& actual) {
+    if (actual.size() != expected.size())
+        return ::testing::AssertionFailure() << actual.size() << " values instead of " << expected.size();
+    std::size_t differing = 0;
+    std::size_t first = 0;
+    float largest = 0;
+    for (std::size_t i = 0; i < actual.size(); ++i) {
+        const bool isEqual = actual[i] == expected[i]; // not so what is not a number, whose bits may be the same
+        if (isEqual && std::signbit(actual[i]) == std::signbit(expected[i])) continue; // not so 0 and -0
+        if (differing++ == 0) first = i;
+        largest = std::max(largest, std::abs(actual[i] - expected[i]) / std::abs(expected[i]));
+    }
+    if (differing == 0) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << differing << " of " << actual.size() << " values differ, first number "
+                                         << first << ": " << actual[first] << " instead of " << expected[first]
+                                         << ", by up to " << largest << " of the value";
+}
+
 ::testing::AssertionResult isMean(const Estimate& estimate, const glm::dvec3& truth) {
     if (estimate.nonfinite != 0)
         return ::testing::AssertionFailure() << estimate.nonfinite << " samples are not finite";

@@ -38,6 +38,9 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
 // |mean - truth| <= 4 standard errors + 1e-5 |truth| in each channel: a false alarm in 16 000 (numerics: form Z).
 ::testing::AssertionResult isMean(const Estimate& estimate, const glm::dvec3& truth);
 
+// The same numbers in the same bits; else how many differ, and by how much.
+::testing::AssertionResult sameBits(const std::vector<float>& expected, const std::vector<float>& actual);
+
 // Every way of sampling lights and pixels.
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
 
