@@ -10,7 +10,6 @@
 #endif
 #if !defined(__cpp_lib_execution)
 #include <tbb/parallel_for_each.h>
-#define RT_NO_STD_EXECUTION 1
 #endif
 
 #include "Common/Accel/Parallel.h"
@@ -31,7 +30,7 @@ void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
 #else
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);
-#if defined(RT_NO_STD_EXECUTION)
+#if !defined(__cpp_lib_execution)
     tbb::parallel_for_each(indices.begin(), indices.end(), work);
 #else
     if (policy == Policy::Par) {
