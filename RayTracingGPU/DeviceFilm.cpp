@@ -78,6 +78,8 @@ void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
     firstTile_ = firstTile;
     const std::uint32_t tiles = std::min(capacity_ / desc_.replicates, film.tileCount() - firstTile);
     samples_.assign(std::size_t{tiles} * desc_.replicates, 0);
+    stepSamples_ = 0;
+    for (std::uint32_t slot = 0; slot < slotCount(); ++slot) stepSamples_ += pixelsInside(slot);
     bool fresh = true;
     for (std::uint32_t tile = firstTile; tile < firstTile + tiles && fresh; ++tile) fresh = film.samples(tile) == 0;
     if (fresh) return clear();
@@ -189,17 +191,13 @@ std::uint64_t DeviceFilm::tileSamples(std::uint32_t tile) const {
     return std::accumulate(first, first + desc_.replicates, std::uint64_t{0});
 }
 
-DeviceFilm::Work DeviceFilm::advance(const shared::FilmLaunch& launch) {
-    Work added;
+std::uint64_t DeviceFilm::advance(const shared::FilmLaunch& launch) {
+    std::uint64_t added = 0;
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
         if (slot >= slotCount()) continue;
-        const std::uint32_t end = shared::replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
-        const std::uint32_t reached = shared::blockRange(samples_[slot], launch.blocks - 1, end).y;
-        if (reached <= samples_[slot]) continue;
-        const std::uint32_t pixels = pixelsInside(slot);
-        added.samples += std::uint64_t{reached - samples_[slot]} * pixels;
-        added.items += std::uint64_t{(reached - 1) / shared::kBlock - samples_[slot] / shared::kBlock + 1} * pixels;
+        const std::uint32_t reached = shared::samplesAfter(launch, slot, samples_[slot]);
+        added += std::uint64_t{reached - samples_[slot]} * pixelsInside(slot);
         samples_[slot] = reached;
     }
     return added;

@@ -66,17 +66,16 @@ class DeviceFilm {
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
     bool isWhole() const;               // it holds all tiles of the image
     std::uint64_t leastSamples() const; // of any pixel, all replicates
+    std::uint64_t stepSamples() const {
+        return stepSamples_;
+    } // if every slot gets one for each pixel inside of the image
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
     std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }
     std::uint32_t bandSlots() const; // the last band may lack some
     // Fills in what such a launch needs to know of the film.
     void describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const;
-    // To be called after a launch: what it added, of pixels inside of the image.
-    struct Work {
-        std::uint64_t samples = 0;
-        std::uint64_t items = 0; // a pixel and a block each
-    };
-    Work advance(const shared::FilmLaunch& launch);
+    // To be called after a launch. Returns the samples that it added, of pixels inside of the image.
+    std::uint64_t advance(const shared::FilmLaunch& launch);
 
   private:
     void clear();
@@ -90,6 +89,7 @@ class DeviceFilm {
     std::uint32_t firstTile_ = 0;
     std::uint32_t capacity_;             // slots
     std::vector<std::uint32_t> samples_; // per slot, as on the device
+    std::uint64_t stepSamples_ = 0;
     vulkan::Buffer samplesBuffer_;
     vulkan::Buffer sums_;
     vulkan::Buffer squares_; // empty without second moments

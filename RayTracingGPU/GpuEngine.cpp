@@ -29,11 +29,11 @@ using Clock = std::chrono::steady_clock;
 using image::Film;
 using vulkan::Memory;
 
-constexpr std::uint32_t kInvocations = 1u << 18;    // that share the work of a launch; fills the largest devices
-constexpr std::uint64_t kMaxBlockSums = 10'000'000; // of a launch: 120 MB
-constexpr std::uint64_t kLongRounds = 4;            // of blocks, which make a pass long
-constexpr std::uint64_t kOpenSamples = 2;           // of the block at the end of a shorter pass
-constexpr std::uint64_t kRegionRounds = 8;          // per pass where regions take turns, each turn costing two copies
+constexpr std::uint32_t kInvocations = 1u << 18;  // that share the work of a launch; fills the largest devices
+constexpr std::uint64_t kMaxSamples = 24'000'000; // of a launch, whose radiance takes 288 MB
+constexpr std::uint64_t kPassPart = 8;            // launches share passes that take a film of n samples n / 8 further
+constexpr std::uint64_t kMaxPass = 64;            // samples, likewise
+constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions take turns; a turn costs two copies
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -49,9 +49,7 @@ struct KernelKey {
 // Takes every pixel further, slot by slot.
 struct Pass {
     std::uint32_t end = 0;      // samples per pixel that it leads to
-    std::uint32_t rounds = 0;   // blocks of each slot that it takes, the first and last perhaps in part
-    double samples = 0;         // of each slot's pixels
-    bool isLong = false;        // it takes many blocks
+    std::uint32_t steps = 0;    // samples of a slot's pixels that it takes, at most
     std::uint32_t nextSlot = 0; // of each of the region's bands: the first that it has not launched
 };
 
@@ -228,50 +226,44 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-// Opens the next pass, which takes every pixel as many samples further as fit in a launch, but at least one of each replicate. Many
-// are rounded to whole blocks. Few may end within a block: an invocation takes its samples one after the other, and 16 long paths in
-// a medium may last longer than a launch should. More than a block end soon after the beginning of the last one, whose items
-// a launch then has left at its end. Large films go on by whole blocks.
+// Opens the next pass. Where one launch takes all pixels several samples further, it is a pass. Where it takes them few samples or
+// not even one, some launches share a pass, so that none is much shorter than it may be. Large films go on by whole blocks.
 bool GpuEngine::beginPass() {
     if (samplesDone_ >= pixels() * settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
     const std::uint64_t least = region_->isWhole() ? region_->leastSamples() : film_.minSamples();
     std::uint64_t end = (least / round + kRegionRounds) * round;
-    bool isLong = true;
     if (region_->isWhole()) {
-        const std::uint64_t room = kMaxBlockSums / (std::uint64_t{region_->slotCount()} * shared::kTilePixels) * round;
-        const std::uint64_t fitting = std::min(launchSize_->suggest(options_.launchSeconds) / pixels(), room);
-        isLong = fitting >= kLongRounds * round;
-        end = least + std::max<std::uint64_t>(settings_.replicates, fitting);
-        const std::uint64_t open = isLong ? 0 : kOpenSamples * settings_.replicates;
-        const std::uint64_t rounded = end < open ? 0 : (end - open) / round * round + open;
-        if (rounded >= least + round) end = rounded;
+        const std::uint64_t fitting = launchSize_->suggest(options_.launchSeconds);
+        const std::uint64_t column = std::uint64_t{region_->bands()} * shared::kTilePixels; // samples of a step
+        const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / column, 1);
+        const std::uint64_t wanted =
+            std::max(fitting / region_->stepSamples(), std::min(least / kPassPart, kMaxPass) / settings_.replicates);
+        const std::uint64_t steps = std::clamp<std::uint64_t>(wanted, 1, most);
+        end = least + steps * settings_.replicates;
     }
     end = std::min<std::uint64_t>(end, settings_.spp);
     if (end % round != 0) region_->reserveOpenBlocks();
     pass_ = Pass{.end = static_cast<std::uint32_t>(end),
-                 .rounds = static_cast<std::uint32_t>((end + round - 1) / round - least / round),
-                 .samples = static_cast<double>(end - least) / settings_.replicates,
-                 .isLong = isLong};
+                 .steps = static_cast<std::uint32_t>((end - least + settings_.replicates - 1) / settings_.replicates)};
     return true;
 }
 
 // Launches the next slots of the pass in all bands; behind the last ones of the last region the pass is over.
 void GpuEngine::launchNext() {
-    const std::uint64_t pixels = std::uint64_t{region_->bands()} * shared::kTilePixels; // of one slot in each band
-    const auto fitting = static_cast<std::uint64_t>(static_cast<double>(launchSize_->suggest(options_.launchSeconds)) /
-                                                    (static_cast<double>(pixels) * pass_->samples));
-    const std::uint64_t room = std::max<std::uint64_t>(kMaxBlockSums / (pass_->rounds * pixels), 1);
-    const std::uint64_t most = std::min<std::uint64_t>(region_->bandSlots() - pass_->nextSlot, room);
-    const auto width = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(fitting, 1, most));
+    const std::uint64_t room = kMaxSamples / (std::uint64_t{region_->bands()} * shared::kTilePixels * pass_->steps);
+    const std::uint64_t fitting =
+        launchSize_->suggest(options_.launchSeconds) * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
+    const std::uint32_t left = region_->bandSlots() - pass_->nextSlot;
+    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, fitting), 1, left);
+    const std::uint64_t launches = (left + most - 1) / most; // that take alike many
     shared::FilmLaunch push{};
-    region_->describe(push, pass_->nextSlot, width);
-    push.blocks = pass_->rounds;
+    region_->describe(push, pass_->nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
+    push.steps = pass_->steps;
     push.spp = pass_->end;
-    push.byBlock = pass_->isLong ? 0u : 1u;
     beginLaunch(push);
-    pass_->nextSlot += width;
+    pass_->nextSlot += push.bandWidth;
     if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) pass_.reset();
 }
 
@@ -281,24 +273,24 @@ std::uint32_t GpuEngine::maxInvocations() const {
 
 void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
     while (!launches_.hasRoom(launch)) endLaunch();
-    samplesDone_ += launches_.begin(*kernel_, *region_, launch, maxInvocations()).samples;
+    samplesDone_ += launches_.begin(*kernel_, *region_, launch, maxInvocations());
     dirty_ = true;
 }
 
 // Waits for the end of the oldest launch that has not ended.
 void GpuEngine::endLaunch() {
     const LaunchQueue::Ended ended = launches_.end();
-    launchSize_->measured(ended.work.samples, ended.seconds);
+    launchSize_->measured(ended.samples, ended.seconds);
     report_.renderDeviceSeconds += ended.seconds;
-    report_.rays.camera += ended.work.samples;
+    report_.rays.camera += ended.samples;
     report_.rays.scattered += ended.scattered;
     report_.rays.shadow += ended.shadow;
     report_.nonfiniteSamples += ended.nonfinite;
-    if (ended.itemsDone != ended.work.items) {
+    if (ended.finished != ended.samples) {
         failed_ = true; // what is on the device is not a film
         throw RenderError(context_.info().name + " ended a shader before its work was done (" +
-                          std::to_string(ended.itemsDone) + " of " + std::to_string(ended.work.items) +
-                          " items); a newer driver may help");
+                          std::to_string(ended.finished) + " of " + std::to_string(ended.samples) +
+                          " samples); a newer driver may help");
     }
 }
 

@@ -12,12 +12,12 @@ using vulkan::Memory;
 
 constexpr VkDeviceSize kCounterBytes = VkDeviceSize{shared::kCounterLines} * shared::kCounters * sizeof(std::uint32_t);
 
-std::uint32_t itemsOf(const shared::FilmLaunch& launch) {
-    return launch.slotCount * launch.blocks * shared::kTilePixels;
+std::uint32_t samplesOf(const shared::FilmLaunch& launch) {
+    return shared::sampleAt(launch, launch.slotCount, 0, 0);
 }
 
-VkDeviceSize blockSumBytes(const shared::FilmLaunch& launch) {
-    return VkDeviceSize{itemsOf(launch)} * sizeof(shared::vec3);
+VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {
+    return VkDeviceSize{samplesOf(launch)} * sizeof(shared::vec3);
 }
 
 } // namespace
@@ -32,23 +32,24 @@ LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineC
       launches_{Launch(context), Launch(context)} {}
 
 bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch) const {
-    return isEmpty() || (begun_ - ended_ < launches_.size() && blockSumBytes(launch) <= blockSums_.bytes());
+    return isEmpty() || (begun_ - ended_ < launches_.size() && radianceBytes(launch) <= radiance_.bytes());
 }
 
-DeviceFilm::Work LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
-                                    std::uint32_t maxInvocations) {
-    if (blockSums_.bytes() < blockSumBytes(launch)) {
-        blockSums_ = {};
-        blockSums_ = vulkan::Buffer(context_, blockSumBytes(launch), 0, Memory::Device, "a launch");
+std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
+                                 std::uint32_t maxInvocations) {
+    if (radiance_.bytes() < radianceBytes(launch)) {
+        const VkDeviceSize bytes = radianceBytes(launch) / 4 * 5; // the next one is rarely just as large
+        radiance_ = {};
+        radiance_ = vulkan::Buffer(context_, bytes, 0, Memory::Device, "a launch");
     }
     shared::FilmLaunch push = launch;
-    push.blockSums = blockSums_.address();
+    push.radiance = radiance_.address();
     push.counters = counters_.address();
     Launch& next = numbered(begun_);
     next.run.begin([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
-        kernel.launch(commands, push, std::min(itemsOf(push), maxInvocations));
+        kernel.launch(commands, push, std::min(samplesOf(push), maxInvocations));
         vulkan::barrier(commands);
         reducer_.run(commands, push, push.slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};
@@ -56,27 +57,27 @@ DeviceFilm::Work LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, cons
         vulkan::barrier(commands);
     });
     ++begun_;
-    next.work = film.advance(push);
-    return next.work;
+    next.samples = film.advance(push);
+    return next.samples;
 }
 
 std::uint64_t LaunchQueue::samplesAhead() const {
     std::uint64_t samples = 0;
-    for (std::uint64_t n = ended_; n < begun_; ++n) samples += numbered(n).work.samples;
+    for (std::uint64_t n = ended_; n < begun_; ++n) samples += numbered(n).samples;
     return samples;
 }
 
 LaunchQueue::Ended LaunchQueue::end() {
     Launch& launch = numbered(ended_++);
     Ended ended;
-    ended.work = launch.work;
+    ended.samples = launch.samples;
     ended.seconds = context_.finishTimed(launch.run);
     const std::span<const std::uint32_t> counters = launch.counters.mapped<const std::uint32_t>();
     for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
         ended.scattered += counters[line + shared::kCounterScattered];
         ended.shadow += counters[line + shared::kCounterShadow];
         ended.nonfinite += counters[line + shared::kCounterNonfinite];
-        ended.itemsDone += counters[line + shared::kCounterItems];
+        ended.finished += counters[line + shared::kCounterFinished];
     }
     return ended;
 }

@@ -21,15 +21,16 @@ class LaunchQueue {
     bool hasRoom(const shared::FilmLaunch& launch) const;
     // Hands over a launch that `film` describes, whose memory must last until the end of it: paths, and what they add to the film.
     // There are no more than `maxInvocations`, and they share the work. Throws DeviceLostError or RenderError; then nothing has begun.
-    DeviceFilm::Work begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
-                           std::uint32_t maxInvocations);
+    // Returns how many samples that are.
+    std::uint64_t begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
+                        std::uint32_t maxInvocations);
 
     bool isEmpty() const { return ended_ == begun_; }
     std::uint64_t samplesAhead() const; // of all that have begun and not ended
 
     struct Ended {
-        DeviceFilm::Work work;       // that was to be done
-        std::uint64_t itemsDone = 0; // work.items, but for drivers that end long loops early: that has been seen
+        std::uint64_t samples = 0;   // that were to be taken
+        std::uint64_t finished = 0;  // as many, but for drivers that end long loops early: that has been seen
         std::uint64_t scattered = 0; // rays
         std::uint64_t shadow = 0;    // rays
         std::uint64_t nonfinite = 0; // samples that were dropped
@@ -46,15 +47,15 @@ class LaunchQueue {
 
         vulkan::Run run;
         vulkan::Buffer counters; // of it, when it has ended
-        DeviceFilm::Work work;
+        std::uint64_t samples = 0;
     };
     Launch& numbered(std::uint64_t n) { return launches_[n % launches_.size()]; }
     const Launch& numbered(std::uint64_t n) const { return launches_[n % launches_.size()]; }
 
     vulkan::VulkanContext& context_;
     FilmPipeline reducer_;
-    vulkan::Buffer counters_;  // of the launch that the device works at
-    vulkan::Buffer blockSums_; // likewise
+    vulkan::Buffer counters_; // of the launch that the device works at
+    vulkan::Buffer radiance_; // likewise
     std::array<Launch, 2> launches_;
     std::uint64_t begun_ = 0; // launches, numbered from 0
     std::uint64_t ended_ = 0;

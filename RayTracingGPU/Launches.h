@@ -23,7 +23,7 @@ class LaunchSize {
 
     // Samples for a launch of `seconds`, but at most kLaunchSeconds. Short ones must not take longer: they are planned shorter.
     std::uint64_t suggest(double seconds) {
-        constexpr double kReserve = 0.8;
+        constexpr double kReserve = 0.9;
         suggested_ = samples_ * (seconds < kLaunchSeconds ? kReserve * seconds / kLaunchSeconds : 1);
         return static_cast<std::uint64_t>(std::max(suggested_, 1.0));
     }

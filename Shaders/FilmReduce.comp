@@ -1,4 +1,4 @@
-// Adds the block sums of a launch to the film, those of a pixel in the order of their samples.
+// Adds what a launch's paths bring to the film, that of a pixel in the order of its samples.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
@@ -32,27 +32,25 @@ void main() {
     if (slot >= launch.filmSlots) return;
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
     uint done = launch.samples.at[slot];
-    uint end = replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
+    uint end = samplesAfter(launch, slot, done);
     bool squares = launch.keepSquares != 0u;
     FilmSum sum = launch.sums.at[pixel];
     FilmSum square;
     if (squares) square = launch.squares.at[pixel];
-    uint samples = done;
-    for (uint block = 0u; block < launch.blocks; block++) {
-        uvec2 range = blockRange(done, block, end);
-        if (range.x >= range.y) break;
-        samples = range.y;
-        vec3 blockSum = launch.blockSums.at[itemOf(launch, position, block, gl_LocalInvocationID.x)];
-        if (range.y % kBlock == 0u) {
-            add(sum, blockSum);
-            if (squares) add(square, blockSum * blockSum / float(kBlock));
-        } else {
-            launch.open.at[pixel] = blockSum;
+    vec3 block = vec3(0.0f);
+    if (done % kBlock != 0u && done < end) block = launch.open.at[pixel];
+    for (uint step = 0u; step < end - done; step++) {
+        block += launch.radiance.at[sampleAt(launch, position, step, gl_LocalInvocationID.x)];
+        if ((done + step + 1u) % kBlock == 0u) {
+            add(sum, block);
+            if (squares) add(square, block * block / float(kBlock));
+            block = vec3(0.0f);
         }
     }
+    if (end % kBlock != 0u && done < end) launch.open.at[pixel] = block;
     launch.sums.at[pixel] = sum;
     if (squares) launch.squares.at[pixel] = square;
     memoryBarrierBuffer();
     barrier(); // every invocation has read the count
-    if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = samples;
+    if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = end;
 }

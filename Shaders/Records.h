@@ -108,7 +108,7 @@ struct RenderConstants {
 
 const uint kTile = 8u;
 const uint kTilePixels = 64u;
-const uint kBlock = 16u; // samples summed in order by one invocation
+const uint kBlock = 16u; // samples of a pixel that are summed in floats, in order
 
 // An unevaluated sum of two floats, high + low, |low| <= half an ulp of high: 48 bits. The sum of both is always exact in a
 // double, so that a film that went through the host goes on bit for bit.
@@ -124,23 +124,22 @@ RT_MUTABLE_ARRAY(MutableWordArray, uint)
 // Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that each launch
 // has its share of what takes long in the image.
 struct FilmLaunch {
-    MutableWordArray samples;     // per slot: samples that its pixels have
-    FilmSumArray sums;            // of closed blocks
-    FilmSumArray squares;         // of (block sum)^2 / kBlock, if keepSquares
-    MutableVectorArray open;      // sums of open blocks; needed only where a block is or stays open
-    MutableVectorArray blockSums; // one per item of work
-    MutableWordArray counters;    // kCounters per line, see below
-    uint firstTile;               // of the image: the film's first
-    uint tilesX;                  // of the image
+    MutableWordArray samples;    // per slot: samples that its pixels have
+    FilmSumArray sums;           // of closed blocks
+    FilmSumArray squares;        // of (block sum)^2 / kBlock, if keepSquares
+    MutableVectorArray open;     // sums of open blocks; needed only where a block is or stays open
+    MutableVectorArray radiance; // of each sample of the launch, see sampleAt()
+    MutableWordArray counters;   // kCounters per line, see below
+    uint firstTile;              // of the image: the film's first
+    uint tilesX;                 // of the image
     uint replicates;
     uint filmSlots;
     uint bandSlots; // the last band may lack some
     uint firstSlot; // of each band
     uint bandWidth; // from firstSlot on
     uint slotCount; // bandWidth times the bands
-    uint blocks;    // that the launch may take each slot further
+    uint steps;     // samples that the launch may take each slot further
     uint spp;       // per pixel, all replicates, at which the launch stops
-    uint byBlock;   // the order of items, see below
     uint keepSquares;
 };
 
@@ -157,11 +156,11 @@ struct ResolveLaunch {
 };
 
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
-const uint kCounterWork = 0u;      // of line 0: items handed out
+const uint kCounterWork = 0u;      // of line 0: samples handed out
 const uint kCounterScattered = 1u; // rays
 const uint kCounterShadow = 2u;
 const uint kCounterNonfinite = 3u; // samples that were dropped
-const uint kCounterItems = 4u;     // that were finished
+const uint kCounterFinished = 4u;  // samples
 const uint kCounters = 8u;
 const uint kCounterLines = 64u;
 
@@ -170,11 +169,10 @@ RT_FN uint replicateSamples(uint spp, uint replicate, uint replicates) {
     return replicate < spp ? (spp - 1u - replicate) / replicates + 1u : 0u;
 }
 
-// Samples x .. y - 1 of a slot that has `done` samples: those of its `block`-th block from now on, up to `end`. Empty when
-// x >= y.
-RT_FN uvec2 blockRange(uint done, uint block, uint end) {
-    uint first = done / kBlock * kBlock + block * kBlock;
-    return uvec2(max(first, done), min(first + kBlock, end));
+// How many samples the pixels of a slot have after a launch, before which they have `done`.
+RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint slot, uint done) {
+    uint end = replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
+    return max(done, min(done + launch.steps, end));
 }
 
 // Slot i of a launch, i < slotCount. There is none from filmSlots on; only the film of a whole image has such, below its last row.
@@ -182,29 +180,10 @@ RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }
 
-// What an item of work, 64 a block and slot, is about. Neighbours share a tile: rays of one group of lanes are alike. A slot's blocks
-// follow each other, so that rays of one time are, too; or by block, all slots' first ones before their second ones: if the last are
-// short, the invocations of a launch end at much the same time.
-struct WorkItem {
-    uint slot;
-    uint block;
-    uint tilePixel;
-};
-
-RT_FN WorkItem workItem(FilmLaunch launch, uint item) {
-    WorkItem w;
-    w.tilePixel = item % kTilePixels;
-    uint rest = item / kTilePixels;
-    bool byBlock = launch.byBlock != 0u;
-    w.slot = launchSlot(launch, byBlock ? rest % launch.slotCount : rest / launch.blocks);
-    w.block = byBlock ? rest / launch.slotCount : rest % launch.blocks;
-    return w;
-}
-
-// The item that is about this block of slot i of a launch.
-RT_FN uint itemOf(FilmLaunch launch, uint i, uint block, uint tilePixel) {
-    uint rest = launch.byBlock != 0u ? block * launch.slotCount + i : i * launch.blocks + block;
-    return rest * kTilePixels + tilePixel;
+// The samples of a launch are numbered slot by slot, in each step by step, a step being one sample of each pixel: rays of neighbours,
+// which are alike, are then traced at a time. This is the number of one of slot i of the launch.
+RT_FN uint sampleAt(RT_IN(FilmLaunch) launch, uint i, uint step, uint tilePixel) {
+    return (i * launch.steps + step) * kTilePixels + tilePixel;
 }
 
 RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {

@@ -287,29 +287,34 @@ TEST_P(GpuEngineTest, DepthIsThatOfWhatIsHit) {
 
 // ---- film ------------------------------------------------------------------------------------------------------------
 
-// Feeds `blocks` block sums of one tile to the reduction and returns the largest relative error of the film's sums.
+// Feeds `blocks` blocks of samples of one tile to the reduction and returns the largest relative error of the film's sums.
 double reductionError(std::uint32_t blocks, const std::function<float()>& next) {
-    constexpr std::uint32_t kPerLaunch = 4096;
+    constexpr std::uint32_t kSteps = 256 * shared::kBlock;
     vulkan::VulkanContext& context = device();
     const vulkan::PipelineCache cache(context, "");
     const gpu::FilmPipeline reducer(context, cache, gpu::Shader::FilmReduce, sizeof(shared::FilmLaunch));
     Film film({8, 8, 1, false});
     gpu::DeviceFilm onDevice(context, film.desc(), 1);
     onDevice.load(film, 0);
-    std::vector<shared::vec3> sums(std::size_t{kPerLaunch} * shared::kTilePixels);
-    const vulkan::Buffer buffer(context, sums.size() * sizeof sums[0], 0, vulkan::Memory::Device, "sums");
+    std::vector<shared::vec3> radiance(std::size_t{kSteps} * shared::kTilePixels);
+    const vulkan::Buffer buffer(context, radiance.size() * sizeof radiance[0], 0, vulkan::Memory::Device, "radiance");
     std::vector<glm::dvec3> exact(shared::kTilePixels, glm::dvec3(0));
-    for (std::uint32_t done = 0; done < blocks; done += kPerLaunch) {
-        for (std::size_t i = 0; i < sums.size(); ++i) {
-            for (int c = 0; c < 3; ++c) sums[i][c] = next();
-            exact[i % shared::kTilePixels] += glm::dvec3(sums[i]);
+    std::vector<shared::vec3> block(shared::kTilePixels, shared::vec3(0));
+    for (std::uint32_t done = 0; done < blocks * shared::kBlock; done += kSteps) {
+        for (std::size_t i = 0; i < radiance.size(); ++i) {
+            const std::size_t pixel = i % shared::kTilePixels;
+            for (int c = 0; c < 3; ++c) radiance[i][c] = next();
+            block[pixel] += radiance[i];
+            if ((i / shared::kTilePixels + 1) % shared::kBlock != 0) continue;
+            exact[pixel] += glm::dvec3(block[pixel]);
+            block[pixel] = shared::vec3(0);
         }
-        vulkan::upload(context, buffer, std::as_bytes(std::span(sums)));
+        vulkan::upload(context, buffer, std::as_bytes(std::span(radiance)));
         shared::FilmLaunch launch{};
         onDevice.describe(launch, 0, 1);
-        launch.blockSums = buffer.address();
-        launch.blocks = kPerLaunch;
-        launch.spp = (done + kPerLaunch) * shared::kBlock;
+        launch.radiance = buffer.address();
+        launch.steps = kSteps;
+        launch.spp = done + kSteps;
         context.run([&](VkCommandBuffer commands) {
             reducer.run(commands, launch, launch.slotCount);
             vulkan::barrier(commands);
