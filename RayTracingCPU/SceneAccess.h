@@ -3,6 +3,7 @@
 #pragma once
 #include "Common/Accel/Prefetch.h"
 #include "Common/Accel/Simd.h"
+#include "Common/Shared/LightContribution.h"
 #include "Common/Shared/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 

@@ -6,6 +6,7 @@
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Color.h"
 #include "Common/Shared/LightClusters.h"
+#include "Common/Shared/LightContribution.h"
 #include "Common/Shared/Lights.h"
 #include "Common/Shared/Media.h"
 #include "Common/Shared/Random.h"

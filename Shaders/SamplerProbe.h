@@ -20,6 +20,7 @@ RT_FN uint loadLightPlace(SceneRef scene, uint light);
 RT_SHARED_END
 
 #include "Common/Shared/LightSelection.h"
+#include "Common/Shared/Lights.h"
 
 RT_SHARED_BEGIN
 

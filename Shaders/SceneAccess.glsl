@@ -1,6 +1,7 @@
 // Gives Common/Shared its access to the scene on the GPU: SceneRef and every load...().
 #include "Bindings.glsl"
 #include "Common/Shared/Color.h"
+#include "Common/Shared/LightContribution.h"
 #include "Common/Shared/Lights.h"
 
 struct SceneRef {

@@ -1,7 +1,7 @@
 // How much a group of lights may contribute at a point, by which the tree of lights is descended.
 #ifndef RT_SHARED_LIGHT_CLUSTERS_H
 #define RT_SHARED_LIGHT_CLUSTERS_H
-#include "Lights.h"
+#include "LightContribution.h"
 
 RT_SHARED_BEGIN
 

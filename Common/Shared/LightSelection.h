@@ -7,8 +7,8 @@
 #ifndef RT_SHARED_LIGHT_SELECTION_H
 #define RT_SHARED_LIGHT_SELECTION_H
 #include "Features.h"
+#include "LightContribution.h"
 #include "LightTree.h"
-#include "Lights.h"
 #include "Random.h"
 
 RT_SHARED_BEGIN

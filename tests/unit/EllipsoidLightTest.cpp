@@ -10,9 +10,10 @@
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/SceneBuilder.h"
 #include "Common/Scene/SceneCompiler.h"
+#include "Common/Shared/LightContribution.h"
 #include "Common/Shared/LightDensity.h"
 #include "tests/unit/LightDraws.h"
-#include "tests/unit/Oracles.h"
+#include "tests/unit/LightShapes.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -25,18 +26,6 @@ using test::Mean;
 using test::Uniforms;
 
 constexpr double kPiD = test::kPi;
-
-Light ellipsoid(const dvec3& center, const dmat3& axes, uint sides = kSidesFront) {
-    Light light{};
-    light.kind = kLightEllipsoid;
-    light.position = vec3(center);
-    light.edgeU = vec3(axes[0]);
-    light.edgeV = vec3(axes[1]);
-    light.normal = vec3(axes[2]);
-    light.emission = vec3(1);
-    light.sides = sides;
-    return light;
-}
 
 dvec3 unitVector(Uniforms& uniform) {
     const vec2 u = uniform.pair();

@@ -1,13 +1,13 @@
+// Sampling of single lights: estimates and densities against exact irradiances and solid angles, what cannot contribute, stress.
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include <glm/matrix.hpp>
 
 #include "tests/unit/LightDraws.h"
-#include "tests/unit/Oracles.h"
+#include "tests/unit/LightShapes.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -20,69 +20,10 @@ using test::Uniforms;
 
 constexpr double kPiD = test::kPi;
 
-Light flatLight(uint kind, const dvec3& corner, const dvec3& edgeU, const dvec3& edgeV) {
-    Light light{};
-    light.kind = kind;
-    light.position = vec3(corner);
-    light.edgeU = vec3(edgeU);
-    light.edgeV = vec3(edgeV);
-    const dvec3 n = glm::cross(dvec3(light.edgeU), dvec3(light.edgeV));
-    light.normal = vec3(glm::normalize(n));
-    light.area = static_cast<float>(glm::length(n) * (kind == kLightQuad ? 1 : 0.5));
-    light.emission = vec3(1);
-    light.sides = kSidesBoth;
-    return light;
-}
-
-Light quad(const dvec3& corner, const dvec3& edgeU, const dvec3& edgeV) {
-    return flatLight(kLightQuad, corner, edgeU, edgeV);
-}
-
-Light triangle(const dvec3& a, const dvec3& b, const dvec3& c) {
-    return flatLight(kLightTriangle, a, b - a, c - a);
-}
-
-Light sphere(const dvec3& center, double radius) {
-    Light light{};
-    light.kind = kLightSphere;
-    light.position = vec3(center);
-    light.radius = static_cast<float>(radius);
-    light.area = static_cast<float>(4 * kPiD * radius * radius);
-    light.emission = vec3(1);
-    light.sides = kSidesFront;
-    return light;
-}
-
-Light ellipsoid(const dvec3& center, const glm::dmat3& axes) {
-    Light light = sphere(center, 1);
-    light.kind = kLightEllipsoid;
-    light.edgeU = vec3(axes[0]);
-    light.edgeV = vec3(axes[1]);
-    light.normal = vec3(axes[2]);
-    return light;
-}
-
-glm::dmat3 axesOf(const Light& ellipsoid) {
-    return {ellipsoid.edgeU, ellipsoid.edgeV, ellipsoid.normal};
-}
-
-std::vector<dvec3> vertices(const Light& light) {
-    const dvec3 p(light.position), u(light.edgeU), v(light.edgeV);
-    if (light.kind == kLightTriangle) return {p, p + u, p + v};
-    return {p, p + u, p + u + v, p + v};
-}
-
 // Not below the ellipsoid's shortest half axis by more than a factor of two.
 double shortestAxis(const Light& ellipsoid) {
     const glm::dmat3 back = glm::inverse(axesOf(ellipsoid));
     return 1 / std::sqrt(glm::dot(back[0], back[0]) + glm::dot(back[1], back[1]) + glm::dot(back[2], back[2]));
-}
-
-double irradiance(const Light& light, const dvec3& normal) {
-    if (light.kind == kLightSphere) return test::sphereIrradiance(dvec3(light.position), light.radius, normal);
-    if (light.kind == kLightEllipsoid)
-        return test::polygonIrradiance(test::ellipsoidOutline(dvec3(light.position), axesOf(light)), normal);
-    return test::polygonIrradiance(vertices(light), normal);
 }
 
 double solidAngle(const Light& light) {
@@ -434,122 +375,6 @@ TEST(Lights, VarianceOfSolidAngleAndAreaSampling) {
     EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.2), kShapeArea), 2.8, 0.28);
     EXPECT_GT(variance(quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2}), kShapeArea), 10.0);
     EXPECT_GT(variance(sphere({0, 0, 1}, 0.9), kShapeArea), 10.0);
-}
-
-// ---- choosing -------------------------------------------------------------------------------------------------------
-
-LightBound boundOf(const Light& light) {
-    LightBound bound{};
-    if (light.kind == kLightSphere) {
-        bound.center = light.position;
-        bound.radius = light.radius;
-        bound.intensity = kPi * light.radius * light.radius;
-        return bound;
-    }
-    dvec3 middle(0);
-    for (const dvec3& v : vertices(light)) middle += v / double(vertices(light).size());
-    for (const dvec3& v : vertices(light))
-        bound.radius = std::max(bound.radius, static_cast<float>(glm::length(v - middle) * 1.000001));
-    bound.center = vec3(middle);
-    bound.axis = light.normal;
-    bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
-    bound.intensity = light.area;
-    return bound;
-}
-
-Light randomLight(Uniforms& uniform, double size) {
-    const auto inBox = [&](double extent) {
-        return dvec3(uniform.between(-extent, extent), uniform.between(-extent, extent),
-                     uniform.between(-extent, extent));
-    };
-    switch (uniform.word() % 3) {
-        case 0:
-            return sphere(inBox(3), size);
-        case 1:
-            return quad(inBox(3), inBox(size), inBox(size));
-        default: {
-            const dvec3 a = inBox(3);
-            return triangle(a, a + inBox(size), a + inBox(size));
-        }
-    }
-}
-
-TEST(LightContribution, IsNeverZeroWhereTheLightContributes) {
-    Uniforms uniform(8);
-    int zero = 0;
-    for (int i = 0; i < 100000; ++i) {
-        Light light = randomLight(uniform, uniform.logBetween(1e-3, 3));
-        if (light.kind == kLightSphere && glm::length(light.position) <= light.radius * 1.0001f) continue;
-        const bool oneSided = light.kind != kLightSphere && (i & 1);
-        if (oneSided) light.sides = kSidesFront;
-        const float contribution = lightContribution(boundOf(light), vec3(0), kUp);
-        ASSERT_TRUE(isFinite(contribution) && contribution >= 0);
-        const bool lit = !oneSided || glm::dot(dvec3(light.normal), -dvec3(light.position)) > 1e-6;
-        const double exact = lit ? irradiance(light, dvec3(kUp)) : 0;
-        if (exact > 1e-9) {
-            ASSERT_GT(contribution, 0.0f) << i;
-        }
-        zero += contribution == 0;
-        // In a medium only the dark side is dark.
-        const float inMedium = lightContribution(boundOf(light), vec3(0), vec3(0));
-        if (lit) {
-            ASSERT_GT(inMedium, 0.0f);
-        }
-    }
-    EXPECT_GT(zero, 30000); // and it does exclude lights
-}
-
-TEST(LightContribution, IsTheIrradianceOfSmallLights) {
-    Uniforms uniform(9);
-    for (int i = 0; i < 20000; ++i) {
-        Light light = randomLight(uniform, 0.01);
-        const dvec3 center(boundOf(light).center);
-        if (center.z < 0.1 * glm::length(center) || glm::length(center) < 1) continue;
-        if (light.kind != kLightSphere && std::abs(glm::dot(dvec3(light.normal), glm::normalize(center))) < 0.1)
-            continue;
-        const double exact = irradiance(light, dvec3(kUp));
-        ASSERT_NEAR(lightContribution(boundOf(light), vec3(0), kUp), exact, 0.1 * exact);
-    }
-}
-
-TEST(LightContribution, ScalesExactly) {
-    Uniforms uniform(10);
-    for (int i = 0; i < 1000; ++i) {
-        const LightBound bound = boundOf(randomLight(uniform, 1));
-        LightBound scaled = bound;
-        scaled.center *= 0x1p16f, scaled.radius *= 0x1p16f, scaled.intensity *= 0x1p32f;
-        ASSERT_EQ(lightContribution(bound, vec3(0), kUp), lightContribution(scaled, vec3(0), kUp));
-    }
-}
-
-// Choosing in proportion to the contributions must be worth it: in a room of lights the sum of variances shrinks.
-TEST(LightContribution, BeatsChoiceByPower) {
-    Uniforms uniform(11);
-    std::vector<Light> lights;
-    for (int i = 0; i < 16; ++i) lights.push_back(randomLight(uniform, 0.3));
-    const RenderParams params = withMethod(kShapeAuto);
-    const auto variance = [&](const std::function<double(const Light&)>& weight) {
-        std::vector<double> weights;
-        double total = 0;
-        for (const Light& light : lights) total += weights.emplace_back(weight(light));
-        Mean mean;
-        for (int i = 0; i < 1 << 16; ++i) {
-            double x = uniform.between(0, total);
-            std::size_t chosen = 0;
-            while (chosen + 1 < lights.size() && x >= weights[chosen]) x -= weights[chosen++];
-            const LightSample s = sampleLight(kFeatureAll, params, lights[chosen], vec3(0), kUp, 0, uniform.pair());
-            mean.add(s.pdf > 0 && weights[chosen] > 0 ? double(s.wi.z) / s.pdf * total / weights[chosen] : 0);
-        }
-        return std::pair(mean, mean.relativeVariance());
-    };
-    const auto [byContribution, low] =
-        variance([](const Light& l) { return double(lightContribution(boundOf(l), vec3(0), kUp)); });
-    const auto [byPower, high] = variance([](const Light& l) { return double(l.area); });
-    double exact = 0;
-    for (const Light& light : lights) exact += irradiance(light, dvec3(kUp));
-    EXPECT_TRUE(agrees(byContribution, exact));
-    EXPECT_TRUE(agrees(byPower, exact));
-    EXPECT_LT(low * 5, high);
 }
 
 } // namespace
