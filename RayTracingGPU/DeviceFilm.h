@@ -66,12 +66,13 @@ class DeviceFilm {
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
     bool isWhole() const;               // it holds all tiles of the image
     std::uint64_t leastSamples() const; // of any pixel, all replicates
-    std::uint64_t stepSamples() const {
-        return stepSamples_;
-    } // if every slot gets one for each pixel inside of the image
+    // Of a step, which is one sample of every slot for each of its pixels inside of the image.
+    std::uint64_t stepSamples() const { return stepSamples_; }
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
     std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }
     std::uint32_t bandSlots() const; // the last band may lack some
+    // Of a step of one slot in each band, pixels outside of the image included.
+    std::uint64_t columnSamples() const { return std::uint64_t{bands()} * shared::kTilePixels; }
     // Fills in what such a launch needs to know of the film.
     void describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const;
     // To be called after a launch. Returns the samples that it added, of pixels inside of the image.

@@ -236,8 +236,8 @@ bool GpuEngine::beginPass() {
     std::uint64_t end = (least / round + kRegionRounds) * round;
     if (region_->isWhole()) {
         const std::uint64_t fitting = launchSize_->suggest(options_.launchSeconds);
-        const std::uint64_t column = std::uint64_t{region_->bands()} * shared::kTilePixels; // samples of a step
-        const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / column, 1);
+        const std::uint64_t most =
+            std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region_->columnSamples(), 1);
         const std::uint64_t wanted =
             std::max(fitting / region_->stepSamples(), std::min(least / kPassPart, kMaxPass) / settings_.replicates);
         const std::uint64_t steps = std::clamp<std::uint64_t>(wanted, 1, most);
@@ -252,7 +252,7 @@ bool GpuEngine::beginPass() {
 
 // Launches the next slots of the pass in all bands; behind the last ones of the last region the pass is over.
 void GpuEngine::launchNext() {
-    const std::uint64_t room = kMaxSamples / (std::uint64_t{region_->bands()} * shared::kTilePixels * pass_->steps);
+    const std::uint64_t room = kMaxSamples / (region_->columnSamples() * pass_->steps);
     const std::uint64_t fitting =
         launchSize_->suggest(options_.launchSeconds) * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
     const std::uint32_t left = region_->bandSlots() - pass_->nextSlot;

@@ -12,12 +12,8 @@ using vulkan::Memory;
 
 constexpr VkDeviceSize kCounterBytes = VkDeviceSize{shared::kCounterLines} * shared::kCounters * sizeof(std::uint32_t);
 
-std::uint32_t samplesOf(const shared::FilmLaunch& launch) {
-    return shared::sampleAt(launch, launch.slotCount, 0, 0);
-}
-
 VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {
-    return VkDeviceSize{samplesOf(launch)} * sizeof(shared::vec3);
+    return VkDeviceSize{shared::launchSamples(launch)} * sizeof(shared::vec3);
 }
 
 } // namespace
@@ -49,7 +45,7 @@ std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const s
     next.run.begin([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
-        kernel.launch(commands, push, std::min(samplesOf(push), maxInvocations));
+        kernel.launch(commands, push, std::min(shared::launchSamples(push), maxInvocations));
         vulkan::barrier(commands);
         reducer_.run(commands, push, push.slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};

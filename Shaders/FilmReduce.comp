@@ -33,12 +33,13 @@ void main() {
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
     uint done = launch.samples.at[slot];
     uint end = samplesAfter(launch, slot, done);
+    if (end == done) return;
     bool squares = launch.keepSquares != 0u;
     FilmSum sum = launch.sums.at[pixel];
     FilmSum square;
     if (squares) square = launch.squares.at[pixel];
     vec3 block = vec3(0.0f);
-    if (done % kBlock != 0u && done < end) block = launch.open.at[pixel];
+    if (done % kBlock != 0u) block = launch.open.at[pixel];
     for (uint step = 0u; step < end - done; step++) {
         block += launch.radiance.at[sampleAt(launch, position, step, gl_LocalInvocationID.x)];
         if ((done + step + 1u) % kBlock == 0u) {
@@ -47,7 +48,7 @@ void main() {
             block = vec3(0.0f);
         }
     }
-    if (end % kBlock != 0u && done < end) launch.open.at[pixel] = block;
+    if (end % kBlock != 0u) launch.open.at[pixel] = block;
     launch.sums.at[pixel] = sum;
     if (squares) launch.squares.at[pixel] = square;
     memoryBarrierBuffer();

@@ -34,7 +34,7 @@ bool findWork(inout Work work) {
 
 // False: all have been taken.
 bool takeWork(inout Work work) {
-    uint samples = sampleAt(launch, launch.slotCount, 0u, 0u);
+    uint samples = launchSamples(launch);
     for (;;) {
         work.number = atomicAdd(launch.counters.at[kCounterWork], 1u);
         if (work.number >= samples) return false;

@@ -186,6 +186,11 @@ RT_FN uint sampleAt(RT_IN(FilmLaunch) launch, uint i, uint step, uint tilePixel)
     return (i * launch.steps + step) * kTilePixels + tilePixel;
 }
 
+// How many have a number, those that do not exist at the borders of the image included.
+RT_FN uint launchSamples(RT_IN(FilmLaunch) launch) {
+    return sampleAt(launch, launch.slotCount, 0u, 0u);
+}
+
 RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
     uint tile = launch.firstTile + slot / launch.replicates;
     return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);

@@ -10,10 +10,9 @@
 #include "Common/Core/Error.h"
 #include "Common/Scene/SceneBuilder.h"
 #include "Common/Scene/SceneCompiler.h"
+#include "tests/unit/Oracles.h"
 
 namespace rt::scene {
-
-inline constexpr double kPi = 3.14159265358979323846;
 
 inline SceneDesc withMaterials() {
     SceneDesc scene;
@@ -29,17 +28,8 @@ inline GroupDesc group(Transform transform, ObjectDesc::Shape object) {
     return group;
 }
 
-inline void addInstance(SceneDesc& scene, const std::string& prototype, Transform transform,
-                        const std::string& material = "") {
-    InstanceDesc instance;
-    instance.prototype = prototype;
-    instance.transform = std::move(transform);
-    instance.material = material;
-    add(scene, instance);
-}
-
 inline glm::dvec3 rotatedY(const glm::dvec3& p, double degrees) {
-    const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+    const double c = std::cos(degrees * test::kPi / 180), s = std::sin(degrees * test::kPi / 180);
     return {c * p.x + s * p.z, p.y, -s * p.x + c * p.z};
 }
 

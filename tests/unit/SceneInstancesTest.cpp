@@ -1,5 +1,6 @@
 // Prototypes and instances in the scene compiler: what becomes an instance, where it stands.
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,6 +11,15 @@
 
 namespace rt::scene {
 namespace {
+
+void addInstance(SceneDesc& scene, const std::string& prototype, Transform transform,
+                 const std::string& material = "") {
+    InstanceDesc instance;
+    instance.prototype = prototype;
+    instance.transform = std::move(transform);
+    instance.material = material;
+    add(scene, instance);
+}
 
 glm::dvec3 placed(const shared::Instance& instance, const glm::dvec3& p) {
     glm::dvec3 q;

@@ -14,6 +14,8 @@
 namespace rt::scene {
 namespace {
 
+using test::kPi;
+
 TEST(SceneLights, LightsHaveTheirWorldGeometry) {
     SceneDesc scene = withMaterials();
     const Transform turn = {Scale{{2, 1, 1}}, Rotate{{1, 1, 1}, 50}, Translate{{1, 2, 3}}};
