@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <numeric>
 #include <span>
 
@@ -180,27 +179,27 @@ std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
            std::min(shared::kTile, desc_.height - tile / tilesX_ * shared::kTile);
 }
 
-std::uint64_t DeviceFilm::leastSamples() const {
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, tileSamples(tile));
-    return least;
-}
-
 std::uint64_t DeviceFilm::tileSamples(std::uint32_t tile) const {
     const auto first = samples_.begin() + std::ptrdiff_t{tile} * desc_.replicates;
     return std::accumulate(first, first + desc_.replicates, std::uint64_t{0});
 }
 
-std::uint64_t DeviceFilm::advance(const shared::FilmLaunch& launch) {
+std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
     std::uint64_t added = 0;
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
         if (slot >= slotCount()) continue;
         const std::uint32_t reached = shared::samplesAfter(launch, slot, samples_[slot]);
         added += std::uint64_t{reached - samples_[slot]} * pixelsInside(slot);
-        samples_[slot] = reached;
     }
     return added;
+}
+
+void DeviceFilm::advance(const shared::FilmLaunch& launch) {
+    for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
+        const std::uint32_t slot = shared::launchSlot(launch, i);
+        if (slot < slotCount()) samples_[slot] = shared::samplesAfter(launch, slot, samples_[slot]);
+    }
 }
 
 app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {

@@ -64,8 +64,7 @@ class DeviceFilm {
 
     std::uint32_t firstTile() const { return firstTile_; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
-    bool isWhole() const;               // it holds all tiles of the image
-    std::uint64_t leastSamples() const; // of any pixel, all replicates
+    bool isWhole() const; // it holds all tiles of the image
     // Of a step, which is one sample of every slot for each of its pixels inside of the image.
     std::uint64_t stepSamples() const { return stepSamples_; }
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
@@ -75,8 +74,10 @@ class DeviceFilm {
     std::uint64_t columnSamples() const { return std::uint64_t{bands()} * shared::kTilePixels; }
     // Fills in what such a launch needs to know of the film.
     void describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const;
-    // To be called after a launch. Returns the samples that it added, of pixels inside of the image.
-    std::uint64_t advance(const shared::FilmLaunch& launch);
+    // Samples that such a launch would add now, of pixels inside of the image.
+    std::uint64_t samplesOf(const shared::FilmLaunch& launch) const;
+    // To be called when a launch adds its samples.
+    void advance(const shared::FilmLaunch& launch);
 
   private:
     void clear();

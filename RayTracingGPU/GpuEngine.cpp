@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
 using image::Film;
 using vulkan::Memory;
 
-constexpr std::uint32_t kInvocations = 1u << 18;  // that share the work of a launch; fills the largest devices
-constexpr std::uint64_t kMaxSamples = 24'000'000; // of a launch, whose radiance takes 288 MB
+constexpr std::uint32_t kInvocations = 1u << 17;  // that share the work of a launch; fills the largest devices
+constexpr std::uint64_t kMaxSamples = 12'000'000; // of a launch, whose radiance takes 144 MB
 constexpr std::uint64_t kPassPart = 8;            // launches share passes that take a film of n samples n / 8 further
 constexpr std::uint64_t kMaxPass = 64;            // samples, likewise
 constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions take turns; a turn costs two copies
@@ -63,7 +63,7 @@ class GpuEngine final : public app::Engine {
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
                      "constants"),
-          launches_(context, cache_) {}
+          launches_(context, cache_, {.invocations = maxInvocations(), .samples = kMaxSamples}) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
@@ -95,6 +95,7 @@ class GpuEngine final : public app::Engine {
     bool beginPass();
     void launchNext();
     void beginLaunch(const shared::FilmLaunch& launch);
+    void finishPaths();
     void endLaunch();
     void endLaunches();
     bool nextRegion();
@@ -124,7 +125,8 @@ class GpuEngine final : public app::Engine {
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
     Clock::time_point refreshed_;
-    std::uint64_t samplesDone_ = 0;
+    std::uint64_t samplesDone_ = 0;        // that region_ and film_ have
+    std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
     std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
@@ -191,9 +193,11 @@ void GpuEngine::setFilm(Film film) {
     }
     region_->load(film_, 0);
     samplesDone_ = film_.totalSamples();
+    begun_ = film_.minSamples();
     dirty_ = false;
     failed_ = false;
     pass_.reset();
+    launches_.forget();
     refreshed_ = Clock::now();
 }
 
@@ -205,7 +209,10 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     const double seconds = budget.time.count();
     try {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
-            if (!pass_ && !beginPass()) break;
+            if (!pass_ && !beginPass()) {
+                finishPaths();
+                break;
+            }
             launchNext();
             if (secondsSince(start) + launchSize_->secondsFor(launches_.samplesAhead()) >= seconds) break;
         }
@@ -226,27 +233,27 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-// Opens the next pass. Where one launch takes all pixels several samples further, it is a pass. Where it takes them few samples or
-// not even one, some launches share a pass, so that none is much shorter than it may be. Large films go on by whole blocks.
+// Opens the next pass. Where two launches take all pixels several samples further, they are a pass: one would have to wait for the
+// paths of the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
+// shorter than it may be. Large films go on by whole blocks.
 bool GpuEngine::beginPass() {
-    if (samplesDone_ >= pixels() * settings_.spp) return false;
+    if (begun_ >= settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
-    const std::uint64_t least = region_->isWhole() ? region_->leastSamples() : film_.minSamples();
-    std::uint64_t end = (least / round + kRegionRounds) * round;
+    std::uint64_t end = (begun_ / round + kRegionRounds) * round;
     if (region_->isWhole()) {
         const std::uint64_t fitting = launchSize_->suggest(options_.launchSeconds);
         const std::uint64_t most =
             std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region_->columnSamples(), 1);
-        const std::uint64_t wanted =
-            std::max(fitting / region_->stepSamples(), std::min(least / kPassPart, kMaxPass) / settings_.replicates);
+        const std::uint64_t wanted = std::max(2 * fitting / region_->stepSamples(),
+                                              std::min(begun_ / kPassPart, kMaxPass) / settings_.replicates);
         const std::uint64_t steps = std::clamp<std::uint64_t>(wanted, 1, most);
-        end = least + steps * settings_.replicates;
+        end = begun_ + steps * settings_.replicates;
     }
     end = std::min<std::uint64_t>(end, settings_.spp);
     if (end % round != 0) region_->reserveOpenBlocks();
     pass_ = Pass{.end = static_cast<std::uint32_t>(end),
-                 .steps = static_cast<std::uint32_t>((end - least + settings_.replicates - 1) / settings_.replicates)};
+                 .steps = static_cast<std::uint32_t>((end - begun_ + settings_.replicates - 1) / settings_.replicates)};
     return true;
 }
 
@@ -256,7 +263,8 @@ void GpuEngine::launchNext() {
     const std::uint64_t fitting =
         launchSize_->suggest(options_.launchSeconds) * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
     const std::uint32_t left = region_->bandSlots() - pass_->nextSlot;
-    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, fitting), 1, left);
+    const std::uint32_t half = (region_->bandSlots() + 1) / 2;
+    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, fitting), 1, std::min(left, half));
     const std::uint64_t launches = (left + most - 1) / most; // that take alike many
     shared::FilmLaunch push{};
     region_->describe(push, pass_->nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
@@ -264,7 +272,10 @@ void GpuEngine::launchNext() {
     push.spp = pass_->end;
     beginLaunch(push);
     pass_->nextSlot += push.bandWidth;
-    if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) pass_.reset();
+    if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) {
+        begun_ = pass_->end;
+        pass_.reset();
+    }
 }
 
 std::uint32_t GpuEngine::maxInvocations() const {
@@ -272,24 +283,33 @@ std::uint32_t GpuEngine::maxInvocations() const {
 }
 
 void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
+    if (launches_.overlaps(launch)) finishPaths();
     while (!launches_.hasRoom(launch)) endLaunch();
-    samplesDone_ += launches_.begin(*kernel_, *region_, launch, maxInvocations());
+    samplesDone_ += launches_.begin(*kernel_, *region_, launch);
+    dirty_ = true;
+}
+
+// Goes on with the paths that the last launch has left, and leaves none.
+void GpuEngine::finishPaths() {
+    if (!launches_.isUnfinished()) return;
+    while (!launches_.hasRoom({})) endLaunch();
+    samplesDone_ += launches_.finish(*kernel_, *region_);
     dirty_ = true;
 }
 
 // Waits for the end of the oldest launch that has not ended.
 void GpuEngine::endLaunch() {
     const LaunchQueue::Ended ended = launches_.end();
-    launchSize_->measured(ended.samples, ended.seconds);
+    if (ended.samples != 0) launchSize_->measured(ended.samples, ended.seconds);
     report_.renderDeviceSeconds += ended.seconds;
     report_.rays.camera += ended.samples;
     report_.rays.scattered += ended.scattered;
     report_.rays.shadow += ended.shadow;
     report_.nonfiniteSamples += ended.nonfinite;
-    if (ended.finished != ended.samples) {
+    if (ended.finished != ended.due) {
         failed_ = true; // what is on the device is not a film
         throw RenderError(context_.info().name + " ended a shader before its work was done (" +
-                          std::to_string(ended.finished) + " of " + std::to_string(ended.samples) +
+                          std::to_string(ended.finished) + " of " + std::to_string(ended.due) +
                           " samples); a newer driver may help");
     }
 }
@@ -301,6 +321,7 @@ void GpuEngine::endLaunches() {
 // Goes on to the next part of a large film. False: this one was the last.
 bool GpuEngine::nextRegion() {
     if (region_->isWhole()) return false;
+    finishPaths();
     endLaunches();
     refresh();
     const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;

@@ -16,45 +16,102 @@ VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {
     return VkDeviceSize{shared::launchSamples(launch)} * sizeof(shared::vec3);
 }
 
+VkDeviceSize leftBytes(std::uint32_t invocations) {
+    return VkDeviceSize{invocations} * sizeof(shared::UnfinishedPath);
+}
+
+// Where it is too small, without its contents; larger by a factor then, since launches grow until they are as long as they may be.
+void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSize bytes, VkDeviceSize most) {
+    constexpr VkDeviceSize kGrowth = 4;
+    if (buffer.bytes() >= bytes) return;
+    buffer = {}; // its memory may be needed for the next one
+    buffer = vulkan::Buffer(context, std::max(bytes, std::min(kGrowth * bytes, most)), 0, Memory::Device, "a launch");
+}
+
 } // namespace
 
 LaunchQueue::Launch::Launch(vulkan::VulkanContext& context)
-    : run(context), counters(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
+    : run(context),
+      counters(context, kCounterBytes, 0, Memory::Device, "counters"),
+      hostCounters(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
 
-LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache)
+LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits)
     : context_(context),
       reducer_(context, cache, Shader::FilmReduce, sizeof(shared::FilmLaunch)),
-      counters_(context, kCounterBytes, 0, Memory::Device, "counters"),
+      limits_(limits),
       launches_{Launch(context), Launch(context)} {}
 
-bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch) const {
-    return isEmpty() || (begun_ - ended_ < launches_.size() && radianceBytes(launch) <= radiance_.bytes());
+// No fewer than there are paths to go on with.
+std::uint32_t LaunchQueue::invocationsFor(const shared::FilmLaunch& launch) const {
+    return std::max(std::min(shared::launchSamples(launch), limits_.invocations), last_ ? invocations_ : 0);
 }
 
-std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
-                                 std::uint32_t maxInvocations) {
-    if (radiance_.bytes() < radianceBytes(launch)) {
-        const VkDeviceSize bytes = radianceBytes(launch) / 4 * 5; // the next one is rarely just as large
-        radiance_ = {};
-        radiance_ = vulkan::Buffer(context_, bytes, 0, Memory::Device, "a launch");
-    }
-    shared::FilmLaunch push = launch;
-    push.radiance = radiance_.address();
-    push.counters = counters_.address();
+// Where its memory does not suffice, there is more when none of it is in use.
+bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch) const {
+    if (isEmpty()) return true;
+    const Launch& next = numbered(begun_);
+    return begun_ - ended_ < launches_.size() && radianceBytes(launch) <= next.radiance.bytes() &&
+           leftBytes(invocationsFor(launch)) <= next.left.bytes();
+}
+
+bool LaunchQueue::overlaps(const shared::FilmLaunch& launch) const {
+    return last_ && launch.firstSlot < last_->firstSlot + last_->bandWidth &&
+           last_->firstSlot < launch.firstSlot + launch.bandWidth;
+}
+
+std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch) {
     Launch& next = numbered(begun_);
+    const std::uint32_t invocations = invocationsFor(launch);
+    reserve(context_, next.radiance, radianceBytes(launch), limits_.samples * sizeof(shared::vec3));
+    reserve(context_, next.left, leftBytes(invocations), leftBytes(limits_.invocations));
+    next.samples = film.samplesOf(launch);
+    shared::FilmLaunch push = launch;
+    const std::uint64_t added = submit(kernel, film, push, invocations);
+    last_ = push;
+    invocations_ = invocations;
+    return added;
+}
+
+std::uint64_t LaunchQueue::finish(const Kernel& kernel, DeviceFilm& film) {
+    shared::FilmLaunch push = *last_;
+    push.slotCount = 0;
+    numbered(begun_).samples = 0;
+    const std::uint64_t added = submit(kernel, film, push, invocations_);
+    last_.reset();
+    return added;
+}
+
+// Records paths, and what the samples of the launch before add to the film.
+std::uint64_t LaunchQueue::submit(const Kernel& kernel, DeviceFilm& film, shared::FilmLaunch& push,
+                                  std::uint32_t invocations) {
+    Launch& next = numbered(begun_);
+    const Launch& before = numbered(begun_ + 1); // they take turns
+    push.radiance = next.radiance.address();
+    push.left = next.left.address();
+    push.counters = next.counters.address();
+    push.radianceBefore = before.radiance.address();
+    push.leftBefore = before.left.address();
+    push.countersBefore = before.counters.address();
     next.run.begin([&](VkCommandBuffer commands) {
-        vkCmdFillBuffer(commands, counters_.get(), 0, VK_WHOLE_SIZE, 0);
+        vkCmdFillBuffer(commands, next.counters.get(), 0, VK_WHOLE_SIZE, 0);
+        if (!last_) vkCmdFillBuffer(commands, before.counters.get(), 0, VK_WHOLE_SIZE, 0);
         vulkan::barrier(commands);
-        kernel.launch(commands, push, std::min(shared::launchSamples(push), maxInvocations));
+        kernel.launch(commands, push, invocations);
         vulkan::barrier(commands);
-        reducer_.run(commands, push, push.slotCount);
+        if (last_) reducer_.run(commands, *last_, last_->slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};
-        vkCmdCopyBuffer(commands, counters_.get(), next.counters.get(), 1, &all);
+        vkCmdCopyBuffer(commands, next.counters.get(), next.hostCounters.get(), 1, &all);
         vulkan::barrier(commands);
     });
     ++begun_;
-    next.samples = film.advance(push);
-    return next.samples;
+    if (!last_) return 0;
+    film.advance(*last_);
+    return before.samples;
+}
+
+void LaunchQueue::forget() {
+    last_.reset();
+    left_ = 0;
 }
 
 std::uint64_t LaunchQueue::samplesAhead() const {
@@ -68,13 +125,15 @@ LaunchQueue::Ended LaunchQueue::end() {
     Ended ended;
     ended.samples = launch.samples;
     ended.seconds = context_.finishTimed(launch.run);
-    const std::span<const std::uint32_t> counters = launch.counters.mapped<const std::uint32_t>();
+    const std::span<const std::uint32_t> counters = launch.hostCounters.mapped<const std::uint32_t>();
     for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
         ended.scattered += counters[line + shared::kCounterScattered];
         ended.shadow += counters[line + shared::kCounterShadow];
         ended.nonfinite += counters[line + shared::kCounterNonfinite];
         ended.finished += counters[line + shared::kCounterFinished];
     }
+    ended.due = left_ + ended.samples - counters[shared::kCounterLeft];
+    left_ = counters[shared::kCounterLeft];
     return ended;
 }
 
@@ -85,6 +144,7 @@ void LaunchQueue::drop() {
         } catch (const RenderError&) { // as the one before
         }
     }
+    forget();
 }
 
 } // namespace rt::gpu

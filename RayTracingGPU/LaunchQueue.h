@@ -1,8 +1,9 @@
 // The launches that the device has been handed: two at most, so that the next one is recorded while it works at one; it would
-// have nothing to do in between.
+// have nothing to do in between. A launch leaves its last paths to the next one, behind which its samples come to the film.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
@@ -13,23 +14,37 @@
 
 namespace rt::gpu {
 
+// Of a launch, at most.
+struct LaunchLimits {
+    std::uint32_t invocations = 0; // that share its work
+    std::uint64_t samples = 0;
+};
+
 class LaunchQueue {
   public:
-    LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache);
+    LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits);
 
-    // Whether begin() may be called with it before another end().
+    // Whether begin() may be called with it before another end(); with FilmLaunch{}, whether finish() may.
     bool hasRoom(const shared::FilmLaunch& launch) const;
-    // Hands over a launch that `film` describes, whose memory must last until the end of it: paths, and what they add to the film.
-    // There are no more than `maxInvocations`, and they share the work. Throws DeviceLostError or RenderError; then nothing has begun.
-    // Returns how many samples that are.
-    std::uint64_t begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch,
-                        std::uint32_t maxInvocations);
+    // Whether it goes on where samples of the launch before are still to come; then finish() comes first.
+    bool overlaps(const shared::FilmLaunch& launch) const;
+    // Hands over a launch that `film` describes, whose memory must last until the end of the launch behind it. Throws DeviceLostError
+    // or RenderError; then nothing has begun. Returns how many samples come to the film behind it: those of the launch before.
+    std::uint64_t begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch);
+
+    // Whether the last launch has left paths, and its samples are still to come.
+    bool isUnfinished() const { return last_.has_value(); }
+    // Hands over what the last launch has left. Otherwise like begin().
+    std::uint64_t finish(const Kernel& kernel, DeviceFilm& film);
+    // Its samples are not to come. Only when isEmpty().
+    void forget();
 
     bool isEmpty() const { return ended_ == begun_; }
     std::uint64_t samplesAhead() const; // of all that have begun and not ended
 
     struct Ended {
-        std::uint64_t samples = 0;   // that were to be taken
+        std::uint64_t samples = 0;   // that it began
+        std::uint64_t due = 0;       // that were to end in it
         std::uint64_t finished = 0;  // as many, but for drivers that end long loops early: that has been seen
         std::uint64_t scattered = 0; // rays
         std::uint64_t shadow = 0;    // rays
@@ -38,7 +53,7 @@ class LaunchQueue {
     };
     // Waits for the oldest, which has ended whether or not this throws DeviceLostError or RenderError.
     Ended end();
-    // After a failure: waits for all, as far as the device still answers.
+    // After a failure: waits for all, as far as the device still answers, and forgets.
     void drop();
 
   private:
@@ -46,19 +61,26 @@ class LaunchQueue {
         explicit Launch(vulkan::VulkanContext& context);
 
         vulkan::Run run;
-        vulkan::Buffer counters; // of it, when it has ended
+        vulkan::Buffer counters;
+        vulkan::Buffer hostCounters; // their copy, when it has ended
+        vulkan::Buffer radiance;
+        vulkan::Buffer left;
         std::uint64_t samples = 0;
     };
     Launch& numbered(std::uint64_t n) { return launches_[n % launches_.size()]; }
     const Launch& numbered(std::uint64_t n) const { return launches_[n % launches_.size()]; }
+    std::uint32_t invocationsFor(const shared::FilmLaunch& launch) const;
+    std::uint64_t submit(const Kernel& kernel, DeviceFilm& film, shared::FilmLaunch& push, std::uint32_t invocations);
 
     vulkan::VulkanContext& context_;
     FilmPipeline reducer_;
-    vulkan::Buffer counters_; // of the launch that the device works at
-    vulkan::Buffer radiance_; // likewise
+    LaunchLimits limits_;
     std::array<Launch, 2> launches_;
     std::uint64_t begun_ = 0; // launches, numbered from 0
     std::uint64_t ended_ = 0;
+    std::optional<shared::FilmLaunch> last_; // that has begun, if it is unfinished
+    std::uint32_t invocations_ = 0;          // of it
+    std::uint64_t left_ = 0;                 // paths, by the last launch that has ended
 };
 
 } // namespace rt::gpu

@@ -6,12 +6,11 @@
 namespace rt::gpu {
 
 // No watchdog fires and a cancelled render ends soon when launches are short; a device is busy when they are not too short.
-inline constexpr double kLaunchSeconds = 0.04;
+inline constexpr double kLaunchSeconds = 0.02;
 // A window's draws wait for at most one launch, which leaves them half of a frame. Those of software are threads among threads.
 inline constexpr double kWindowLaunchSeconds = 0.008;
-inline constexpr double kSoftWindowLaunchSeconds = 0.025;
 inline double windowLaunchSeconds(bool isSoftware) {
-    return isSoftware ? kSoftWindowLaunchSeconds : kWindowLaunchSeconds;
+    return isSoftware ? kLaunchSeconds : kWindowLaunchSeconds;
 }
 
 class LaunchSize {
@@ -19,11 +18,11 @@ class LaunchSize {
     // Begins with so few samples that even a slow device of its kind is done with them in time, and with fewer where paths may
     // be long.
     LaunchSize(bool softwareDevice, std::uint32_t maxDepth)
-        : samples_((softwareDevice ? 1 << 14 : 1 << 18) / std::max(1.0, maxDepth / 64.0)) {}
+        : samples_((softwareDevice ? 1 << 13 : 1 << 17) / std::max(1.0, maxDepth / 64.0)) {}
 
     // Samples for a launch of `seconds`, but at most kLaunchSeconds. Short ones must not take longer: they are planned shorter.
     std::uint64_t suggest(double seconds) {
-        constexpr double kReserve = 0.9;
+        constexpr double kReserve = 0.875;
         suggested_ = samples_ * (seconds < kLaunchSeconds ? kReserve * seconds / kLaunchSeconds : 1);
         return static_cast<std::uint64_t>(std::max(suggested_, 1.0));
     }

@@ -1,10 +1,11 @@
 // Paths. Every invocation takes one sample after the other, the next that nobody has, and starts its path in the very step in which
-// the last one ended: no lane of a group waits for the longest path, neighbours are at work at a time, whose rays are alike, and the
-// invocations of a launch end within one path. Each step traces one ray, of the path or of a shadow, in one place: lanes with a
-// shadow ray do not hold up those without, and the program keeps little alive across the trace. Measured against two places, that
-// makes light sampling 1.25 to 1.5 times as fast.
+// the last one ended: no lane of a group waits for the longest path, and neighbours are at work at a time, whose rays are alike. When
+// no sample is left, paths under way are put aside for the next launch: no launch waits for its longest path either. Each step
+// traces one ray, of the path or of a shadow, in one place: lanes with a shadow ray do not hold up those without, and the program
+// keeps little alive across the trace. Measured against two places, that makes light sampling 1.25 to 1.5 times as fast.
 //
 // The includer provides traceRay().
+#extension GL_KHR_memory_scope_semantics : require
 #include "SceneAccess.glsl"
 #include "Common/Shared/PathStep.h"
 #include "TraceStep.glsl"
@@ -12,10 +13,11 @@
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
 struct Work {
-    uint number; // of the sample in the launch
+    uint number; // of the sample in its launch
     uvec2 pixel;
     Sampler smp; // its index is that of the sample in the pixel, or `end` when that is done
     uint end;
+    bool isResumed; // the launch before began it
 };
 
 // Finds the sample of this number. False: there is no such pixel or sample.
@@ -35,6 +37,7 @@ bool findWork(inout Work work) {
 // False: all have been taken.
 bool takeWork(inout Work work) {
     uint samples = launchSamples(launch);
+    work.isResumed = false;
     for (;;) {
         work.number = atomicAdd(launch.counters.at[kCounterWork], 1u);
         if (work.number >= samples) return false;
@@ -46,12 +49,51 @@ PathState beginPath(RenderParams params, Work work) {
     return startPath(kFeatures, params, constants.camera, work.smp, work.pixel, randomPair(work.smp, kPairPixel));
 }
 
+// Goes on with the path of this number that the launch before left. False: there is none.
+bool resumePath(uint number, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
+                inout bool goesOn) {
+    if (number >= launch.countersBefore.at[kCounterLeft]) return false;
+    UnfinishedPath unfinished = launch.leftBefore.at[number];
+    work.number = unfinished.number;
+    work.smp = makeSampler(params, 0u, 0u, 0u);
+    work.smp.key = unfinished.key;
+    work.smp.index = unfinished.index;
+    work.smp.base = unfinished.base;
+    work.end = unfinished.index + 1u;
+    work.isResumed = true;
+    path = unfinished.path;
+    if (!has(kFeatures, kFeatureMotion)) path.ray.time = 0.0f; // as the compiler is to know
+    direct = unfinished.direct;
+    goesOn = unfinished.goesOn != 0u;
+    return true;
+}
+
+void leavePath(Work work, PathState path, DirectLight direct, bool goesOn) {
+    UnfinishedPath unfinished;
+    unfinished.number = work.number;
+    unfinished.key = work.smp.key;
+    unfinished.index = work.smp.index;
+    unfinished.base = work.smp.base;
+    unfinished.goesOn = goesOn ? 1u : 0u;
+    unfinished.path = path;
+    unfinished.direct = direct;
+    launch.left.at[atomicAdd(launch.counters.at[kCounterLeft], 1u)] = unfinished;
+}
+
+// Whether an invocation has found no sample any more.
+bool samplesAreSpent() {
+    return atomicLoad(launch.counters.at[kSpent], gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed) != 0u;
+}
+
+void tellSamplesAreSpent() {
+    atomicStore(launch.counters.at[kSpent], 1u, gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
+}
+
 // What an invocation does; all invocations of a launch share its samples.
 void tracePaths(uint invocation) {
     SceneRef scene;
     scene.unused = 0u;
     RenderParams params = renderParams();
-    uint line = invocation % kCounterLines * kCounters;
     uint scattered = 0u;
     uint shadow = 0u;
     uint nonfinite = 0u;
@@ -59,18 +101,28 @@ void tracePaths(uint invocation) {
     Work work;
     work.smp.index = 0u;
     work.end = 0u;
+    work.isResumed = false;
     PathState path;
     DirectLight direct = noDirectLight();
-    bool begins = true;
     bool goesOn = false; // the path has a next vertex
+    bool begins = !resumePath(invocation, params, work, path, direct, goesOn);
+    bool isSpent = false; // there is no sample to begin with
     for (;;) {
+        // Read before it is needed: the time that it takes passes with the beginning of a path.
+        bool isOver = samplesAreSpent();
         // Paths begin in one place: compilers round two copies of it differently, and it is the launch that decides which samples
         // an invocation begins with.
         if (begins) {
             // The sample is always done here; without the question LLVM 15 crashes, with which Mesa compiles for processors.
-            if (work.smp.index == work.end && !takeWork(work)) break;
-            path = beginPath(params, work);
+            isSpent = work.smp.index == work.end && !takeWork(work);
+            if (!isSpent) path = beginPath(params, work);
         }
+        if (isSpent) {
+            tellSamplesAreSpent();
+            break;
+        }
+        // A path goes on in the next launch, but not in a third one.
+        if (isOver && !work.isResumed && launch.slotCount != 0u) break;
         bool checking = direct.distance > 0.0f;
         Hit hit = traceStep(path, direct, checking, nonfinite);
         if (checking) {
@@ -89,11 +141,15 @@ void tracePaths(uint invocation) {
                 path.radiance = vec3(0.0f);
                 nonfinite++;
             }
-            launch.radiance.at[work.number] = path.radiance;
+            MutableVectorArray radiance = launch.radiance;
+            if (work.isResumed) radiance = launch.radianceBefore;
+            radiance.at[work.number] = path.radiance;
             finished++;
             work.smp.index++;
         }
     }
+    if (!isSpent) leavePath(work, path, direct, goesOn);
+    uint line = invocation / 32u % kCounterLines * kCounters; // the same for neighbours, whose sums are one access
     atomicAdd(launch.counters.at[line + kCounterFinished], finished);
     atomicAdd(launch.counters.at[line + kCounterScattered], scattered);
     atomicAdd(launch.counters.at[line + kCounterShadow], shadow);

@@ -121,17 +121,34 @@ RT_MUTABLE_ARRAY(FilmSumArray, FilmSum)
 RT_MUTABLE_ARRAY(MutableVectorArray, vec3)
 RT_MUTABLE_ARRAY(MutableWordArray, uint)
 
+// A path under way at the end of a launch, with which the next one goes on.
+struct UnfinishedPath {
+    uint number; // of its sample, whose key, index and base are those of the Sampler
+    uint key;
+    uint index;
+    uint base;
+    uint goesOn; // 1: it has a next vertex; 0: only the shadow ray is to be traced
+    PathState path;
+    DirectLight direct;
+};
+RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
+
 // Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that each launch
-// has its share of what takes long in the image.
+// has its share of what takes long in the image. Its last paths are left to the launch that follows it; one without slots takes no
+// samples and leaves no paths.
 struct FilmLaunch {
     MutableWordArray samples;    // per slot: samples that its pixels have
     FilmSumArray sums;           // of closed blocks
     FilmSumArray squares;        // of (block sum)^2 / kBlock, if keepSquares
     MutableVectorArray open;     // sums of open blocks; needed only where a block is or stays open
     MutableVectorArray radiance; // of each sample of the launch, see sampleAt()
-    MutableWordArray counters;   // kCounters per line, see below
-    uint firstTile;              // of the image: the film's first
-    uint tilesX;                 // of the image
+    UnfinishedPathArray left;    // as many as its counters say, see below
+    MutableWordArray counters;   // kCounters per line
+    MutableVectorArray radianceBefore; // these three: of the launch before
+    UnfinishedPathArray leftBefore;
+    MutableWordArray countersBefore;
+    uint firstTile; // of the image: the film's first
+    uint tilesX;    // of the image
     uint replicates;
     uint filmSlots;
     uint bandSlots; // the last band may lack some
@@ -161,8 +178,10 @@ const uint kCounterScattered = 1u; // rays
 const uint kCounterShadow = 2u;
 const uint kCounterNonfinite = 3u; // samples that were dropped
 const uint kCounterFinished = 4u;  // samples
+const uint kCounterLeft = 5u;      // of line 0: paths left to the next launch
 const uint kCounters = 8u;
 const uint kCounterLines = 64u;
+const uint kSpent = (kCounterLines - 1u) * kCounters + 6u; // 1 when no sample is left; away from what is written often
 
 // Samples of replicate r among the first `spp` of a pixel: sample s belongs to replicate s mod R.
 RT_FN uint replicateSamples(uint spp, uint replicate, uint replicates) {

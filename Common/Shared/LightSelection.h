@@ -13,24 +13,8 @@
 
 RT_SHARED_BEGIN
 
-struct LightChoice {
-    uint light;        // kNone: nothing to choose
-    float probability; // > 0 otherwise
-    float u;           // the number that chose, stretched to [0,1) for further use
-};
-
 // Added to `features` by those who have completed the context and made the choice before: it is LightContext::chosen.
 const uint kLightChosen = 1u << kFeatureBits;
-
-// Where lights are seen from. The point and the normal (zero in a medium) that selection and sampling used must also be
-// those that a density is asked for, or the weights of multiple importance sampling would not sum to one.
-struct LightContext {
-    vec3 position;
-    vec3 normal;
-    float total;        // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy;        // the selection in force: kSelect...
-    LightChoice chosen; // with kLightChosen, else undefined
-};
 
 // A table that `contribution` does not weigh light by light.
 RT_FN bool usesLightTree(uint features, uint count) {

@@ -26,15 +26,6 @@ const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
 const float kLeastSurvival = 0.05f; // of the roulette: bounds what a path may weigh
 
-struct PathState {
-    Ray ray;
-    vec3 throughput;
-    vec3 radiance;
-    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;       // surfaces and collisions met so far
-    LightContext last; // where ray starts, for the weights of multiple importance sampling
-};
-
 // A place where light scatters: a surface point or a collision in a medium.
 struct Vertex {
     uint index;    // position along the path, 0 is what the camera sees
@@ -188,15 +179,6 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
 // Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
 // the light's coordinates when the light is far from the shading point but not from the origin.
 const float kShadowMargin = 32.0f * kEpsilon;
-
-// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes on,
-// at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be remembered
-// meanwhile.
-struct DirectLight {
-    vec3 radiance;
-    vec3 direction; // unit
-    float distance; // that has to be free of surfaces; 0: there is no shadow ray
-};
 
 RT_FN DirectLight noDirectLight() {
     DirectLight direct;

@@ -303,6 +303,43 @@ struct Hit {
     float v;        // quad: along edgeV; triangle: weight of vertex 2
 };
 
+// ---- paths -----------------------------------------------------------------------------------------------------------
+
+struct LightChoice {
+    uint light;        // kNone: nothing to choose
+    float probability; // > 0 otherwise
+    float u;           // the number that chose, stretched to [0,1) for further use
+};
+
+// Where lights are seen from. The point and the normal (zero in a medium) that selection and sampling used must also be
+// those that a density is asked for, or the weights of multiple importance sampling would not sum to one.
+struct LightContext {
+    vec3 position;
+    vec3 normal;
+    float total;        // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy;        // the selection in force: kSelect...
+    LightChoice chosen; // with kLightChosen, else undefined
+};
+
+// A path between two steps of PathStep.h.
+struct PathState {
+    Ray ray;
+    vec3 throughput;
+    vec3 radiance;
+    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;       // surfaces and collisions met so far
+    LightContext last; // where ray starts, for the weights of multiple importance sampling
+};
+
+// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes on,
+// at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be remembered
+// meanwhile.
+struct DirectLight {
+    vec3 radiance;
+    vec3 direction; // unit
+    float distance; // that has to be free of surfaces; 0: there is no shadow ray
+};
+
 RT_SHARED_END
 
 #endif

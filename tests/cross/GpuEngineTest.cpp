@@ -114,6 +114,31 @@ TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
     EXPECT_TRUE(sameBits(Render(settingsFor(40)).finish().resolve().data, render.finish().resolve().data));
 }
 
+// A launch leaves paths to the next one. Until they have ended, its samples are not in the film, which can go on without them.
+TEST_P(GpuEngineTest, SamplesUnderWayAreNotInTheFilm) {
+    app::RenderSettings settings = settingsFor(24);
+    settings.width = settings.height = 56; // so many tiles that two launches take different ones
+    settings.sampler = app::SamplerKind::Independent;
+    const std::vector<float> expected = Render(settings).finish().resolve().data;
+
+    gpu::GpuEngineOptions options = testedEngine();
+    options.launchSeconds = 1e-9;
+    Render render(settings, options);
+    bool waits = false;
+    for (int i = 0; i < 9; ++i) {
+        const app::RenderStatus status = render.engine->renderSome({std::chrono::seconds(0), nullptr});
+        EXPECT_FALSE(status.finished);
+        EXPECT_EQ(render.engine->film().totalSamples(), status.samplesDone);
+        waits = waits || status.samplesDone < render.engine->report().rays.camera;
+    }
+    EXPECT_TRUE(waits);
+
+    Render resumed(settings);
+    resumed.engine->restore(render.engine->film());
+    EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
+    EXPECT_TRUE(sameBits(expected, render.finish().resolve().data));
+}
+
 // A film that is rendered part by part, in launches of single tiles: the same bits.
 TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
     app::RenderSettings settings = settingsFor(150);
