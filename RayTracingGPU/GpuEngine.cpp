@@ -19,6 +19,7 @@
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/LaunchQueue.h"
+#include "RayTracingGPU/Launches.h"
 #include "RayTracingGPU/PreviewPass.h"
 #include "RayTracingGPU/RtPipeline.h"
 
@@ -160,7 +161,10 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         report_.pipelineSeconds = secondsSince(start);
         launchSize_.reset();
     }
-    if (!launchSize_) launchSize_.emplace(context_.info().isSoftware(), settings.maxDepth);
+    if (!launchSize_) {
+        const bool software = context_.info().isSoftware();
+        launchSize_.emplace(options_.launchSeconds.value_or(launchSeconds(software)), software, settings.maxDepth);
+    }
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;
@@ -242,7 +246,7 @@ bool GpuEngine::beginPass() {
     const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
     std::uint64_t end = (begun_ / round + kRegionRounds) * round;
     if (region_->isWhole()) {
-        const std::uint64_t fitting = launchSize_->suggest(options_.launchSeconds);
+        const std::uint64_t fitting = launchSize_->suggest();
         const std::uint64_t most =
             std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region_->columnSamples(), 1);
         const std::uint64_t wanted = std::max(2 * fitting / region_->stepSamples(),
@@ -261,7 +265,7 @@ bool GpuEngine::beginPass() {
 void GpuEngine::launchNext() {
     const std::uint64_t room = kMaxSamples / (region_->columnSamples() * pass_->steps);
     const std::uint64_t fitting =
-        launchSize_->suggest(options_.launchSeconds) * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
+        launchSize_->suggest() * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
     const std::uint32_t left = region_->bandSlots() - pass_->nextSlot;
     const std::uint32_t half = (region_->bandSlots() + 1) / 2;
     const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, fitting), 1, std::min(left, half));

@@ -3,12 +3,12 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "Common/App/Engine.h"
 #include "Common/App/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
-#include "RayTracingGPU/Launches.h"
 
 namespace rt::gpu {
 
@@ -19,7 +19,7 @@ struct GpuEngineOptions {
     // rendered part by part, to the same bits.
     std::uint32_t regionSlots = 1u << 18;
     app::GpuEngineKind engine = app::GpuEngineKind::Auto;
-    double launchSeconds = kLaunchSeconds; // that the device is kept busy at a time, about
+    std::optional<double> launchSeconds; // of a launch, at most; else as suits the device
 };
 
 // `context` must outlive the engine. Throws NoDeviceError when its device has no ray tracing pipeline and one is asked for.

@@ -5,25 +5,26 @@
 
 namespace rt::gpu {
 
-// No watchdog fires and a cancelled render ends soon when launches are short; a device is busy when they are not too short.
-inline constexpr double kLaunchSeconds = 0.02;
-// A window's draws wait for at most one launch, which leaves them half of a frame. Those of software are threads among threads.
-inline constexpr double kWindowLaunchSeconds = 0.008;
-inline double windowLaunchSeconds(bool isSoftware) {
-    return isSoftware ? kLaunchSeconds : kWindowLaunchSeconds;
+// How long a launch may be. A window's draws wait for at most one, which leaves them half of a frame; no watchdog fires, and a
+// cancelled render ends at once. Renders without a window do the same, so that both take the same time. A device that is the
+// processor runs draws and launches side by side.
+inline constexpr double kLaunchSeconds = 0.008;
+inline constexpr double kSoftLaunchSeconds = 0.02;
+inline double launchSeconds(bool softwareDevice) {
+    return softwareDevice ? kSoftLaunchSeconds : kLaunchSeconds;
 }
 
 class LaunchSize {
   public:
-    // Begins with so few samples that even a slow device of its kind is done with them in time, and with fewer where paths may
-    // be long.
-    LaunchSize(bool softwareDevice, std::uint32_t maxDepth)
-        : samples_((softwareDevice ? 1 << 13 : 1 << 17) / std::max(1.0, maxDepth / 64.0)) {}
+    // Of launches of at most `seconds`. Begins with so few samples that even a slow device of its kind is done with them in time,
+    // and with fewer where paths may be long.
+    LaunchSize(double seconds, bool softwareDevice, std::uint32_t maxDepth)
+        : seconds_(seconds), samples_((softwareDevice ? 4e5 : 8e6) * seconds / std::max(1.0, maxDepth / 64.0)) {}
 
-    // Samples for a launch of `seconds`, but at most kLaunchSeconds. Short ones must not take longer: they are planned shorter.
-    std::uint64_t suggest(double seconds) {
+    // Samples for a launch: a reserve is kept, since some take longer than others.
+    std::uint64_t suggest() {
         constexpr double kReserve = 0.875;
-        suggested_ = samples_ * (seconds < kLaunchSeconds ? kReserve * seconds / kLaunchSeconds : 1);
+        suggested_ = kReserve * samples_;
         return static_cast<std::uint64_t>(std::max(suggested_, 1.0));
     }
 
@@ -32,15 +33,16 @@ class LaunchSize {
         constexpr double kLargestStep = 16;
         const double done = static_cast<double>(samples);
         // What remained of a pass may be too little to tell how fast the device is.
-        if (done < 0.5 * suggested_ && seconds < kLaunchSeconds) return;
-        samples_ = done * std::min(kLaunchSeconds / std::max(seconds, 1e-6), kLargestStep);
+        if (done < 0.5 * suggested_ && seconds < seconds_) return;
+        samples_ = done * std::min(seconds_ / std::max(seconds, 1e-6), kLargestStep);
     }
 
     // How long the device is going to take for them, as far as is known.
-    double secondsFor(std::uint64_t samples) const { return static_cast<double>(samples) / samples_ * kLaunchSeconds; }
+    double secondsFor(std::uint64_t samples) const { return static_cast<double>(samples) / samples_ * seconds_; }
 
   private:
-    double samples_; // that take kLaunchSeconds, as far as is known
+    double seconds_;
+    double samples_; // that take so long, as far as is known
     double suggested_ = 0;
 };
 

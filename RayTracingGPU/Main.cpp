@@ -47,10 +47,7 @@ rt::ExitCode render(const rt::app::Options& options) {
 class OwningEngine final : public rt::app::Engine {
   public:
     OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind)
-        : context_(options),
-          engine_(rt::gpu::makeGpuEngine(
-              context_,
-              {.engine = kind, .launchSeconds = rt::gpu::windowLaunchSeconds(context_.info().isSoftware())})) {}
+        : context_(options), engine_(rt::gpu::makeGpuEngine(context_, {.engine = kind})) {}
 
     bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         return engine_->setScene(std::move(scene), cancel);

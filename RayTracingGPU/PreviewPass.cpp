@@ -83,7 +83,7 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
                  "constants"),
       clearing_(makePreviewRenderPass(context.device(), true)),
       goingOn_(makePreviewRenderPass(context.device(), false)),
-      vertices_(context.info().isSoftware(), 1) {
+      vertices_(launchSeconds(context.info().isSoftware()), context.info().isSoftware(), 1) {
     if (!context.info().draws) throw RenderError(context.info().name + " cannot draw: there is no preview");
     listDraws();
     createPipelines(cache);
@@ -204,7 +204,7 @@ void PreviewPass::drawBand(const Band& band) {
     std::uint64_t done = 0; // of its vertices
     VkRenderPass renderPass = clearing_.get();
     do {
-        const std::uint64_t most = vertices_.suggest(kWindowLaunchSeconds);
+        const std::uint64_t most = vertices_.suggest();
         std::uint64_t recorded = 0;
         const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
             target_.begin(commands, renderPass, band);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -65,26 +66,31 @@ struct Render {
     }
 };
 
+// By an engine that is gone then. An NVIDIA H200 gives the last bits of some hits another value in structures that were built while
+// others existed, the same in each of them.
+Film rendered(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = testedEngine()) {
+    return Render(settings, options).finish();
+}
+
 TEST_P(GpuEngineTest, SameSeedSameBits) {
     app::RenderSettings settings = settingsFor(40);
     settings.replicates = 3;
-    const std::vector<float> first = Render(settings).finish().resolve().data;
-    const std::vector<float> second = Render(settings).finish().resolve().data;
+    const std::vector<float> first = rendered(settings).resolve().data;
+    const std::vector<float> second = rendered(settings).resolve().data;
     EXPECT_TRUE(sameBits(first, second));
     settings.seed = 1;
-    EXPECT_NE(first, Render(settings).finish().resolve().data);
+    EXPECT_NE(first, rendered(settings).resolve().data);
 }
 
 TEST_P(GpuEngineTest, GoesOnFromAFilmAsIfNeverStopped) {
     app::RenderSettings settings = settingsFor(75);
     settings.secondMoments = true;
     settings.sampler = app::SamplerKind::Independent; // the strata of others depend on the number of samples
-    Render whole(settings);
-    const Film& expected = whole.finish();
+    const Film expected = rendered(settings);
 
     app::RenderSettings part = settings;
     part.spp = 37; // in the middle of a block
-    Film film = Render(part).finish();
+    Film film = rendered(part);
     Render resumed(settings);
     resumed.engine->restore(std::move(film));
     const Film& actual = resumed.finish();
@@ -107,11 +113,12 @@ TEST_P(GpuEngineTest, CountsWhatItDid) {
 }
 
 TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
+    const std::vector<float> expected = rendered(settingsFor(40)).resolve().data;
     Render render(settingsFor(40));
     const std::atomic<bool> cancel{true};
     EXPECT_FALSE(render.engine->renderSome({std::chrono::seconds(1), &cancel}).finished);
     EXPECT_EQ(render.engine->film().totalSamples(), 0u);
-    EXPECT_TRUE(sameBits(Render(settingsFor(40)).finish().resolve().data, render.finish().resolve().data));
+    EXPECT_TRUE(sameBits(expected, render.finish().resolve().data));
 }
 
 // A launch leaves paths to the next one. Until they have ended, its samples are not in the film, which can go on without them.
@@ -119,24 +126,27 @@ TEST_P(GpuEngineTest, SamplesUnderWayAreNotInTheFilm) {
     app::RenderSettings settings = settingsFor(24);
     settings.width = settings.height = 56; // so many tiles that two launches take different ones
     settings.sampler = app::SamplerKind::Independent;
-    const std::vector<float> expected = Render(settings).finish().resolve().data;
+    const std::vector<float> expected = rendered(settings).resolve().data;
 
-    gpu::GpuEngineOptions options = testedEngine();
-    options.launchSeconds = 1e-9;
-    Render render(settings, options);
-    bool waits = false;
-    for (int i = 0; i < 9; ++i) {
-        const app::RenderStatus status = render.engine->renderSome({std::chrono::seconds(0), nullptr});
-        EXPECT_FALSE(status.finished);
-        EXPECT_EQ(render.engine->film().totalSamples(), status.samplesDone);
-        waits = waits || status.samplesDone < render.engine->report().rays.camera;
+    std::optional<Film> film;
+    {
+        gpu::GpuEngineOptions options = testedEngine();
+        options.launchSeconds = 1e-9;
+        Render render(settings, options);
+        bool waits = false;
+        for (int i = 0; i < 9; ++i) {
+            const app::RenderStatus status = render.engine->renderSome({std::chrono::seconds(0), nullptr});
+            EXPECT_FALSE(status.finished);
+            EXPECT_EQ(render.engine->film().totalSamples(), status.samplesDone);
+            waits = waits || status.samplesDone < render.engine->report().rays.camera;
+        }
+        EXPECT_TRUE(waits);
+        film = render.engine->film();
+        EXPECT_TRUE(sameBits(expected, render.finish().resolve().data));
     }
-    EXPECT_TRUE(waits);
-
     Render resumed(settings);
-    resumed.engine->restore(render.engine->film());
+    resumed.engine->restore(std::move(*film));
     EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
-    EXPECT_TRUE(sameBits(expected, render.finish().resolve().data));
 }
 
 // A film that is rendered part by part, in launches of single tiles: the same bits.
@@ -144,10 +154,9 @@ TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
     app::RenderSettings settings = settingsFor(150);
     settings.replicates = 2;
     settings.secondMoments = true;
-    Render whole(settings);
-    const Film& expected = whole.finish();
+    const Film expected = rendered(settings);
     for (const std::uint32_t slots : {1u, 6u, gpu::GpuEngineOptions().regionSlots}) {
-        for (const double seconds : {1e-9, gpu::kWindowLaunchSeconds}) {
+        for (const double seconds : {1e-9, 0.1}) {
             gpu::GpuEngineOptions options = testedEngine(slots);
             options.launchSeconds = seconds;
             Render parts(settings, options);
@@ -155,7 +164,7 @@ TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
             EXPECT_TRUE(sameBits(expected.resolve().data, actual.resolve().data)) << slots << ", " << seconds;
             EXPECT_TRUE(sameBits(expected.varianceOfMean().data, actual.varianceOfMean().data))
                 << slots << ", " << seconds;
-            EXPECT_EQ(parts.engine->report().rays.camera, whole.engine->report().rays.camera);
+            EXPECT_EQ(parts.engine->report().rays.camera, std::uint64_t{kSide} * kSide * settings.spp);
         }
     }
 }
@@ -196,11 +205,11 @@ TEST_P(GpuEngineTest, ASnapshotIsTheResolvedFilm) {
 
 TEST_P(GpuEngineTest, PartsGoOnFromAFilm) {
     app::RenderSettings settings = settingsFor(150);
-    const std::vector<float> expected = Render(settings).finish().resolve().data;
+    const std::vector<float> expected = rendered(settings).resolve().data;
     app::RenderSettings part = settings;
     part.spp = 37;
     const gpu::GpuEngineOptions options = testedEngine(4);
-    Film film = Render(part, options).finish();
+    Film film = rendered(part, options);
     Render resumed(settings, options);
     resumed.engine->restore(std::move(film));
     EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
