@@ -126,7 +126,7 @@ class GpuEngine final : public app::Engine {
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
     Clock::time_point refreshed_;
-    std::uint64_t samplesDone_ = 0;        // that region_ and film_ have
+    std::uint64_t samplesDone_ = 0;        // of the film, what region_ is ahead included
     std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
     std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
