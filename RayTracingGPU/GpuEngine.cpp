@@ -30,10 +30,11 @@ using Clock = std::chrono::steady_clock;
 using image::Film;
 using vulkan::Memory;
 
-constexpr std::uint32_t kInvocations = 1u << 17;  // that share the work of a launch; fills the largest devices
-constexpr std::uint64_t kMaxSamples = 12'000'000; // of a launch, whose radiance takes 144 MB
-constexpr std::uint64_t kPassPart = 8;            // launches share passes that take a film of n samples n / 8 further
-constexpr std::uint64_t kMaxPass = 64;            // samples, likewise
+constexpr std::uint32_t kInvocations = 1u << 17;     // that share the work of a launch; fills the largest devices
+constexpr std::uint32_t kSoftInvocations = 1u << 14; // likewise, the largest processors
+constexpr std::uint64_t kMaxSamples = 12'000'000;    // of a launch, whose radiance takes 144 MB
+constexpr std::uint64_t kPassPart = 8;     // launches share passes that take a film of n samples n / 8 further
+constexpr std::uint64_t kMaxPass = 64;     // samples, likewise
 constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions take turns; a turn costs two copies
 
 double secondsSince(Clock::time_point start) {
@@ -283,7 +284,8 @@ void GpuEngine::launchNext() {
 }
 
 std::uint32_t GpuEngine::maxInvocations() const {
-    return isCompute() ? kInvocations : std::min(kInvocations, context_.limits().maxInvocations);
+    const std::uint32_t filling = context_.info().isSoftware() ? kSoftInvocations : kInvocations;
+    return isCompute() ? filling : std::min(filling, context_.limits().maxInvocations);
 }
 
 void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
