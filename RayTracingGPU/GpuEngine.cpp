@@ -163,8 +163,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         launchSize_.reset();
     }
     if (!launchSize_) {
-        const bool software = context_.info().isSoftware();
-        launchSize_.emplace(options_.launchSeconds.value_or(launchSeconds(software)), software, settings.maxDepth);
+        launchSize_.emplace(context_.info().isSoftware(), settings.maxDepth, options_.launchSeconds);
     }
     report_.rays = {};
     report_.nonfiniteSamples = 0;

@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 namespace rt::gpu {
 
@@ -16,10 +17,11 @@ inline double launchSeconds(bool softwareDevice) {
 
 class LaunchSize {
   public:
-    // Of launches of at most `seconds`. Begins with so few samples that even a slow device of its kind is done with them in time,
-    // and with fewer where paths may be long.
-    LaunchSize(double seconds, bool softwareDevice, std::uint32_t maxDepth)
-        : seconds_(seconds), samples_((softwareDevice ? 4e5 : 8e6) * seconds / std::max(1.0, maxDepth / 64.0)) {}
+    // Of launches of at most `seconds`, or as suits the device. Begins with so few samples that even a slow device of its kind is
+    // done with them in time, and with fewer where paths may be long.
+    LaunchSize(bool softwareDevice, std::uint32_t maxDepth, std::optional<double> seconds = {})
+        : seconds_(seconds.value_or(launchSeconds(softwareDevice))),
+          samples_((softwareDevice ? 4e5 : 8e6) * seconds_ / std::max(1.0, maxDepth / 64.0)) {}
 
     // Samples for a launch: a reserve is kept, since some take longer than others.
     std::uint64_t suggest() {

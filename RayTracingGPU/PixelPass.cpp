@@ -19,8 +19,7 @@ void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const Pi
     const std::uint64_t piece = std::min(pixels, kPiecePixels);
     std::vector<float> values(piece * pass.values);
     const vulkan::Buffer buffer(context, values.size() * sizeof(float), 0, vulkan::Memory::Device, "values of pixels");
-    const bool software = context.info().isSoftware();
-    LaunchSize size(launchSeconds(software), software, pass.maxDepth);
+    LaunchSize size(context.info().isSoftware(), pass.maxDepth);
     for (std::uint64_t first = 0; first < pixels; first += piece) {
         const std::uint64_t end = std::min(pixels, first + piece);
         for (std::uint64_t pixel = first; pixel < end;) {

@@ -83,7 +83,7 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
                  "constants"),
       clearing_(makePreviewRenderPass(context.device(), true)),
       goingOn_(makePreviewRenderPass(context.device(), false)),
-      vertices_(launchSeconds(context.info().isSoftware()), context.info().isSoftware(), 1) {
+      vertices_(context.info().isSoftware(), 1) {
     if (!context.info().draws) throw RenderError(context.info().name + " cannot draw: there is no preview");
     listDraws();
     createPipelines(cache);
