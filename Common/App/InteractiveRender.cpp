@@ -14,9 +14,10 @@ constexpr double kDraftSeconds = 0.02; // of what is shown first after a change,
 constexpr double kMostDraftSeconds = 0.25; // when the next change waits already
 constexpr std::uint32_t kDraftSpp = 4;     // at most
 constexpr double kPublishShare = 0.2;      // of the worker's time, at most, goes into pictures
-constexpr double kEarlySeconds = 2;        // pictures come often at first
-constexpr double kEarlyInterval = 0.04;
-constexpr double kLateInterval = 0.15;
+constexpr double kPictureShare = 0.1;      // of a sum's age passes between two pictures:
+constexpr double kLeastInterval = 0.04;    // they cost the render a little, and differ the less the older it is
+constexpr double kMostInterval = 0.25;
+constexpr double kEarlySeconds = 2;        // after which a sum's pictures have the number of samples that is asked for
 constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
 constexpr double kLongFrameSeconds = 0.5;  // after which a frame is shown while it is being rendered
 // Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a sum, and soon only one a
@@ -42,6 +43,11 @@ RenderSettings referenceSettings(RenderSettings settings, std::uint32_t spp) {
 // Samples until every pixel has a block of them, or all.
 std::uint64_t firstPass(const RenderSettings& settings) {
     return std::uint64_t{settings.width} * settings.height * std::min(settings.spp, image::Film::kBlock);
+}
+
+// Seconds from one picture of a sum of that age to the next, at least.
+double leastInterval(double age) {
+    return std::clamp(kPictureShare * age, kLeastInterval, kMostInterval);
 }
 
 void show(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
@@ -205,8 +211,8 @@ double InteractiveSession::pictureInterval() const {
     if (setup_.drawnBySoftware && publishedSamples_ > 0) { // the first picture does not wait
         return std::clamp(kSoftShare * age, kLeastSoftInterval, kMostSoftInterval);
     }
-    if (age < kEarlySeconds) return kEarlyInterval;
-    return request_.samplesPerFrame == 0 ? kLateInterval : kLongFrameSeconds;
+    if (request_.samplesPerFrame > 0 && age >= kEarlySeconds) return kLongFrameSeconds;
+    return leastInterval(age);
 }
 
 // Whether what has been rendered is to be shown before it is complete.
@@ -215,8 +221,9 @@ bool InteractiveSession::isFrameDue() const {
     if (seconds <= publishSeconds_ / kPublishShare) return false;
     if (seconds > pictureInterval()) return true;
     if (!request_.accumulate || request_.samplesPerFrame == 0 || setup_.drawnBySoftware) return false;
+    const double age = sinceStart_.seconds();
     const std::uint64_t frame = std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
-    return sinceStart_.seconds() >= kEarlySeconds && status_.samplesDone - publishedSamples_ >= frame;
+    return age >= kEarlySeconds && seconds > leastInterval(age) && status_.samplesDone - publishedSamples_ >= frame;
 }
 
 // What the engine holds becomes the reference, or a run of the history.

@@ -13,9 +13,10 @@ namespace {
 
 constexpr double kWarmUpSeconds = 0.25;         // at most
 constexpr std::uint32_t kWarmUpSpp = 16;        // one block
-constexpr double kDeviceWarmUpSeconds = 1;      // at most: an idle GPU raises its clocks for half a second,
-constexpr double kDeviceSlice = 0.06;           // and is ready when a slice of this many seconds
-constexpr double kStillRising = 1.03;           // has less than so many times the samples of the one before
+constexpr double kDeviceWarmUpSeconds = 0.5;    // at least: an idle GPU may wait before it raises its clocks; then
+constexpr double kDeviceSlice = 0.06;           // it is ready when a slice of this many seconds
+constexpr double kStillRising = 1.03;           // has less than so many times the samples of the one before,
+constexpr double kMostDeviceWarmUpSeconds = 1;  // or after this time
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 constexpr double kTimedSeconds = 0.25;          // a run that takes less is timed again,
 constexpr std::size_t kMostPasses = 9;          // so many times at most
@@ -62,14 +63,14 @@ class Measurer {
         engine_.reset(scene_.camera, options.settings);
         std::uint64_t done = 0; // samples
         double rate = 0;
-        for (double seconds = 0; seconds < kDeviceWarmUpSeconds;) {
+        for (double seconds = 0; seconds < kMostDeviceWarmUpSeconds;) {
             const app::RenderResult slice = app::renderUntilStopped(engine_, options, done, stop_, progress_, [] {});
             if (!device || slice.stoppedBy == app::StopReason::Interrupted) return;
             const double now = static_cast<double>(slice.progress.samplesDone - done) / slice.seconds;
             done = slice.progress.samplesDone;
-            if (now < kStillRising * rate) return;
-            rate = now;
             seconds += slice.seconds;
+            if (seconds >= kDeviceWarmUpSeconds && now < kStillRising * rate) return;
+            rate = now;
         }
     }
 

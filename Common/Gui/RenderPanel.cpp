@@ -132,8 +132,10 @@ void drawFrames(app::RenderRequest& request) {
     if (isAuto) return;
     inputCount(
         "Samples per frame",
-        "Samples per pixel from one picture to the next; a picture that takes longer than half a second is shown "
-        "while it is rendered. Where the window is drawn by software, pictures come once or twice a second",
+        "Samples per pixel from one picture to the next, at least; a picture that takes longer than half a second is "
+        "shown while it is rendered, and there are no more than four a second when a render is old. Where the window "
+        "is "
+        "drawn by software, pictures come once or twice a second",
         request.samplesPerFrame, 1, 65536, 5);
 }
 
