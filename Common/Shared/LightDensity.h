@@ -48,12 +48,9 @@ RT_FN LightCrossing crossFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
     if (cosine == 0.0f) return c;
     float t = dot(light.normal, light.position - position) / cosine;
     if (!(t > 0.0f && t < kInfinity)) return c;
-    vec3 p = position + wi * t - light.position;
-    vec3 n = cross(light.edgeU, light.edgeV);
-    float squared = dot(n, n);
-    float a = dot(cross(p, light.edgeV), n) / squared;
-    float b = dot(cross(light.edgeU, p), n) / squared;
-    bool inside = a >= 0.0f && b >= 0.0f && (light.kind == kLightTriangle ? a + b <= 1.0f : a <= 1.0f && b <= 1.0f);
+    vec2 at = edgeCoordinates(light, position + wi * t - light.position);
+    float most = light.kind == kLightTriangle ? at.x + at.y : max(at.x, at.y);
+    bool inside = at.x >= 0.0f && at.y >= 0.0f && most <= 1.0f;
     if (inside) c.distance = t;
     return c;
 }

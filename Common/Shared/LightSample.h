@@ -1,6 +1,7 @@
 // What sampling a light gives, and the ways in which that happens.
 #ifndef RT_SHARED_LIGHT_SAMPLE_H
 #define RT_SHARED_LIGHT_SAMPLE_H
+#include "Features.h"
 #include "Sampling.h"
 #include "Types.h"
 
@@ -41,6 +42,13 @@ const float kTinySolidAngle = 1.0e-8f;
 
 RT_FN bool isSurface(vec3 normal) {
     return dot(normal, normal) > 0.0f;
+}
+
+// Ratio of extent to distance below which directions are too coarse for projected samplers.
+const float kTinyExtent = 1.0e-3f;
+
+RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
+    return kProjectedCompiled && has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
 }
 
 // Uniform over all directions for a point in a medium, by the cosine for a point on a surface.

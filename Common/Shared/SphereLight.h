@@ -1,0 +1,127 @@
+// Sampling of spheres: uniform in area, solid angle or projected solid angle, or from inside.
+#ifndef RT_SHARED_SPHERE_LIGHT_H
+#define RT_SHARED_SPHERE_LIGHT_H
+#include "LightSample.h"
+#include "ProjectedQuery.h"
+#include "WholeCap.h"
+#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
+#include "ProjectedSphere.h"
+#endif
+
+RT_SHARED_BEGIN
+
+RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
+    return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
+}
+
+RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter,
+                             vec3 normal) {
+    float d2 = dot(toCenter, toCenter);
+    float r2 = light.radius * light.radius;
+    if (d2 <= r2) return kRegimeInside;
+    if (wantsProjected(features, params.sphereLight, normal) && r2 >= kTinyExtent * kTinyExtent * d2)
+        return kRegimeProjected;
+    // A medium's normal is 0.
+    bool whole = r2 >= kLeastCapSine2 * d2 && dot(normal, toCenter) >= light.radius;
+    if (params.sphereLight == kShapeAuto && whole) return kRegimeWholeCap;
+    return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+}
+
+RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
+    CapQuery query;
+    query.toCenter = toCenter;
+    query.radius = light.radius;
+    query.normal = normal;
+    query.given = given;
+    query.use = use;
+    return query;
+}
+
+RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
+                                        vec2 u) {
+    LightSample s = noLightSample();
+#ifdef RT_PROJECTED
+    CapSample d = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
+    if (!(d.density > 0.0f)) return s;
+    s.wi = d.direction;
+    s.distance = d.distance;
+    s.normal = d.normal;
+    bool close = length(toCenter) < 2.0f * light.radius;
+    s.point = close ? position + s.wi * s.distance : center + s.normal * light.radius;
+    s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
+#endif
+    return s;
+}
+
+RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+#ifdef RT_PROJECTED
+    float density = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDensity, wi)).density;
+    return density * max(dot(normal, wi), 0.0f);
+#else
+    return 0.0f;
+#endif
+}
+
+RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                    vec3 normal, float time, vec2 u) {
+    LightSample s = noLightSample();
+    vec3 center = sphereLightCenter(features, light, time);
+    vec3 toCenter = center - position;
+    float radius = light.radius;
+    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
+        s = sampleSphereProjected(light, center, toCenter, position, normal, u);
+    } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
+        SphereCone cone = makeSphereCone(toCenter, radius);
+        ConeSample c;
+        if (regime == kRegimeWholeCap) {
+            c = sampleWholeCap(cone, radius, normal, u);
+            s.pdf = wholeCapPdf(cone, normal, c.direction);
+        } else {
+            c = sampleSphereCone(cone, radius, u);
+            s.pdf = sphereConePdf(cone);
+        }
+        s.wi = c.direction;
+        s.distance = c.distance;
+        s.normal = c.normal;
+        // The point must lie on the ray; near the sphere only this form guarantees it, far from it the other is finer.
+        s.point = cone.distance < 2.0f * radius ? position + s.wi * s.distance : center + s.normal * radius;
+    } else if (regime == kRegimeInside) {
+        vec4 w = sampleInside(normal, u);
+        s.wi = vec3(w);
+        float along = dot(toCenter, s.wi);
+        float inside2 = radius * radius - dot(toCenter, toCenter);
+        s.distance = along + sqrt(along * along + inside2);
+        s.point = position + s.wi * s.distance;
+        s.normal = (s.point - center) / radius;
+        s.pdf = light.sides == kSidesBoth ? w.w : 0.0f;
+    } else {
+        s.normal = sampleSphere(u);
+        s.point = center + s.normal * radius;
+        vec3 v = s.point - position;
+        s.distance = length(v);
+        s.wi = v / s.distance;
+        float cosine = -dot(s.normal, s.wi);
+        // The far half is hidden by the near one, and a mixture's density counts the direction once.
+        s.pdf = cosine > 0.0f ? areaPdf(light.area, s.distance, cosine) : 0.0f;
+    }
+    return s;
+}
+
+RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                           float time, vec3 wi, float distance, vec3 lightNormal) {
+    vec3 toCenter = sphereLightCenter(features, light, time) - position;
+    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
+    if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+        return sphereProjectedPdf(light, toCenter, normal, wi);
+    if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
+    if (regime == kRegimeWholeCap) return wholeCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
+    if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
+    return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
+}
+
+RT_SHARED_END
+
+#endif
