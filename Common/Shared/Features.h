@@ -37,6 +37,7 @@ const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected soli
 const uint kFeatureEllipsoidLights = 1u << 27u;
 const uint kFeatureBits = 28u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
+const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
 // Whether lights can be sampled by projected solid angle at all. Their samplers are as long as all other light sampling, and
 // drivers take seconds over code that a specialization constant leaves unused, so a shader that can need them says so:
