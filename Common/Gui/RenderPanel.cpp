@@ -132,10 +132,9 @@ void drawFrames(app::RenderRequest& request) {
     if (isAuto) return;
     inputCount(
         "Samples per frame",
-        "Samples per pixel from one picture to the next, at least; a picture that takes longer than half a second is "
-        "shown while it is rendered, and there are no more than four a second when a render is old. Where the window "
-        "is "
-        "drawn by software, pictures come once or twice a second",
+        "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second is "
+        "shown while it is rendered; an old render shows four a second at most, and where the window is drawn by "
+        "software, pictures come once or twice a second",
         request.samplesPerFrame, 1, 65536, 5);
 }
 

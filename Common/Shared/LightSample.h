@@ -47,6 +47,7 @@ RT_FN bool isSurface(vec3 normal) {
 // Ratio of extent to distance below which directions are too coarse for projected samplers.
 const float kTinyExtent = 1.0e-3f;
 
+// Whether a shape that is to be sampled by `method` gets its projected sampler, if it is not too small for that.
 RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
     return kProjectedCompiled && has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
 }
