@@ -84,6 +84,18 @@ RT_FN unsigned enterChildren(const Node& node, const BoxRay& ray, float tMax, Fl
     return bits(t0 <= t1);
 }
 
+// Puts the children that the ray may meet before tMax behind those that wait: nodes among nodes, leaves among leaves.
+template <class Node>
+RT_FN void storeChildren(const Node& node, const BoxRay& ray, float tMax, Reference* nodes, unsigned& nodeCount,
+                         Reference* leaves, unsigned& leafCount) {
+    Float8 entry;
+    const unsigned hits = enterChildren(node, ray, tMax, entry);
+    const Index8 children = loadIndex(node.child);
+    const unsigned isLeaf = topBits(children);
+    nodeCount += storePacked(nodes + nodeCount, children, hits & ~isLeaf);
+    leafCount += storePacked(leaves + leafCount, children, hits & isLeaf);
+}
+
 struct StackEntry {
     float t; // where the ray enters
     Reference reference;

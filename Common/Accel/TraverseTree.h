@@ -134,13 +134,7 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
         for (unsigned i = 0; i < count; ++i) batch[i] = waiting[size + i];
         unsigned found = 0;
         for (unsigned i = 0; i < count; ++i) {
-            const WideNode& node = view.nodes[batch[i]];
-            Float8 entry;
-            const unsigned hits = enterChildren(node, boxRay, tMax, entry);
-            const Index8 children = loadIndex(node.child);
-            const unsigned isLeaf = topBits(children);
-            size += storePacked(waiting + size, children, hits & ~isLeaf);
-            found += storePacked(leaves + found, children, hits & isLeaf);
+            storeChildren(view.nodes[batch[i]], boxRay, tMax, waiting, size, leaves, found);
         }
         if constexpr (Ahead) {
             for (unsigned i = size < kBatch ? 0 : size - kBatch; i < size; ++i) {
@@ -174,12 +168,7 @@ RT_FN void visitSparse(const AccelView& view, const shared::Ray& ray, const floa
         const float end = tMax * scale;
         while (head != tail && head != pause && found + kWidth <= kMany) {
             const SparseNode& node = view.sparseNodes[tail < kMany ? queue[head++] : queue[--tail]];
-            Float8 entry;
-            const unsigned hits = enterChildren(node, boxRay, end, entry);
-            const Index8 children = loadIndex(node.child);
-            const unsigned isLeaf = topBits(children);
-            tail += storePacked(queue + tail, children, hits & ~isLeaf);
-            found += storePacked(leaves + found, children, hits & isLeaf);
+            storeChildren(node, boxRay, end, queue, tail, leaves, found);
             const unsigned next = head + kAhead < tail ? head + kAhead : tail - 1;
             prefetchBytes<sizeof(SparseNode)>(view.sparseNodes + queue[next]);
         }

@@ -220,10 +220,9 @@ bool InteractiveSession::isFrameDue() const {
     const double seconds = sincePublished_.seconds();
     if (seconds <= publishSeconds_ / kPublishShare) return false;
     if (seconds > pictureInterval()) return true;
-    if (!request_.accumulate || request_.samplesPerFrame == 0 || setup_.drawnBySoftware) return false;
-    const double age = sinceStart_.seconds();
+    if (!request_.accumulate || setup_.drawnBySoftware) return false;
     const std::uint64_t frame = std::uint64_t{request_.samplesPerFrame} * settings_.width * settings_.height;
-    return age >= kEarlySeconds && seconds > leastInterval(age) && status_.samplesDone - publishedSamples_ >= frame;
+    return seconds > leastInterval(sinceStart_.seconds()) && status_.samplesDone - publishedSamples_ >= frame;
 }
 
 // What the engine holds becomes the reference, or a run of the history.
