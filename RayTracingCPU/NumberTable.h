@@ -25,6 +25,11 @@ RT_CALL void fillPairs(PairTable& table, const Sampler& first, std::uint32_t dim
     }
 }
 
+// Whether a table of numbers is worth its while for the samples first.index .. first.index + count - 1.
+RT_FN bool isWorthTable(const Sampler& first, std::uint32_t count) {
+    return first.kind == kSamplerSobol && count >= 4;
+}
+
 // The samples of a pixel's block share the scrambling of every dimension and differ in their index alone, so one pass over the
 // lanes of a vector makes a pair of numbers for all of them. A vertex is filled in when the first path gets there; the
 // numbers are those of Random.h, bit for bit.
@@ -33,7 +38,7 @@ class NumberTable {
     // For samples first.index .. first.index + count - 1 of a kernel with these features.
     NumberTable(const Sampler& first, std::uint32_t count, std::uint32_t features)
         : first_(first),
-          tabulated_(first.kind == kSamplerSobol && count >= kWorthwhile),
+          tabulated_(isWorthTable(first, count)),
           needsLight_(has(features, kFeatureLights | kFeatureTargets)),
           needsSelect_(has(features, kFeatureManyLights)) {}
 
@@ -57,8 +62,7 @@ class NumberTable {
     }
 
   private:
-    static constexpr std::uint32_t kVertices = 4;   // many paths end before farther ones
-    static constexpr std::uint32_t kWorthwhile = 4; // samples
+    static constexpr std::uint32_t kVertices = 4; // many paths end before farther ones
 
     struct Vertex {
         PairTable light, bsdf, choice, select;

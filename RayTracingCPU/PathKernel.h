@@ -3,31 +3,12 @@
 #pragma once
 #include "RayTracingCPU/SceneAccess.h"
 
-#include "Common/Shared/PathStep.h"
 #include "RayTracingCPU/NumberTable.h"
+#include "RayTracingCPU/PathRays.h"
+#include "RayTracingCPU/SideBySide.h"
 
 namespace rt::cpu {
 namespace {
-
-using namespace rt::shared;
-
-// A sample that is not a number is dropped and counted, and stays in the divisor.
-RT_FN void addSample(const PathState& path, vec3& total, KernelCounters& counters) {
-    counters.scattered += path.vertex - 1u;
-    if (isFinite(path.radiance)) {
-        total += path.radiance;
-    } else {
-        ++counters.nonfinite;
-    }
-}
-
-// Adds what the shadow ray brings, if it arrives.
-template <std::uint32_t kFeatures>
-RT_FN void traceShadow(const CpuScene& scene, const DirectLight& direct, PathState& path, KernelCounters& counters) {
-    if (!(direct.distance > 0.0f)) return;
-    ++counters.shadow;
-    if (!isOccluded(scene, shadowRay(path, direct), direct.distance)) addDirectLight(kFeatures, scene, direct, path);
-}
 
 // ---- one path after the other ---------------------------------------------------------------------------------------
 
@@ -48,119 +29,11 @@ RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, 
                 traceShadow<kFeatures>(scene, direct, path, counters);
                 break;
             }
-            if (!(direct.distance > 0.0f)) {
-                hit = traceRay(scene, path.ray);
-                continue;
-            }
-            ++counters.shadow;
-            bool isOccluded;
-            hit = scene.tracer.both(scene.accel, path.ray, direct.direction, direct.distance, isOccluded);
-            if (!isOccluded) addDirectLight(kFeatures, scene, direct, path);
+            hit = traceOn<kFeatures>(scene, direct, path, counters);
         }
-        addSample(path, total, counters);
+        counters.scattered += path.vertex - 1u;
+        addRadiance(path.radiance, total, counters);
     }
-}
-
-// ---- all paths of a pixel side by side ------------------------------------------------------------------------------
-// For scenes in which paths wait for memory: what one waits for arrives during the turns of the others.
-
-constexpr std::uint32_t kPaths = image::Film::kBlock;
-
-// A path, and the vertex at which it is.
-struct Flight {
-    PathState path;
-    Vertex vertex;
-    DirectLight direct;
-};
-
-// Some of the paths, by their places among all.
-struct FlightList {
-    std::uint32_t count = 0;
-    std::uint32_t places[kPaths] = {};
-    void add(std::uint32_t place) { places[count++] = place; }
-    const std::uint32_t* begin() const { return places; }
-    const std::uint32_t* end() const { return places + count; }
-};
-
-RT_FN Sampler samplerOf(Sampler first, std::uint32_t place) {
-    first.index += place;
-    return first;
-}
-
-// To where the path scatters. False: it ends before.
-template <std::uint32_t kFeatures>
-RT_FN bool arrive(const CpuScene& scene, const RenderParams& params, const Sampler& smp, const VertexNumbers& numbers,
-                  Flight& f) {
-    const Hit hit = traceRay(scene, f.path.ray);
-    if (!pathVertex(f.vertex, kFeatures | kLightAwaited, scene, params, smp, numbers, hit, f.path, f.direct))
-        return false;
-    f.path.last = lightContext(params, f.vertex);
-    return true;
-}
-
-// The choice among lights in a tree, which all paths go down level by level.
-template <std::uint32_t kFeatures>
-RT_FN void chooseLights(const CpuScene& scene, const Sampler& first, Flight* flights, const FlightList& list) {
-    TreeDescent descents[kPaths];
-    FlightList descending;
-    for (const std::uint32_t i : list) {
-        const Vertex& v = flights[i].vertex;
-        if (isDeltaVertex(kFeatures, v)) continue;
-        descents[i] = beginDescent(selectionNumbers(kFeatures, scene.globals, samplerOf(first, i), v));
-        descending.add(i);
-    }
-    while (descending.count > 0) {
-        FlightList next;
-        for (const std::uint32_t i : descending) {
-            LightContext& context = flights[i].path.last;
-            TreeDescent& d = descents[i];
-            descend(scene, context.position, context.normal, d);
-            if (d.child != kNone) expectLightChild(scene, d.child);
-            if (isAtNode(d)) {
-                next.add(i);
-            } else {
-                const TreeChoice drawn = endDescent(d);
-                context.total = drawn.total;
-                context.chosen = {drawn.light, drawn.probability, 0.0f};
-            }
-        }
-        descending = next;
-    }
-}
-
-template <std::uint32_t kFeatures>
-RT_CALL void tracePathsSideBySide(const KernelContext& context, uvec2 pixel, const Sampler& first, std::uint32_t count,
-                                  vec3& total, KernelCounters& counters) {
-    const CpuScene& scene = *context.scene;
-    const RenderParams& params = context.params;
-    NumberTable numbers(first, count, kFeatures);
-    Flight flights[kPaths];
-    FlightList going;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Sampler smp = samplerOf(first, i);
-        flights[i].path = startPath(kFeatures, params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
-        going.add(i);
-    }
-    while (going.count > 0) {
-        FlightList arrived;
-        for (const std::uint32_t i : going) {
-            Flight& f = flights[i];
-            const Sampler smp = samplerOf(first, i);
-            if (arrive<kFeatures>(scene, params, smp, numbers.vertexNumbers(smp, f.path.vertex), f)) arrived.add(i);
-        }
-        chooseLights<kFeatures>(scene, first, flights, arrived);
-        going.count = 0;
-        for (const std::uint32_t i : arrived) {
-            Flight& f = flights[i];
-            f.direct = noDirectLight();
-            if (scatter(kFeatures | kLightChosen, scene, params, samplerOf(first, i), f.vertex, f.path, f.direct))
-                going.add(i);
-        }
-        for (const std::uint32_t i : arrived) {
-            traceShadow<kFeatures>(scene, flights[i].direct, flights[i].path, counters);
-        }
-    }
-    for (std::uint32_t i = 0; i < count; ++i) addSample(flights[i].path, total, counters);
 }
 
 // ---- pixels and tiles -----------------------------------------------------------------------------------------------
@@ -168,20 +41,16 @@ RT_CALL void tracePathsSideBySide(const KernelContext& context, uvec2 pixel, con
 template <std::uint32_t kFeatures>
 void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum,
                  KernelCounters& counters) {
-    const RenderParams& params = context.params;
-    const Sampler first = makeSampler(params, pixel.y * params.width + pixel.x, task.replicate, task.first);
+    const Sampler first =
+        makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
     vec3 total(sum[0], sum[1], sum[2]);
-    const bool descends = usesMis(params) && params.lightSelection == kSelectContribution;
-    if (descends && usesLightTree(kFeatures, context.scene->globals.lightCount)) {
-        tracePathsSideBySide<kFeatures>(context, pixel, first, task.count, total, counters);
-    } else {
-        tracePaths<kFeatures>(context, pixel, first, task.count, total, counters);
-    }
+    tracePaths<kFeatures>(context, pixel, first, task.count, total, counters);
     for (int c = 0; c < 3; ++c) sum[c] = total[c];
 }
 
+// False: cancelled.
 template <std::uint32_t kFeatures>
-bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+bool renderPixels(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
     for (std::uint32_t y = 0; y < task.height; ++y) {
         for (std::uint32_t x = 0; x < task.width; ++x) {
             if (task.cancel != nullptr && task.cancel->load(std::memory_order_relaxed)) return false;
@@ -189,8 +58,18 @@ bool renderTile(const KernelContext& context, const TileTask& task, KernelCounte
             renderPixel<kFeatures>(context, task, uvec2(task.x + x, task.y + y), sum, counters);
         }
     }
-    counters.camera += std::uint64_t{task.width} * task.height * task.count;
     return true;
+}
+
+template <std::uint32_t kFeatures>
+bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+    const RenderParams& params = context.params;
+    const bool isLit = has(kFeatures, kFeatureLights) && context.scene->globals.lightCount > 0;
+    const bool sideBySide = isLit && usesMis(params) && params.lightSelection == kSelectContribution;
+    const bool isDone = sideBySide ? renderSideBySide<kFeatures>(context, task, counters)
+                                   : renderPixels<kFeatures>(context, task, counters);
+    if (isDone) counters.camera += std::uint64_t{task.width} * task.height * task.count;
+    return isDone;
 }
 
 // Not worth a specialisation: one first hit a sample.

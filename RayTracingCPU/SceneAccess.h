@@ -130,6 +130,16 @@ RT_FN bool isOccluded(SceneRef scene, const Ray& ray, float tMax) {
     return scene.tracer.occluded(scene.accel, ray, tMax);
 }
 
+RT_FN LightBound lightBoundAt(const cpu::LightBoundsSoa& bounds, uint i) {
+    LightBound bound;
+    bound.center = vec3(bounds.centerX[i], bounds.centerY[i], bounds.centerZ[i]);
+    bound.radius = bounds.radius[i];
+    bound.axis = vec3(bounds.axisX[i], bounds.axisY[i], bounds.axisZ[i]);
+    bound.twoSided = bounds.twoSided[i];
+    bound.intensity = bounds.intensity[i];
+    return bound;
+}
+
 // As in LightSelection.h, in whole vectors of lights; the entries that pad the table have no intensity and so no weight.
 #define RT_PICKS_CONTRIBUTIONS
 RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
@@ -139,13 +149,7 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
     const cpu::LightBoundsSoa& bounds = *scene.lightBoundsSoa;
     const uint padded = (count + 7u) & ~7u;
     for (uint i = 0u; i < padded; i++) {
-        LightBound bound;
-        bound.center = vec3(bounds.centerX[i], bounds.centerY[i], bounds.centerZ[i]);
-        bound.radius = bounds.radius[i];
-        bound.axis = vec3(bounds.axisX[i], bounds.axisY[i], bounds.axisZ[i]);
-        bound.twoSided = bounds.twoSided[i];
-        bound.intensity = bounds.intensity[i];
-        weights[i] = lightContribution(bound, position, normal);
+        weights[i] = lightContribution(lightBoundAt(bounds, i), position, normal);
     }
     float total = 0.0f;
     for (uint i = 0u; i < padded; i += 8u) {

@@ -120,18 +120,20 @@ RT_FN BsdfSample sampleDielectric(RT_IN(Material) m, vec3 tint, vec3 n, uint fro
 
 // ---- any material ---------------------------------------------------------------------------------------------------
 
+RT_FN BsdfSample sampleLambertian(vec3 albedo, vec3 n, vec2 u) {
+    vec3 local = sampleCosineHemisphere(u);
+    BsdfSample s = absorbed();
+    s.wi = toWorld(makeFrame(n), local);
+    s.weight = albedo;
+    s.pdf = local.z * kInvPi;
+    return s;
+}
+
 // `albedo` is the material's, texture applied. `u` chooses the direction, `uLobe` between reflection and refraction.
 // A material that does not scatter returns weight 0.
 RT_FN BsdfSample sampleBsdf(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, uint frontFace, vec3 wo, vec2 u,
                             float uLobe) {
-    if (isLambertian(features, m)) {
-        vec3 local = sampleCosineHemisphere(u);
-        BsdfSample s = absorbed();
-        s.wi = toWorld(makeFrame(n), local);
-        s.weight = albedo;
-        s.pdf = local.z * kInvPi;
-        return s;
-    }
+    if (isLambertian(features, m)) return sampleLambertian(albedo, n, u);
     if (isMetal(features, m)) return sampleMetal(features, m, albedo, n, wo, u);
     if (isDielectric(features, m)) return sampleDielectric(m, albedo, n, frontFace, wo, uLobe);
     return absorbed();

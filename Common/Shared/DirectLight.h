@@ -26,18 +26,21 @@ RT_FN vec2 selectionNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(Sa
     return smp.kind == kSamplerSobol ? v.numbers.select : randomPair(smp, vertexPair(v.index, kPairSelect));
 }
 
+// Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
+RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
+    if (!has(features, kTexturedFeatures) || light.material == kNone) return;
+    if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
+    }
+    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
+}
+
 RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
                                     RT_IN(Vertex) v, float time, vec2 u) {
     if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
     LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
-    if (has(features, kTexturedFeatures) && light.material != kNone) {
-        if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
-        if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
-            sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
-        }
-        sampled.radiance =
-            emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
-    }
+    applyEmissionTexture(features, scene, light, sampled);
     return sampled;
 }
 
@@ -53,42 +56,50 @@ RT_FN DirectLight noDirectLight() {
     return direct;
 }
 
-// Next-event estimation: one light, one shadow ray, weighed against the bsdf's density.
-RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                                    RT_IN(Vertex) v, RT_INOUT(PathState) s) {
-    DirectLight direct = noDirectLight();
-    RT_IN(SceneGlobals) globals = loadGlobals(scene);
-    vec2 u = v.numbers.light;
-    LightChoice choice =
-        chooseLight(features, scene, globals.lightCount, selectionNumbers(features, globals, smp, v), s.last);
-    if (choice.light == kNone) return direct;
-    RT_IN(Light) light = loadLight(scene, choice.light);
-    if (!usesLightTree(features, globals.lightCount)) u.x = choice.u;
-    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
-    if (!(sampled.pdf > 0.0f)) return direct;
+// What a sample of a light that was chosen with `probability` brings to a path of this throughput, weighed against the bsdf's
+// density. Without a branch, for loops over samples.
+RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, RT_IN(LightSample) sampled,
+                              RT_IN(Vertex) v, vec3 throughput) {
     vec4 f = evalScattering(features, v, sampled.wi);
-    vec3 contribution = s.throughput * vec3(f) * sampled.radiance;
-    if (!(maxComponent(contribution) > 0.0f)) return direct;
+    vec3 contribution = throughput * vec3(f) * sampled.radiance;
+    float brought = sampled.pdf > 0.0f ? maxComponent(contribution) : 0.0f;
     // The weight and the division by the light's own density are one division.
-    float density = choice.probability * sampled.pdf;
+    float density = probability * sampled.pdf;
     float scattering = params.lightSampling == kSampleMisBalance ? f.w : f.w * (f.w / density);
-    direct.radiance = contribution * (1.0f / (density + scattering));
-    direct.direction = sampled.wi;
-    direct.distance = kInfinity;
-    if (light.kind == kLightSky) return direct;
     // The segment ends at the light's own offset point, so that the emitter does not shadow itself and no primitive has
     // to be excluded.
-    vec3 end = offsetOrigin(sampled.point, lightPointError(features, light), sampled.normal, -sampled.wi);
+    vec3 end = offsetOrigin(sampled.point, sampled.error, sampled.normal, -sampled.wi);
     vec3 segment = end - v.origin;
     float whole = length(segment);
-    direct.direction = segment / whole;
-    direct.distance = whole * (1.0f - kShadowMargin);
-    if (!(dot(segment, sampled.wi) > 0.0f)) {
-        // Closer than rounding can tell apart: nothing fits in between.
-        s.radiance += direct.radiance;
-        direct.distance = 0.0f;
-    }
+    // Closer than rounding can tell apart nothing fits in between.
+    float distance = dot(segment, sampled.wi) > 0.0f ? whole * (1.0f - kShadowMargin) : 0.0f;
+    bool isSky = has(features, kFeatureSkyImage) && sampled.distance == kInfinity;
+    DirectLight direct;
+    direct.radiance = either(brought > 0.0f, contribution * (1.0f / (density + scattering)), vec3(0.0f));
+    direct.direction = either(isSky, sampled.wi, segment / whole);
+    distance = isSky ? kInfinity : distance;
+    direct.distance = brought > 0.0f ? distance : 0.0f;
     return direct;
+}
+
+// The number that chooses a light of a short table is the first of those that sample it.
+RT_FN vec2 sampleNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice, RT_IN(Vertex) v) {
+    return usesLightTree(features, globals.lightCount) ? v.numbers.light : vec2(choice.u, v.numbers.light.y);
+}
+
+// Next-event estimation with the light that was chosen: one sample, one shadow ray.
+RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+                                    RT_IN(LightChoice) choice, RT_IN(Vertex) v, RT_IN(PathState) s) {
+    if (choice.light == kNone) return noDirectLight();
+    RT_IN(Light) light = loadLight(scene, choice.light);
+    vec2 u = sampleNumbers(features, loadGlobals(scene), choice, v);
+    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
+    return weighSample(features, params, choice.probability, sampled, v, s.throughput);
+}
+
+// Adds what needs no shadow ray.
+RT_FN void addUnshadowed(RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
+    if (direct.distance == 0.0f) s.radiance += direct.radiance;
 }
 
 RT_FN Ray shadowRay(RT_IN(PathState) s, RT_IN(DirectLight) direct) {

@@ -9,10 +9,11 @@ RT_SHARED_BEGIN
 
 struct LightSample {
     vec3 wi;        // unit, from the shading point to the light
-    float distance; // along wi
+    float distance; // along wi; kInfinity: to the sky
     float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
     vec3 radiance;  // emitted towards the shading point, without the emission's texture
     vec3 point;     // on the light
+    vec3 error;     // bound of the rounding error of `point`, per axis
     vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a round one
     vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
 };
@@ -24,6 +25,7 @@ RT_FN LightSample noLightSample() {
     s.pdf = 0.0f;
     s.radiance = vec3(0.0f);
     s.point = vec3(0.0f);
+    s.error = vec3(0.0f);
     s.normal = vec3(0.0f);
     s.uv = vec2(0.0f);
     return s;

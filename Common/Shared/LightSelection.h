@@ -13,9 +13,6 @@
 
 RT_SHARED_BEGIN
 
-// Added to `features` by those who have completed the context and made the choice before: it is LightContext::chosen.
-const uint kLightChosen = 1u << kFeatureBits;
-
 // A table that `contribution` does not weigh light by light.
 RT_FN bool usesLightTree(uint features, uint count) {
     return has(features, kFeatureManyLights) && count > kContributionLights;
@@ -69,15 +66,16 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
 }
 #endif
 
-// In proportion to the contributions of a short table.
-RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
+RT_FN LightChoice noLightChoice() {
     LightChoice choice;
     choice.light = kNone;
     choice.probability = 0.0f;
     choice.u = 0.0f;
-    if (count == 0u) return choice;
-    LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
-    context.total = pick.total;
+    return choice;
+}
+
+RT_FN LightChoice choiceOf(RT_IN(LightPick) pick) {
+    LightChoice choice = noLightChoice();
     // All weights are 0 or, as rarely as a sum is rounded, one between others was met.
     if (!(pick.weight > 0.0f)) return choice;
     choice.light = pick.light;
@@ -86,10 +84,17 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
     return choice;
 }
 
+// In proportion to the contributions of a short table.
+RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
+    if (count == 0u) return noLightChoice();
+    LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
+    context.total = pick.total;
+    return choiceOf(pick);
+}
+
 // Chooses among the lights proper by u.x, or in a tree by both numbers, and completes `context` with what
 // lightProbability needs.
 RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
-    if (has(features, kLightChosen)) return context.chosen;
     context.total = 0.0f;
     if (count > 0u && context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
     if (count > 0u && context.policy == kSelectUniform) return chooseUniformly(count, u.x);

@@ -14,6 +14,33 @@ RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
     return light.sides == kSidesBoth || dot(light.normal, position - light.position) > 0.0f;
 }
 
+// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray: several
+// times that of the point itself, since the device that traces the ray also rounds when it tests the light's shape.
+RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        return ellipsoidError(ellipsoidOf(light), light.position);
+    }
+    if (light.kind == kLightSphere) {
+        float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
+        return vec3(32.0f * kEpsilon * reach);
+    }
+    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
+           extentError(light.edgeU, light.edgeV);
+}
+
+// A sample of `light` as its shape gave it, with what all shapes have in common, and the density 0 where it is useless.
+RT_FN LightSample completeSample(uint features, RT_IN(Light) light, vec3 normal, RT_IN(LightSample) drawn) {
+    LightSample s = drawn;
+    s.radiance = light.emission;
+    s.error = lightPointError(features, light);
+    // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which is
+    // then infinitely far, or behind.
+    bool isAhead = s.distance > 0.0f && s.distance < kInfinity;
+    if (!(s.pdf < kInfinity && isAhead && dot(s.wi, s.wi) < 2.0f)) s.pdf = 0.0f;
+    if (isSurface(normal) && dot(normal, s.wi) <= 0.0f) s.pdf = 0.0f;
+    return s;
+}
+
 // `normal` is the shading point's geometric normal on the side of wo, zero for a point in a medium. The sky is not
 // sampled here (Sky.h).
 RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
@@ -33,13 +60,7 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
             s = sampleTriangleLight(features, params, light, position, normal, u);
         }
     }
-    s.radiance = light.emission;
-    // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which is
-    // then infinitely far, or behind.
-    bool isAhead = s.distance > 0.0f && s.distance < kInfinity;
-    if (!(s.pdf < kInfinity && isAhead && dot(s.wi, s.wi) < 2.0f)) s.pdf = 0.0f;
-    if (isSurface(normal) && dot(normal, s.wi) <= 0.0f) s.pdf = 0.0f;
-    return s;
+    return completeSample(features, light, normal, s);
 }
 
 // Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal
@@ -61,20 +82,6 @@ RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) lig
         return triangleLightPdf(features, params, light, position, normal, wi, distance);
     }
     return 0.0f;
-}
-
-// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray: several
-// times that of the point itself, since the device that traces the ray also rounds when it tests the light's shape.
-RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
-    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
-        return ellipsoidError(ellipsoidOf(light), light.position);
-    }
-    if (light.kind == kLightSphere) {
-        float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
-        return vec3(32.0f * kEpsilon * reach);
-    }
-    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
-           extentError(light.edgeU, light.edgeV);
 }
 
 RT_SHARED_END

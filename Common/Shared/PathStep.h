@@ -62,18 +62,13 @@ RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sa
     return nearest;
 }
 
-// Continues the path from v. False: it ends here. Either way `direct` may be left to be checked.
-RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
-                   RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
-    bool delta = isDeltaVertex(features, v);
-    if (!has(features, kLightChosen)) s.last = lightContext(params, v);
-    bool lights = has(features, kFeatureLights | kFeatureTargets) && !delta;
-    if (lights && usesMis(params)) direct = sampleDirectLight(features, scene, params, smp, v, s);
+// Whether lights are sampled from v.
+RT_FN bool isLitByLights(uint features, RT_IN(Vertex) v) {
+    return has(features, kFeatureLights | kFeatureTargets) && !isDeltaVertex(features, v);
+}
 
-    BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
-    if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
-        b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
-    }
+// Continues the path from v into the direction b. False: it ends here.
+RT_FN bool follow(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
     float strongest = maxComponent(s.throughput);
     if (!(strongest > 0.0f)) return false;
@@ -95,12 +90,31 @@ RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT
     return true;
 }
 
-// Added to `features` by those who complete the context and make the choice of a light before they call scatter() themselves.
-const uint kLightAwaited = 2u * kLightChosen;
+// Next-event estimation at v, and the continuation of the path. False: it ends here. Either way `direct` may be left to be
+// checked.
+RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
+                   RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
+    bool lights = isLitByLights(features, v);
+    if (lights && usesMis(params)) {
+        RT_IN(SceneGlobals) globals = loadGlobals(scene);
+        vec2 u = selectionNumbers(features, globals, smp, v);
+        LightChoice choice = chooseLight(features, scene, globals.lightCount, u, s.last);
+        direct = sampleDirectLight(features, scene, params, choice, v, s);
+        addUnshadowed(direct, s);
+    }
+    BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
+    if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
+        b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
+    }
+    return follow(params, v, b, s);
+}
+
+// Added to `features` by those who go on from the vertex themselves.
+const uint kVertexOnly = 1u << kFeatureBits;
 
 // Advances the path by one vertex, given what s.ray meets and vertexNumbers(smp, s.vertex). False: it has ended, and s.radiance
-// is its estimate once `direct`, which the caller sets to noDirectLight(), has been added if it arrives. With kLightAwaited it
-// only gets to the vertex, which is v.
+// is its estimate once `direct`, which the caller sets to noDirectLight(), has been added if it arrives. With kVertexOnly it
+// only gets to the vertex, which is v, and does not read the numbers.
 RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, RT_IN(RenderParams) params,
                       RT_IN(Sampler) smp, RT_IN(VertexNumbers) numbers, RT_IN(Hit) hit, RT_INOUT(PathState) s,
                       RT_INOUT(DirectLight) direct) {
@@ -111,7 +125,7 @@ RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, R
     RT_LARGE_VARIABLE(Vertex, v)
     if (has(features, kFeatureVolumes) && medium != kNone) {
         if (s.vertex >= params.maxDepth) return false;
-        v = mediumVertex(features, scene, s, t, medium);
+        placeInMedium(features, scene, s, t, medium, v);
     } else {
         if (hit.t < 0.0f) {
             addSky(features, scene, params, s);
@@ -121,10 +135,11 @@ RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, R
         Material material = loadMaterial(scene, surface.material); // the vertex keeps parts of it, in registers
         addEmission(features, scene, params, surface, material, hit.t, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
-        v = surfaceVertex(features, scene, s, surface, material);
+        placeOnSurface(features, scene, s, surface, material, v);
     }
+    s.last = lightContext(params, v);
+    if (has(features, kVertexOnly)) return true;
     v.numbers = numbers;
-    if (has(features, kLightAwaited)) return true;
     return scatter(features, scene, params, smp, v, s, direct);
 }
 

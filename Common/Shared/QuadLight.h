@@ -56,33 +56,36 @@ struct QuadView {
     uint regime;
     float weighting; // of solid angle by the cosines at the corners, 0 to 1
     bool swapped;    // edgeV is the long edge
-    Columns columns; // in that regime
+    Columns columns; // of a rectangle, under the automatic method
 };
 
 // Automatic: a rectangle at twice its short edge or farther is sampled by columns, a nearer one more and more with regard to the
-// cosine.
+// cosine. Without a branch but for the method, for loops over lights.
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
-    bool area = method == kShapeArea || wantsProjected(features, method, normal);
-    q.regime = area ? kRegimeArea : kRegimeSolidAngle;
-    q.weighting = 0.0f;
     q.swapped = false;
-    if (method != kShapeAuto) return q;
-    if (isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV)) {
-        q.regime = kRegimeArea;
-    } else if (isRectangle(light)) {
-        float u2 = dot(light.edgeU, light.edgeU);
-        float v2 = dot(light.edgeV, light.edgeV);
-        q.swapped = v2 > u2;
-        vec3 longEdge = q.swapped ? light.edgeV : light.edgeU;
-        vec3 shortEdge = q.swapped ? light.edgeU : light.edgeV;
-        q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
-        float shortEdges2 = columnsDistance2(q.columns) / (min(u2, v2) * q.columns.inverse);
-        if (shortEdges2 > 4.0f) q.regime = kRegimeColumns;
-        // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.
-        if (isSurface(normal)) q.weighting = clamp((4.0f - shortEdges2) * (1.0f / 3.0f), 0.0f, 1.0f);
+    if (method != kShapeAuto) {
+        bool area = method == kShapeArea || wantsProjected(features, method, normal);
+        q.regime = area ? kRegimeArea : kRegimeSolidAngle;
+        q.weighting = 0.0f;
+        return q;
     }
+    float u2 = dot(light.edgeU, light.edgeU);
+    float v2 = dot(light.edgeV, light.edgeV);
+    q.swapped = v2 > u2;
+    vec3 longEdge = either(q.swapped, light.edgeV, light.edgeU);
+    vec3 shortEdge = either(q.swapped, light.edgeU, light.edgeV);
+    q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
+    float shortEdges2 = columnsDistance2(q.columns) / (min(u2, v2) * q.columns.inverse);
+    // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.
+    float near = clamp((4.0f - shortEdges2) * (1.0f / 3.0f), 0.0f, 1.0f);
+    bool rectangle = isRectangle(light);
+    q.weighting = rectangle && isSurface(normal) ? near : 0.0f;
+    uint apart = isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV) ? kRegimeArea
+                                                                                                : kRegimeSolidAngle;
+    bool byColumns = rectangle && shortEdges2 > 4.0f && apart != kRegimeArea;
+    q.regime = byColumns ? kRegimeColumns : apart;
     return q;
 }
 
@@ -168,26 +171,31 @@ RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, fl
     return pdf;
 }
 
-RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
-                                  vec3 normal, vec2 u) {
-    QuadView view = viewQuad(features, params.quadLight, light, position, normal);
+// The sample where the regime is by area or by columns.
+RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3 position, vec2 u) {
     LightSample s = noLightSample();
-    if (view.regime == kRegimeSolidAngle) {
-        QuadPart part = partAboveHorizon(light, view.corner, normal);
-        s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
-        s.uv = part.from + s.uv * part.size;
-        if (s.pdf > 0.0f) return s;
-    }
     s.uv = u;
     float density = 1.0f;
     if (view.regime == kRegimeColumns) {
         ColumnSample c = sampleColumns(view.columns, view.swapped ? u.y : u.x);
         density = c.pdf;
-        s.uv = view.swapped ? vec2(u.x, c.a) : vec2(c.a, u.y);
+        s.uv = vec2(view.swapped ? u.x : c.a, view.swapped ? c.a : u.y);
     }
     placeOnLight(s, light, position);
     s.pdf = density * areaPdf(light.area, s.distance, dot(light.normal, s.wi));
     return s;
+}
+
+RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                  vec3 normal, vec2 u) {
+    QuadView view = viewQuad(features, params.quadLight, light, position, normal);
+    if (view.regime == kRegimeSolidAngle) {
+        QuadPart part = partAboveHorizon(light, view.corner, normal);
+        LightSample s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
+        s.uv = part.from + s.uv * part.size;
+        if (s.pdf > 0.0f) return s;
+    }
+    return sampleQuadApart(view, light, position, u);
 }
 
 RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,

@@ -37,6 +37,10 @@ RT_FN float square(float x) {
     return x * x;
 }
 
+RT_FN vec3 either(bool first, vec3 a, vec3 b) {
+    return vec3(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
+}
+
 RT_FN float maxComponent(vec3 v) {
     return max(v.x, max(v.y, v.z));
 }

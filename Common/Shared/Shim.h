@@ -5,7 +5,7 @@
 //                    linkage keeps the copies compiled for different instruction sets apart.
 //   RT_CALL          the same for a function that is worth a call: never inlined in C++.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
-//   RT_INOUT(T)      a parameter that is read and written.
+//   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
 //   RT_LARGE_IN(T, x), RT_LARGE_INOUT(T, x), RT_LARGE(x)
 //                    the same for x, the first of several parameters, too large to be copied, and the argument. In GLSL,
 //                    where parameters are copies and compilers inline every call, there is none: functions use the one
@@ -42,6 +42,7 @@
 #endif
 #define RT_IN(T) const T&
 #define RT_INOUT(T) T&
+#define RT_OUT(T) T&
 #define RT_LARGE_IN(T, x) const T &x,
 #define RT_LARGE_INOUT(T, x) T &x,
 #define RT_LARGE(x) x,
@@ -123,6 +124,7 @@ RT_SHARED_END
 #define RT_CALL
 #define RT_IN(T) T
 #define RT_INOUT(T) inout T
+#define RT_OUT(T) out T
 #define RT_LARGE_IN(T, x)
 #define RT_LARGE_INOUT(T, x)
 #define RT_LARGE(x)

@@ -85,6 +85,7 @@ RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
     s.pdf = skyTexelPdf(scene, image, uvec2(column, row));
     s.radiance = globals.skyTop * loadTexel(scene, image, column, row);
     s.point = vec3(0.0f, 0.0f, 0.0f);
+    s.error = vec3(0.0f, 0.0f, 0.0f);
     s.normal = -s.wi;
     s.uv = vec2(0.0f, 0.0f);
     return s;

@@ -14,17 +14,19 @@ RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
     return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
 }
 
-RT_FN uint sphereLightRegime(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 toCenter,
-                             vec3 normal) {
+RT_FN uint sphereLightRegime(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
     float d2 = dot(toCenter, toCenter);
     float r2 = light.radius * light.radius;
-    if (d2 <= r2) return kRegimeInside;
-    if (wantsProjected(features, params.sphereLight, normal) && r2 >= kTinyExtent * kTinyExtent * d2)
-        return kRegimeProjected;
-    // A medium's normal is 0.
-    bool whole = r2 >= kLeastCapSine2 * d2 && dot(normal, toCenter) >= light.radius;
-    if (params.sphereLight == kShapeAuto && whole) return kRegimeWholeCap;
-    return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    uint regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    if (method == kShapeAuto) {
+        uint above =
+            dot(normal, toCenter) >= light.radius ? kRegimeWholeCap : kRegimeSolidAngle; // a medium's normal is 0
+        regime = r2 >= kLeastCapSine2 * d2 ? above : kRegimeSolidAngle;
+    }
+    if (wantsProjected(features, method, normal)) {
+        regime = r2 >= kTinyExtent * kTinyExtent * d2 ? kRegimeProjected : kRegimeSolidAngle;
+    }
+    return d2 <= r2 ? kRegimeInside : regime;
 }
 
 RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
@@ -37,6 +39,12 @@ RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use
     return query;
 }
 
+// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
+// guarantees that, far from it the other is finer.
+RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
+    return either(toCenter < 2.0f * radius, onRay, center + normal * radius);
+}
+
 RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
                                         vec2 u) {
     LightSample s = noLightSample();
@@ -46,8 +54,7 @@ RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 to
     s.wi = d.direction;
     s.distance = d.distance;
     s.normal = d.normal;
-    bool close = length(toCenter) < 2.0f * light.radius;
-    s.point = close ? position + s.wi * s.distance : center + s.normal * light.radius;
+    s.point = pointOnSphere(length(toCenter), center, light.radius, s.normal, position + s.wi * s.distance);
     s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
 #endif
     return s;
@@ -62,30 +69,35 @@ RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, v
 #endif
 }
 
+// The sample of a direction in the cone of a sphere that is seen from outside.
+RT_FN LightSample sampleOfCone(RT_IN(SphereCone) cone, RT_IN(ConeSample) c, float pdf, vec3 center, float radius,
+                               vec3 position) {
+    LightSample s = noLightSample();
+    s.wi = c.direction;
+    s.distance = c.distance;
+    s.normal = c.normal;
+    s.point = pointOnSphere(cone.distance, center, radius, c.normal, position + c.direction * c.distance);
+    s.pdf = pdf;
+    return s;
+}
+
 RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                     vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
     vec3 center = sphereLightCenter(features, light, time);
     vec3 toCenter = center - position;
     float radius = light.radius;
-    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
     if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
     } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
         SphereCone cone = makeSphereCone(toCenter, radius);
-        ConeSample c;
         if (regime == kRegimeWholeCap) {
-            c = sampleWholeCap(cone, radius, normal, u);
-            s.pdf = wholeCapPdf(cone, normal, c.direction);
+            ConeSample c = sampleWholeCap(cone, radius, normal, u);
+            s = sampleOfCone(cone, c, wholeCapPdf(cone, normal, c.direction), center, radius, position);
         } else {
-            c = sampleSphereCone(cone, radius, u);
-            s.pdf = sphereConePdf(cone);
+            s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
         }
-        s.wi = c.direction;
-        s.distance = c.distance;
-        s.normal = c.normal;
-        // The point must lie on the ray; near the sphere only this form guarantees it, far from it the other is finer.
-        s.point = cone.distance < 2.0f * radius ? position + s.wi * s.distance : center + s.normal * radius;
     } else if (regime == kRegimeInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
@@ -111,7 +123,7 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
 RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
-    uint regime = sphereLightRegime(features, params, light, toCenter, normal);
+    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
     // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
     if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
     if (has(features, kFeatureProjected) && regime == kRegimeProjected)

@@ -316,9 +316,8 @@ struct LightChoice {
 struct LightContext {
     vec3 position;
     vec3 normal;
-    float total;        // sum of contributions where selection is by contribution; 0: no light can contribute
-    uint policy;        // the selection in force: kSelect...
-    LightChoice chosen; // with kLightChosen, else undefined
+    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy; // the selection in force: kSelect...
 };
 
 // A path between two steps of PathStep.h.
@@ -337,7 +336,7 @@ struct PathState {
 struct DirectLight {
     vec3 radiance;
     vec3 direction; // unit
-    float distance; // that has to be free of surfaces; 0: there is no shadow ray
+    float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
 };
 
 RT_SHARED_END

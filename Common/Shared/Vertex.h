@@ -45,9 +45,9 @@ RT_FN Material blackMaterial() {
     return m;
 }
 
-RT_FN Vertex mediumVertex(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index) {
+// Sets all of v but its numbers.
+RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index, RT_OUT(Vertex) v) {
     RT_IN(Medium) medium = loadMedium(scene, index);
-    Vertex v;
     v.index = s.vertex - 1u;
     v.inMedium = 1u;
     v.front = 1u;
@@ -59,12 +59,11 @@ RT_FN Vertex mediumVertex(uint features, SceneRef scene, RT_IN(PathState) s, flo
     v.error = vec3(0.0f, 0.0f, 0.0f);
     v.origin = v.position;
     v.albedo = texturedAlbedo(features, scene, medium.albedo, medium.texture, v.position, vec2(0.0f, 0.0f));
-    return v;
 }
 
-RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
-                           RT_IN(Material) material) {
-    Vertex v;
+// The same.
+RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
+                          RT_IN(Material) material, RT_OUT(Vertex) v) {
     v.index = s.vertex - 1u;
     v.inMedium = 0u;
     v.wo = -s.ray.direction;
@@ -77,7 +76,6 @@ RT_FN Vertex surfaceVertex(uint features, SceneRef scene, RT_IN(PathState) s, RT
     v.error = surface.error;
     v.origin = offsetOrigin(surface.position, surface.error, v.normal, v.normal);
     v.albedo = texturedAlbedo(features, scene, material.albedo, material.texture, surface.position, surface.uv);
-    return v;
 }
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
