@@ -63,9 +63,8 @@ bool renderPixels(const KernelContext& context, const TileTask& task, KernelCoun
 
 template <std::uint32_t kFeatures>
 bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
-    const RenderParams& params = context.params;
     const bool isLit = has(kFeatures, kFeatureLights) && context.scene->globals.lightCount > 0;
-    const bool sideBySide = isLit && usesMis(params) && params.lightSelection == kSelectContribution;
+    const bool sideBySide = isLit && usesMis(context.params);
     const bool isDone = sideBySide ? renderSideBySide<kFeatures>(context, task, counters)
                                    : renderPixels<kFeatures>(context, task, counters);
     if (isDone) counters.camera += std::uint64_t{task.width} * task.height * task.count;

@@ -1,7 +1,7 @@
-// Paths with next-event estimation from lights that are chosen by contribution. As many as there are lanes take their steps
-// together, and as soon as one ends the next begins. Lights are chosen and sampled in lanes, and of what the choice from a tree
-// waits for in memory, each path's arrives during the turns of the others. Included by one translation unit per instruction
-// set; all it defines has internal linkage.
+// Paths with next-event estimation. As many as there are lanes take their steps together, and as soon as one ends the next
+// begins. Lights are chosen by contribution and sampled in lanes, and of what the choice from a tree waits for in memory, each
+// path's arrives during the turns of the others. Included by one translation unit per instruction set; all it defines has
+// internal linkage.
 #pragma once
 #include "RayTracingCPU/SceneAccess.h"
 
@@ -96,6 +96,19 @@ RT_CALL void drawNumbers(const Flight* flights, uint arrived, VertexLanes& verti
     if (has(kFeatures, kFeatureManyLights)) draw(kPairSelect, vertices.select);
 }
 
+// Choices by power, or uniform.
+template <uint kFeatures>
+RT_CALL void chooseOneByOne(const CpuScene& scene, const Flight* flights, uint lit, PathLanes& lanes) {
+    eachLane(lit, [&](uint i) {
+        const Vertex v = get(lanes.vertices, i);
+        LightContext context = flights[i].path.last;
+        const vec2 u = selectionNumbers(kFeatures, scene.globals, flights[i].smp, v);
+        LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, u, context);
+        choice.u = sampleNumbers(kFeatures, scene.globals, choice, v).x;
+        set(lanes.choices, i, choice, context.total);
+    });
+}
+
 // The choice among lights in a tree, which all paths go down level by level.
 template <uint kFeatures>
 RT_CALL void chooseFromTree(const CpuScene& scene, const Flight* flights, uint lit, PathLanes& lanes) {
@@ -123,7 +136,9 @@ RT_CALL void chooseFromTree(const CpuScene& scene, const Flight* flights, uint l
 template <uint kFeatures>
 RT_CALL void sampleLights(const CpuScene& scene, const RenderParams& params, Flight* flights, uint lit,
                           PathLanes& lanes) {
-    if (usesLightTree(kFeatures, scene.globals.lightCount)) {
+    if (params.lightSelection != kSelectContribution) {
+        chooseOneByOne<kFeatures>(scene, flights, lit, lanes);
+    } else if (usesLightTree(kFeatures, scene.globals.lightCount)) {
         chooseFromTree<kFeatures>(scene, flights, lit, lanes);
     } else {
         chooseByContribution(scene, lanes);

@@ -97,6 +97,10 @@ Light randomLight(Uniforms& uniform) {
 LitScene randomScene(Uniforms& uniform, uint count) {
     LitScene scene;
     for (uint i = 0; i < count; ++i) scene.add(randomLight(uniform), static_cast<float>(uniform.between(0, 2)));
+    for (uint i = 0; i < count; ++i) {
+        scene.lights[i].selection = 1.0f / static_cast<float>(count);
+        scene.lights[i].cdf = static_cast<float>(i + 1) / static_cast<float>(count);
+    }
     return scene;
 }
 
@@ -133,7 +137,7 @@ struct Turn {
     Vertex vertices[kLanes];
 };
 
-void fill(Turn& turn, Uniforms& uniform) {
+void fill(Turn& turn, uint policy, Uniforms& uniform) {
     for (uint i = 0; i < kLanes; ++i) {
         turn.vertices[i] = randomVertex(uniform);
         set(turn.lanes.vertices, i, turn.vertices[i]);
@@ -142,7 +146,7 @@ void fill(Turn& turn, Uniforms& uniform) {
         path.throughput = vec3(0.5f, 0.25f, 1.0f);
         path.ray.time = static_cast<float>(uniform.between(0, 1));
         path.last = lightContext(RenderParams{}, turn.vertices[i]);
-        path.last.policy = kSelectContribution;
+        path.last.policy = policy;
     }
 }
 
@@ -184,9 +188,9 @@ TEST(LightLanes, SamplesAreThoseOfOnePathAtATime) {
             LitScene scene = randomScene(uniform, 1 + turns % kContributionLights);
             RenderParams params = withMethod(method);
             params.lightSampling = turns % 2 == 0 ? kSampleMis : kSampleMisBalance;
-            params.lightSelection = kSelectContribution;
+            params.lightSelection = turns % 3; // all that there are
             Turn turn;
-            fill(turn, uniform);
+            fill(turn, params.lightSelection, uniform);
             compareTurn(scene.get(), params, turns % 5 == 0 ? uniform.word() & 0xffffu : 0xffffu, turn, seen);
             if (HasFatalFailure()) return;
         }
@@ -205,7 +209,7 @@ TEST(LightLanes, LanesNotInUseAreFilledWithAnything) {
     params.lightSelection = kSelectContribution;
     for (const unsigned char byte : {0x00, 0x7f, 0xff}) { // zero, huge, not a number
         Turn turn;
-        fill(turn, uniform);
+        fill(turn, kSelectContribution, uniform);
         const PathLanes used = turn.lanes;
         std::memset(&turn.lanes, byte, sizeof turn.lanes);
         for (const uint i : {0u, 5u, 15u}) {
@@ -241,7 +245,7 @@ TEST(LightLanes, DirectionsAreThoseOfTheBsdf) {
     Uniforms uniform(44);
     for (int turns = 0; turns < 200; ++turns) {
         Turn turn;
-        fill(turn, uniform);
+        fill(turn, kSelectContribution, uniform);
         sampleDiffuse(turn.lanes);
         for (uint i = 0; i < kLanes; ++i) {
             const Vertex& v = turn.vertices[i];
