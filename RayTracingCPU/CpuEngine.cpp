@@ -73,17 +73,7 @@ LightBoundsSoa makeLightBoundsSoa(const scene::CompiledScene& scene) {
     const std::size_t count = std::min<std::size_t>(scene.globals.lightCount, shared::kContributionLights);
     for (std::size_t i = 0; i < shared::kContributionLights; ++i) {
         soa.radius[i] = 1.0f; // keeps the arithmetic of padding finite
-        if (i >= count) continue;
-        const shared::LightBound& bound = scene.lightBounds[i];
-        soa.centerX[i] = bound.center.x;
-        soa.centerY[i] = bound.center.y;
-        soa.centerZ[i] = bound.center.z;
-        soa.radius[i] = bound.radius;
-        soa.axisX[i] = bound.axis.x;
-        soa.axisY[i] = bound.axis.y;
-        soa.axisZ[i] = bound.axis.z;
-        soa.twoSided[i] = bound.twoSided;
-        soa.intensity[i] = bound.intensity;
+        if (i < count) setBound(soa, i, scene.lightBounds[i]);
     }
     return soa;
 }

@@ -22,6 +22,18 @@ struct LightBoundsSoa {
     float intensity[shared::kContributionLights] = {};
 };
 
+RT_FN void setBound(LightBoundsSoa& bounds, std::size_t i, const shared::LightBound& bound) {
+    bounds.centerX[i] = bound.center.x;
+    bounds.centerY[i] = bound.center.y;
+    bounds.centerZ[i] = bound.center.z;
+    bounds.radius[i] = bound.radius;
+    bounds.axisX[i] = bound.axis.x;
+    bounds.axisY[i] = bound.axis.y;
+    bounds.axisZ[i] = bound.axis.z;
+    bounds.twoSided[i] = bound.twoSided;
+    bounds.intensity[i] = bound.intensity;
+}
+
 // The compiled scene's arrays and its acceleration structure. Owned by the engine; null where the scene has none.
 struct CpuScene {
     accel::AccelView accel;

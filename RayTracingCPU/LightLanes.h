@@ -94,6 +94,7 @@ RT_CALL void sampleQuads(PathLanes& lanes) {
     }
 }
 
+// But for uv, which of a sphere follows from the normal.
 RT_FN LightSample eitherSample(bool first, LightSample a, LightSample b) {
     b.wi = either(first, a.wi, b.wi);
     b.distance = first ? a.distance : b.distance;

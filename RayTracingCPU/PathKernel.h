@@ -12,8 +12,9 @@ namespace {
 
 // ---- one path after the other ---------------------------------------------------------------------------------------
 
+// The radiances of a pixel's samples.
 template <std::uint32_t kFeatures>
-RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, std::uint32_t count, vec3& total,
+RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, std::uint32_t count, vec3* radiances,
                         KernelCounters& counters) {
     const CpuScene& scene = *context.scene;
     NumberTable numbers(smp, count, kFeatures);
@@ -32,42 +33,54 @@ RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, 
             hit = traceOn<kFeatures>(scene, direct, path, counters);
         }
         counters.scattered += path.vertex - 1u;
-        addRadiance(path.radiance, total, counters);
+        radiances[i] = path.radiance;
     }
 }
 
-// ---- pixels and tiles -----------------------------------------------------------------------------------------------
-
+// The radiances of a tile's samples, pixel by pixel. False: cancelled.
 template <std::uint32_t kFeatures>
-void renderPixel(const KernelContext& context, const TileTask& task, uvec2 pixel, float* sum,
-                 KernelCounters& counters) {
-    const Sampler first =
-        makeSampler(context.params, pixel.y * context.params.width + pixel.x, task.replicate, task.first);
-    vec3 total(sum[0], sum[1], sum[2]);
-    tracePaths<kFeatures>(context, pixel, first, task.count, total, counters);
-    for (int c = 0; c < 3; ++c) sum[c] = total[c];
-}
-
-// False: cancelled.
-template <std::uint32_t kFeatures>
-bool renderPixels(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+bool traceOneByOne(const KernelContext& context, const TileTask& task, vec3* radiances, KernelCounters& counters) {
     for (std::uint32_t y = 0; y < task.height; ++y) {
-        for (std::uint32_t x = 0; x < task.width; ++x) {
+        for (std::uint32_t x = 0; x < task.width; ++x, radiances += task.count) {
             if (task.cancel != nullptr && task.cancel->load(std::memory_order_relaxed)) return false;
-            float* sum = task.sum + 3 * (y * task.stride + x);
-            renderPixel<kFeatures>(context, task, uvec2(task.x + x, task.y + y), sum, counters);
+            const uvec2 pixel(task.x + x, task.y + y);
+            const std::uint32_t index = pixel.y * context.params.width + pixel.x;
+            const Sampler first = makeSampler(context.params, index, task.replicate, task.first);
+            tracePaths<kFeatures>(context, pixel, first, task.count, radiances, counters);
         }
     }
     return true;
 }
 
+// ---- tiles ----------------------------------------------------------------------------------------------------------
+
+// A sample that is not a number is dropped and counted, and stays in the divisor.
+void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& counters) {
+    for (std::uint32_t y = 0; y < task.height; ++y) {
+        for (std::uint32_t x = 0; x < task.width; ++x) {
+            float* sum = task.sum + 3 * (y * task.stride + x);
+            vec3 total(sum[0], sum[1], sum[2]);
+            for (std::uint32_t i = 0; i < task.count; ++i, ++radiances) {
+                if (isFinite(*radiances)) {
+                    total += *radiances;
+                } else {
+                    ++counters.nonfinite;
+                }
+            }
+            for (int c = 0; c < 3; ++c) sum[c] = total[c];
+        }
+    }
+    counters.camera += std::uint64_t{task.width} * task.height * task.count;
+}
+
 template <std::uint32_t kFeatures>
 bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+    vec3 radiances[image::Film::kTilePixels * image::Film::kBlock];
     const bool isLit = has(kFeatures, kFeatureLights) && context.scene->globals.lightCount > 0;
-    const bool sideBySide = isLit && usesMis(context.params);
-    const bool isDone = sideBySide ? renderSideBySide<kFeatures>(context, task, counters)
-                                   : renderPixels<kFeatures>(context, task, counters);
-    if (isDone) counters.camera += std::uint64_t{task.width} * task.height * task.count;
+    const bool isDone = isLit && usesMis(context.params)
+                            ? traceSideBySide<kFeatures>(context, task, radiances, counters)
+                            : traceOneByOne<kFeatures>(context, task, radiances, counters);
+    if (isDone) addRadiances(task, radiances, counters);
     return isDone;
 }
 

@@ -9,15 +9,6 @@ namespace {
 
 using namespace rt::shared;
 
-// A sample that is not a number is dropped and counted, and stays in the divisor.
-RT_FN void addRadiance(vec3 radiance, vec3& total, KernelCounters& counters) {
-    if (isFinite(radiance)) {
-        total += radiance;
-    } else {
-        ++counters.nonfinite;
-    }
-}
-
 // Adds what the shadow ray brings, if it arrives.
 template <std::uint32_t kFeatures>
 RT_FN void traceShadow(const CpuScene& scene, const DirectLight& direct, PathState& path, KernelCounters& counters) {

@@ -31,12 +31,12 @@ class PathQueue {
     template <uint kFeatures>
     bool begin(Flight& flight) {
         if (next_ == count_) return false;
-        const uint lane = next_ % task_.count;
-        if (lane == 0u) beginPixel();
+        const uint inPixel = next_ % task_.count;
+        if (inPixel == 0u) beginPixel();
         flight.place = next_++;
         flight.smp = first_;
-        flight.smp.index += lane;
-        const vec2 numbers = isTabulated_ ? numbers_.at(lane) : randomPair(flight.smp, kPairPixel);
+        flight.smp.index += inPixel;
+        const vec2 numbers = isTabulated_ ? numbers_.at(inPixel) : randomPair(flight.smp, kPairPixel);
         flight.path = startPath(kFeatures, context_.params, context_.camera, flight.smp, pixel_, numbers);
         return true;
     }
@@ -252,23 +252,6 @@ RT_CALL bool traceSideBySide(const KernelContext& context, const TileTask& task,
             }
         });
     }
-}
-
-// False: cancelled.
-template <uint kFeatures>
-bool renderSideBySide(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
-    vec3 radiances[image::Film::kTilePixels * image::Film::kBlock];
-    if (!traceSideBySide<kFeatures>(context, task, radiances, counters)) return false;
-    const vec3* radiance = radiances;
-    for (uint y = 0u; y < task.height; ++y) {
-        for (uint x = 0u; x < task.width; ++x) {
-            float* sum = task.sum + 3u * (y * task.stride + x);
-            vec3 total(sum[0], sum[1], sum[2]);
-            for (uint i = 0u; i < task.count; ++i) addRadiance(*radiance++, total, counters);
-            for (int c = 0; c < 3; ++c) sum[c] = total[c];
-        }
-    }
-    return true;
 }
 
 } // namespace

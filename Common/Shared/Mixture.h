@@ -36,7 +36,6 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
 RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
                                      RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v, float time,
                                      RT_INOUT(LightContext) context) {
-    vec2 u = v.numbers.light;
     vec2 pick = selectionNumbers(features, globals, smp, v);
     float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
     // The context is completed even when a target is chosen: the density of the direction sums over all of them.
@@ -49,7 +48,7 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(Render
         choice.u = clamp(position - float(target), 0.0f, 0.999999940395355f);
     }
     if (choice.light == kNone) return noLightSample();
-    if (!usesLightTree(features, globals.lightCount)) u.x = choice.u;
+    vec2 u = sampleNumbers(features, globals, choice, v);
     return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, u);
 }
 

@@ -36,16 +36,7 @@ struct LitScene {
         bound.axis = isSphere ? vec3(0.0f) : light.normal;
         bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
         bound.intensity = intensity;
-        const std::size_t i = lights.size();
-        soa.centerX[i] = bound.center.x;
-        soa.centerY[i] = bound.center.y;
-        soa.centerZ[i] = bound.center.z;
-        soa.radius[i] = bound.radius;
-        soa.axisX[i] = bound.axis.x;
-        soa.axisY[i] = bound.axis.y;
-        soa.axisZ[i] = bound.axis.z;
-        soa.twoSided[i] = bound.twoSided;
-        soa.intensity[i] = bound.intensity;
+        setBound(soa, lights.size(), bound);
         lights.push_back(light);
         bounds.push_back(bound);
     }
