@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <span>
@@ -14,9 +14,9 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/LargeArray.h"
-#include "Common/App/RenderParams.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/CameraRecord.h"
+#include "Common/Scene/Json/CameraRecord.h"
 #include "RayTracingCPU/KernelArgs.h"
 #include "RayTracingCPU/Workers.h"
 

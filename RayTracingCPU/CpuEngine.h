@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Core/CpuFeatures.h"
 
 namespace rt::cpu {

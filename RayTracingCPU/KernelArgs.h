@@ -3,8 +3,8 @@
 #include <atomic>
 #include <cstdint>
 
-#include "Common/Accel/RayQuery.h"
-#include "Common/Shared/Types.h"
+#include "Common/Accel/Traverse/RayQuery.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::cpu {
 

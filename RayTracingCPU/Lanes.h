@@ -3,8 +3,9 @@
 // in pieces larger than those in which it was written, and processors wait for that.) Included by one translation unit per
 // instruction set; everything here has internal linkage.
 #pragma once
-#include "Common/Shared/PathStep.h"
 #include "RayTracingCPU/SceneAccess.h"
+
+#include "Common/Shared/Path/PathStep.h"
 
 RT_SHARED_BEGIN
 

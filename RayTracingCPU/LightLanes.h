@@ -1,8 +1,9 @@
 // Next-event estimation for all lanes: the choice by contribution from a short table, samples of quads and spheres, and their weights.
 // The numbers are those of one path alone, bit for bit.
 #pragma once
-#include "RayTracingCPU/Lanes.h"
 #include "RayTracingCPU/SceneAccess.h"
+
+#include "RayTracingCPU/Lanes.h"
 
 namespace rt::cpu {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Options.h"
-#include "Common/App/Session.h"
+#include "Common/App/Options/Options.h"
+#include "Common/App/Session/Session.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"

@@ -2,7 +2,7 @@
 // internal linkage.
 #pragma once
 #include "Common/Image/Film.h"
-#include "Common/Shared/PathStep.h"
+#include "Common/Shared/Path/PathStep.h"
 
 namespace rt::cpu {
 namespace {

@@ -1,8 +1,9 @@
 // What the loops around paths have in common. Included by one translation unit per instruction set; all it defines has internal
 // linkage.
 #pragma once
-#include "Common/Shared/PathStep.h"
 #include "RayTracingCPU/SceneAccess.h"
+
+#include "Common/Shared/Path/PathStep.h"
 
 namespace rt::cpu {
 namespace {

@@ -1,10 +1,10 @@
 // Gives Common/Shared its access to the scene on the CPU: SceneRef, every load...(), tracing. Include it before the headers
 // that fetch; everything here has internal linkage.
 #pragma once
-#include "Common/Accel/Prefetch.h"
-#include "Common/Accel/Simd.h"
-#include "Common/Shared/LightContribution.h"
-#include "Common/Shared/Lights.h"
+#include "Common/Accel/Simd/Prefetch.h"
+#include "Common/Accel/Simd/Simd.h"
+#include "Common/Shared/Light/LightContribution.h"
+#include "Common/Shared/Light/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 
 RT_SHARED_BEGIN

@@ -12,7 +12,7 @@
 #include <tbb/parallel_for_each.h>
 #endif
 
-#include "Common/Accel/Parallel.h"
+#include "Common/Accel/Build/Parallel.h"
 #include "RayTracingCPU/CpuEngine.h"
 
 namespace rt::cpu {

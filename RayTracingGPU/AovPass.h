@@ -1,6 +1,6 @@
 // First-hit features of an image.
 #pragma once
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "RayTracingGPU/Kernel.h"
 
 namespace rt::gpu {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "Common/Shared/Features.h"
+#include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Pipelines.h"
 
 namespace rt::gpu {

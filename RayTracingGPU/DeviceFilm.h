@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanResources.h"

@@ -1,6 +1,6 @@
 // Which of the two ways to trace rays a device is served best by.
 #pragma once
-#include "Common/App/Names.h"
+#include "Common/App/Options/Names.h"
 #include "Common/Vulkan/DeviceSelection.h"
 
 namespace rt::gpu {

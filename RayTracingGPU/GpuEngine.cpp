@@ -6,10 +6,10 @@
 #include <span>
 #include <utility>
 
-#include "Common/App/RenderParams.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/CameraRecord.h"
-#include "Common/Shared/Features.h"
+#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "RayTracingGPU/AovPass.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "Common/App/Engine.h"
-#include "Common/App/Names.h"
+#include "Common/App/Options/Names.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "Common/App/Stopwatch.h"
+#include "Common/App/Session/Stopwatch.h"
 
 namespace rt::gpu {
 

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <memory>
 
-#include "Common/App/Names.h"
+#include "Common/App/Options/Names.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/AccelStructure.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
 

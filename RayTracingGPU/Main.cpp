@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Options.h"
-#include "Common/App/Session.h"
+#include "Common/App/Options/Options.h"
+#include "Common/App/Session/Session.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
 #include "RayTracingGPU/GpuEngine.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "Common/App/Names.h"
+#include "Common/App/Options/Names.h"
 #include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/VulkanResources.h"
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "Common/Shared/Features.h"
+#include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/Pipelines.h"
 #include "Shaders/Records.h"

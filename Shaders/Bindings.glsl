@@ -6,7 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 #include "Records.h"
-#include "Common/Shared/Features.h"
+#include "Common/Shared/Base/Features.h"
 
 layout(constant_id = 0) const uint kFeatures = kFeatureAll;
 layout(constant_id = 1) const uint kLightSampling = kSampleMis;

@@ -7,7 +7,7 @@
 // The includer provides traceRay().
 #extension GL_KHR_memory_scope_semantics : require
 #include "SceneAccess.glsl"
-#include "Common/Shared/PathStep.h"
+#include "Common/Shared/Path/PathStep.h"
 #include "TraceStep.glsl"
 
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };

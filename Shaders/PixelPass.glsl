@@ -1,6 +1,6 @@
 // How shaders of one invocation a pixel begin, which go through the pixel's first samples. The includer provides traceRay().
 #include "SceneAccess.glsl"
-#include "Common/Shared/PathStep.h"
+#include "Common/Shared/Path/PathStep.h"
 
 layout(push_constant, scalar) uniform Launch { PixelLaunch launch; };
 

@@ -1,6 +1,6 @@
 // What the shaders of the preview have in common: the scene, the ray of a pixel, and light without shadows.
 #include "SceneAccess.glsl"
-#include "Common/Shared/PathStep.h"
+#include "Common/Shared/Path/PathStep.h"
 
 layout(constant_id = 14) const uint kShape = kSphere; // that a draw's primitives have
 

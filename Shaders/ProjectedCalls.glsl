@@ -1,5 +1,5 @@
 // What the ray generation shader exchanges with the callable shaders of lights by projected solid angle.
-#include "Common/Shared/ProjectedQuery.h"
+#include "Common/Shared/Light/Projected/ProjectedQuery.h"
 
 struct FanCall {
     FanQuery query;

@@ -2,8 +2,8 @@
 // the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
-#include "Common/Shared/TreeRecords.h"
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
+#include "Common/Shared/Shape/TreeRecords.h"
 
 // A read-only array of `Type` on the device; in C++ its address.
 #ifdef __cplusplus
@@ -137,13 +137,13 @@ RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 // has its share of what takes long in the image. Its last paths are left to the launch that follows it; one without slots takes no
 // samples and leaves no paths.
 struct FilmLaunch {
-    MutableWordArray samples;    // per slot: samples that its pixels have
-    FilmSumArray sums;           // of closed blocks
-    FilmSumArray squares;        // of (block sum)^2 / kBlock, if keepSquares
-    MutableVectorArray open;     // sums of open blocks; needed only where a block is or stays open
-    MutableVectorArray radiance; // of each sample of the launch, see sampleAt()
-    UnfinishedPathArray left;    // as many as its counters say, see below
-    MutableWordArray counters;   // kCounters per line
+    MutableWordArray samples;          // per slot: samples that its pixels have
+    FilmSumArray sums;                 // of closed blocks
+    FilmSumArray squares;              // of (block sum)^2 / kBlock, if keepSquares
+    MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
+    MutableVectorArray radiance;       // of each sample of the launch, see sampleAt()
+    UnfinishedPathArray left;          // as many as its counters say, see below
+    MutableWordArray counters;         // kCounters per line
     MutableVectorArray radianceBefore; // these three: of the launch before
     UnfinishedPathArray leftBefore;
     MutableWordArray countersBefore;

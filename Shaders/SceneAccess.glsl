@@ -1,8 +1,8 @@
 // Gives Common/Shared its access to the scene on the GPU: SceneRef and every load...().
 #include "Bindings.glsl"
-#include "Common/Shared/Color.h"
-#include "Common/Shared/LightContribution.h"
-#include "Common/Shared/Lights.h"
+#include "Common/Shared/Texture/Color.h"
+#include "Common/Shared/Light/LightContribution.h"
+#include "Common/Shared/Light/Lights.h"
 
 struct SceneRef {
     uint unused;

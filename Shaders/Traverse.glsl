@@ -1,8 +1,8 @@
 // Traverses what Common/Accel/GpuBvh builds. One routine answers both questions, what a ray hits first and whether it hits
 // anything, because lanes of a group ask both at a time.
 #include "Bindings.glsl"
-#include "Common/Shared/Media.h"
-#include "Common/Shared/Shapes.h"
+#include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Shape/Shapes.h"
 
 layout(constant_id = 9) const uint kTreeDepth = 0u; // references that a traversal has to remember
 layout(constant_id = 10) const uint kIsFlat = 1u;   // there are the lists instead of a tree

@@ -5,7 +5,7 @@
 # library.
 function(rt_add_library name folder)
     cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
-    file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+    file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "/Main\\.cpp$")
     set(kernels ${sources})
     list(FILTER kernels INCLUDE REGEX "\\.(generic|x86_64_v[0-9])\\.cpp$")

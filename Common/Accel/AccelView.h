@@ -3,7 +3,7 @@
 #pragma once
 #include <cstdint>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::accel {
 

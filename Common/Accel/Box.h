@@ -2,7 +2,7 @@
 #pragma once
 #include <limits>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::accel {
 

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "Common/Accel/AccelStorage.h"
-#include "Common/Accel/BlockFill.h"
-#include "Common/Accel/Parallel.h"
-#include "Common/Accel/SceneTrees.h"
+#include "Common/Accel/Build/BlockFill.h"
+#include "Common/Accel/Build/Parallel.h"
+#include "Common/Accel/Build/SceneTrees.h"
 #include "Common/Accel/SparseBvh.h"
 #include "Common/Accel/WideBvh.h"
-#include "Common/Shared/Features.h"
+#include "Common/Shared/Base/Features.h"
 
 namespace rt::accel {
 namespace {

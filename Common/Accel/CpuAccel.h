@@ -7,7 +7,7 @@
 #include <span>
 
 #include "Common/Accel/AccelView.h"
-#include "Common/Accel/BvhBuilder.h"
+#include "Common/Accel/Build/BvhBuilder.h"
 
 namespace rt::accel {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "Common/Accel/SceneTrees.h"
+#include "Common/Accel/Build/SceneTrees.h"
 #include "Common/Core/Error.h"
-#include "Common/Shared/Shapes.h"
+#include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {
 namespace {

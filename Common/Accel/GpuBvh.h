@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Common/Accel/CpuAccel.h"
-#include "Common/Shared/TreeRecords.h"
+#include "Common/Shared/Shape/TreeRecords.h"
 
 namespace rt::accel {
 

@@ -2,9 +2,9 @@
 // lane. Lanes hit for t > 0; the caller compares with the far end of its interval.
 #pragma once
 #include "Common/Accel/AccelView.h"
-#include "Common/Accel/Simd.h"
-#include "Common/Shared/Features.h"
-#include "Common/Shared/Shapes.h"
+#include "Common/Accel/Simd/Simd.h"
+#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "Common/Accel/AccelView.h"
+#include "Common/Accel/Build/LeafMaker.h"
 #include "Common/Accel/Bvh.h"
-#include "Common/Accel/LeafMaker.h"
 
 namespace rt::accel {
 

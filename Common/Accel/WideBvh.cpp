@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Common/Accel/Collapse.h"
+#include "Common/Accel/Build/Collapse.h"
 
 namespace rt::accel {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "Common/App/OptionValues.h"
+#include "Common/App/Options/OptionValues.h"
 #include "Common/Bench/Config.h"
 #include "Common/Core/Error.h"
 

@@ -4,9 +4,9 @@
 #include <iterator>
 #include <vector>
 
-#include "Common/App/Names.h"
-#include "Common/App/OptionValues.h"
-#include "Common/Shared/Features.h"
+#include "Common/App/Options/Names.h"
+#include "Common/App/Options/OptionValues.h"
+#include "Common/Shared/Base/Features.h"
 
 namespace rt::bench {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "Common/App/Settings.h"
+#include "Common/App/Session/Settings.h"
 
 namespace rt::bench {
 

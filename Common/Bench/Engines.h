@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Config.h"
 #include "Common/Bench/Energy.h"
 

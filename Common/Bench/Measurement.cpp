@@ -5,7 +5,7 @@
 #include <ostream>
 
 #include "Common/App/Platform.h"
-#include "Common/App/RenderLoop.h"
+#include "Common/App/Session/RenderLoop.h"
 #include "Common/Image/Summary.h"
 
 namespace rt::bench {

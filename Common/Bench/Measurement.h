@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Config.h"
 #include "Common/Bench/Energy.h"
 #include "Common/Scene/CompiledScene.h"

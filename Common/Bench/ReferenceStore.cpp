@@ -7,8 +7,8 @@
 #include <limits>
 #include <ostream>
 
-#include "Common/App/RenderLoop.h"
-#include "Common/App/Stopwatch.h"
+#include "Common/App/Session/RenderLoop.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"

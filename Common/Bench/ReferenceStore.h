@@ -9,7 +9,7 @@
 #include <span>
 #include <string>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Image/ErrorAnalysis.h"
 #include "Common/Scene/CompiledScene.h"
 

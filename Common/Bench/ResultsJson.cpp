@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/JsonNode.h"
+#include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::bench {
 namespace {

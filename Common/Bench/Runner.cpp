@@ -11,8 +11,8 @@
 #include <thread>
 #include <tuple>
 
-#include "Common/App/SceneSource.h"
-#include "Common/App/Stopwatch.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Core/Error.h"

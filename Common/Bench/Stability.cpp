@@ -9,10 +9,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "Common/App/FilmEstimate.h"
+#include "Common/App/Session/FilmEstimate.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
 
 namespace rt::bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Document.h"
 
 namespace rt::bench {

@@ -5,10 +5,10 @@
 #include <iterator>
 #include <set>
 
-#include "Common/App/OptionValues.h"
+#include "Common/App/Options/OptionValues.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
-#include "Common/Scene/JsonNode.h"
+#include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::bench {
 namespace {

@@ -8,16 +8,16 @@
 #include <optional>
 #include <utility>
 
-#include "Common/App/Interrupt.h"
-#include "Common/App/Outputs.h"
 #include "Common/App/Platform.h"
-#include "Common/App/Stopwatch.h"
-#include "Common/Gui/EnginePanel.h"
+#include "Common/App/Session/Interrupt.h"
+#include "Common/App/Session/Outputs.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/ImGuiLayer.h"
-#include "Common/Gui/Panels.h"
+#include "Common/Gui/Panels/EnginePanel.h"
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/PictureArea.h"
 #include "Common/Gui/Presenter.h"
-#include "Common/Gui/SavePaths.h"
 #include "Common/Gui/SessionLink.h"
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/Snapshot.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/InteractiveSession.h"
-#include "Common/App/Options.h"
+#include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Options/Options.h"
 #include "Common/Core/Error.h"
 
 namespace rt::gui {

@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
 

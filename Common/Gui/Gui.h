@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/CameraController.h"
-#include "Common/App/GuiSettings.h"
-#include "Common/App/InteractiveSession.h"
+#include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Interactive/GuiSettings.h"
+#include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"

@@ -9,7 +9,7 @@
 #include <imgui.h>
 #include <vulkan/vulkan.h>
 
-#include "Common/App/GuiSettings.h"
+#include "Common/App/Interactive/GuiSettings.h"
 #include "Common/Gui/GraphicsDevice.h"
 #include "Common/Gui/Window.h"
 

@@ -3,7 +3,7 @@
 #include <exception>
 #include <filesystem>
 
-#include "Common/Gui/SavePaths.h"
+#include "Common/Gui/Panels/SavePaths.h"
 
 namespace rt::gui {
 

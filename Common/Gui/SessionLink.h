@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "Common/App/Options.h"
+#include "Common/App/Options/Options.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Presenter.h"
 

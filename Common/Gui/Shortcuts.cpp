@@ -5,7 +5,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
 namespace {

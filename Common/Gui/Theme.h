@@ -1,6 +1,6 @@
 // The colours of the interface.
 #pragma once
-#include "Common/App/GuiSettings.h"
+#include "Common/App/Interactive/GuiSettings.h"
 
 struct ImGuiStyle;
 struct ImVec4;

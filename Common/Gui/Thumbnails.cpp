@@ -8,7 +8,7 @@
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
 #include "Common/Image/ImageIo.h"
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
 

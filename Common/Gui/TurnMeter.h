@@ -2,8 +2,8 @@
 #pragma once
 #include <deque>
 
-#include "Common/App/Statistics.h"
-#include "Common/App/Stopwatch.h"
+#include "Common/App/Session/Statistics.h"
+#include "Common/App/Session/Stopwatch.h"
 
 namespace rt::gui {
 

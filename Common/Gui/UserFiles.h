@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "Common/App/GuiSettings.h"
-#include "Common/App/Options.h"
-#include "Common/App/Stopwatch.h"
+#include "Common/App/Interactive/GuiSettings.h"
+#include "Common/App/Options/Options.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Window.h"
 
 namespace rt::gui {

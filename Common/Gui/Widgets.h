@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "Common/App/Names.h"
+#include "Common/App/Options/Names.h"
 
 namespace rt::gui {
 

@@ -7,8 +7,8 @@
 #include <glm/mat4x4.hpp>
 
 #include "Common/Scene/SceneDesc.h"
-#include "Common/Shared/Features.h"
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::scene {
 

@@ -1,8 +1,8 @@
 // Rays of the camera. The record is made from a CameraDesc by rt::scene::makeCamera.
 #ifndef RT_SHARED_CAMERA_H
 #define RT_SHARED_CAMERA_H
-#include "Features.h"
-#include "Sampling.h"
+#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/Sampling.h"
 
 RT_SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 // through here; files of linear radiance do not.
 #ifndef RT_SHARED_TONEMAP_H
 #define RT_SHARED_TONEMAP_H
-#include "Shim.h"
+#include "Common/Shared/Base/Shim.h"
 
 RT_SHARED_BEGIN
 

@@ -30,8 +30,8 @@ double EmbreeRays::trace(std::size_t) {
 
 #include <embree3/rtcore.h>
 
-#include "Common/Accel/Parallel.h"
-#include "Common/Scene/CameraRecord.h"
+#include "Common/Accel/Build/Parallel.h"
+#include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 
 namespace rt::bench {

@@ -18,7 +18,7 @@ int main() {
 #include <ctime>
 #include <functional>
 
-#include "Common/Accel/RayQuery.h"
+#include "Common/Accel/Traverse/RayQuery.h"
 #include "tests/bench/AccelBenchScenes.h"
 
 namespace rt::bench {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/Accel/Parallel.h"
-#include "Common/App/SceneSource.h"
-#include "Common/App/Stopwatch.h"
+#include "Common/Accel/Build/Parallel.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Summary.h"
 #include "RayTracingCPU/CpuEngine.h"
@@ -20,7 +20,7 @@ namespace rt::bench {
 namespace {
 
 constexpr double kWarmUp = 0.1; // seconds: clocks, caches
-constexpr double kSeconds = 1;   // of a measurement of Embree
+constexpr double kSeconds = 1;  // of a measurement of Embree
 
 // The renderer on so many threads.
 class Renderer {

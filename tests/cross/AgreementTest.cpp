@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneSource.h"
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Shared/Features.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Shared/Base/Features.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"

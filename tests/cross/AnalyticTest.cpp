@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "Common/Scene/Affine.h"
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 #include "tests/image/AnalyticScenes.h"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneSource.h"
+#include "Common/App/Session/SceneSource.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 

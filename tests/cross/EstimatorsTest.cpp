@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "Common/Image/ImageTest.h"
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"

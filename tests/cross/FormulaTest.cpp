@@ -1,4 +1,5 @@
 // The shared formulas on the device against the C++ build of the same headers.
+#include <FormulaProbe.comp.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,9 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include <FormulaProbe.comp.h>
-#include "Shaders/FormulaProbe.h"
 #include "tests/cross/Probe.h"
+#include "tests/cross/probes/FormulaProbe.h"
 
 namespace rt::test {
 namespace {

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneSource.h"
-#include "Common/Shared/Features.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/GpuEngine.h"

@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneSource.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/CameraRecord.h"
-#include "Common/Scene/SceneJson.h"
-#include "Common/Shared/Features.h"
+#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Shared/Base/Features.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 

@@ -6,7 +6,7 @@
 
 #include <glm/matrix.hpp>
 
-#include "Shaders/SamplerProbe.h"
+#include "tests/cross/probes/SamplerProbe.h"
 #include "tests/unit/Oracles.h"
 
 namespace rt::test {

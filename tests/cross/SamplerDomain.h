@@ -1,4 +1,4 @@
-// The directions that a case of Shaders/SamplerProbe.h can draw, in cells of known measure. In double precision, without any of the
+// The directions that a case of probes/SamplerProbe.h can draw, in cells of known measure. In double precision, without any of the
 // shared formulas that are to be proved.
 #pragma once
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::test {
 

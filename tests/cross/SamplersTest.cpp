@@ -1,5 +1,6 @@
 // Every sampler proved on the host and on the device by the same tests, in single precision, against answers in double
 // precision that use no shared formula.
+#include <SamplerProbe.comp.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -12,10 +13,9 @@
 
 #include <gtest/gtest.h>
 
-#include <SamplerProbe.comp.h>
-#include "Shaders/SamplerProbe.h"
 #include "tests/cross/Probe.h"
 #include "tests/cross/SamplerDomain.h"
+#include "tests/cross/probes/SamplerProbe.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/Image/ImageIo.h"
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/gui/WindowTest.h"
 
 namespace rt::test {

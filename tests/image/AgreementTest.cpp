@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Names.h"
-#include "Common/App/SceneSource.h"
+#include "Common/App/Options/Names.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ImageTest.h"
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
 
 namespace rt::test {

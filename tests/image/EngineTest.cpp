@@ -8,8 +8,8 @@
 #include <sstream>
 #include <thread>
 
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Shared/Features.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Shared/Base/Features.h"
 #include "RayTracingCPU/Workers.h"
 #include "tests/image/Harness.h"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Engine.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/App/Session/Engine.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"
 
 namespace rt::test {

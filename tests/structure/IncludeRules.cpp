@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kRoot = RT_SOURCE_DIR;
+const std::set<std::string> kMains = {"Main.cpp", "RayTracingBench.cpp"};
 
 const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Shared", {}},
@@ -73,12 +74,13 @@ fs::path resolve(const fs::path& file, const std::string& target) {
     return {};
 }
 
-// Sources of a folder whose includes are bound by the rule: the two mains alone may see everything.
+// Sources of a folder whose includes are bound by the rule: the mains of the two programs and of the benchmark alone may see
+// everything.
 std::vector<fs::path> sourcesOf(const std::string& folder) {
     std::vector<fs::path> sources;
     if (!fs::exists(kRoot / folder)) return sources;
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(kRoot / folder)) {
-        if (entry.is_regular_file() && entry.path().filename() != "Main.cpp") sources.push_back(entry.path());
+        if (entry.is_regular_file() && !kMains.count(entry.path().filename().string())) sources.push_back(entry.path());
     }
     return sources;
 }

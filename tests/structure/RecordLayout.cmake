@@ -7,7 +7,7 @@ cmake_path(GET TYPES FILENAME header)
 set(shader "#version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#include \"Common/Shared/${header}\"
+#include \"Common/Shared/Base/${header}\"
 layout(local_size_x = 1) in;
 ")
 foreach(record IN LISTS records)
@@ -44,7 +44,7 @@ endforeach()
 file(WRITE ${OUTPUT} "// Generated from the SPIR-V of ${header}.
 #include <cstddef>
 
-#include \"Common/Shared/${header}\"
+#include \"Common/Shared/Base/${header}\"
 
 using namespace rt::shared;
 

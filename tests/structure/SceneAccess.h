@@ -2,7 +2,7 @@
 // each of them alone.
 #ifndef RT_TESTS_SCENE_ACCESS_H
 #define RT_TESTS_SCENE_ACCESS_H
-#include "../../Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 
 RT_SHARED_BEGIN
 

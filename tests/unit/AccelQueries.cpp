@@ -1,6 +1,6 @@
 // The traversal in plain C++, which x86 builds otherwise lack, and the list of all that this processor runs.
 #define RT_SIMD_GENERIC
-#include "Common/Accel/RayQueryKernel.h"
+#include "Common/Accel/Traverse/RayQueryKernel.h"
 #include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "Common/Accel/CpuAccel.h"
-#include "Common/Accel/RayQuery.h"
+#include "Common/Accel/Traverse/RayQuery.h"
 
 namespace rt::accel::testing {
 

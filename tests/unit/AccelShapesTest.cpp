@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Shared/Shapes.h"
+#include "Common/Shared/Shape/Shapes.h"
 #include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneSource.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Energy.h"
 #include "Common/Bench/Measurement.h"

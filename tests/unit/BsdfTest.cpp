@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "Common/Shared/Bsdf.h"
+#include "Common/Shared/Material/Bsdf.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

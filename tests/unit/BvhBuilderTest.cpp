@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Accel/BvhBuilder.h"
+#include "Common/Accel/Build/BvhBuilder.h"
 #include "tests/unit/AccelScene.h"
 
 namespace rt::accel::testing {

@@ -5,8 +5,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "Common/App/CameraController.h"
-#include "Common/Scene/CameraRecord.h"
+#include "Common/App/Interactive/CameraController.h"
+#include "Common/Scene/Json/CameraRecord.h"
 
 namespace rt::app {
 namespace {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/SceneBuilder.h"
-#include "Common/Scene/SceneCompiler.h"
+#include "Common/Scene/Builtin/SceneBuilder.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
 #include "tests/unit/Oracles.h"
 
 namespace rt::scene {

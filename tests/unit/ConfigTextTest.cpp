@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/ConfigText.h"
+#include "Common/App/Options/ConfigText.h"
 #include "Common/Core/Error.h"
 
 namespace rt::app {

@@ -2,8 +2,8 @@
 #include <limits>
 #include <numbers>
 
-#include "Common/Shared/Color.h"
-#include "Common/Shared/Elementary.h"
+#include "Common/Shared/Base/Elementary.h"
+#include "Common/Shared/Texture/Color.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {

@@ -8,10 +8,10 @@
 #include <glm/matrix.hpp>
 
 #include "Common/Scene/Affine.h"
-#include "Common/Scene/SceneBuilder.h"
-#include "Common/Scene/SceneCompiler.h"
-#include "Common/Shared/LightContribution.h"
-#include "Common/Shared/LightDensity.h"
+#include "Common/Scene/Builtin/SceneBuilder.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Shared/Light/LightContribution.h"
+#include "Common/Shared/Light/LightDensity.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
 #include "tests/unit/Statistics.h"

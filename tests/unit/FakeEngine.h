@@ -6,7 +6,7 @@
 #include <memory>
 #include <utility>
 
-#include "Common/App/Engine.h"
+#include "Common/App/Session/Engine.h"
 #include "Common/Core/Error.h"
 
 namespace rt::app {

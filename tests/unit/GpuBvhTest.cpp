@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Accel/Build/PrimitiveBoxes.h"
 #include "Common/Accel/GpuBvh.h"
-#include "Common/Accel/PrimitiveBoxes.h"
 #include "tests/unit/AccelScene.h"
 
 namespace rt::accel {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/GuiSettings.h"
+#include "Common/App/Interactive/GuiSettings.h"
 #include "tests/TempFolder.h"
 
 namespace rt::app {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/InteractiveSession.h"
+#include "Common/App/Interactive/InteractiveSession.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 

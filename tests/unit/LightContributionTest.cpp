@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Shared/LightContribution.h"
+#include "Common/Shared/Light/LightContribution.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
 

@@ -1,6 +1,6 @@
 // Samples of one light as tests draw them.
 #pragma once
-#include "Common/Shared/Lights.h"
+#include "Common/Shared/Light/Lights.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "RayTracingCPU/SceneAccess.h"
-
 #include "RayTracingCPU/SideBySide.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"

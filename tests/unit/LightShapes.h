@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 #include "tests/unit/Oracles.h"
 
 namespace rt::shared {

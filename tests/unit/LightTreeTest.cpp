@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <span>
 
-#include "Common/Scene/LightTable.h"
-#include "Common/Scene/LightTree.h"
+#include "Common/Scene/Compiler/LightTable.h"
+#include "Common/Scene/Compiler/LightTree.h"
 
 namespace rt::shared {
 
@@ -34,7 +34,7 @@ static LightCluster loadLightCluster(SceneRef table, uint node, uint i) {
 
 } // namespace rt::shared
 
-#include "Common/Shared/LightTree.h"
+#include "Common/Shared/Light/LightTree.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

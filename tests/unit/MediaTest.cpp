@@ -2,7 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "Common/Shared/Media.h"
+#include "Common/Shared/Medium/Media.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

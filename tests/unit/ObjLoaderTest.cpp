@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/ObjLoader.h"
-#include "Common/Scene/SceneCompiler.h"
-#include "Common/Scene/SceneJson.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Obj/ObjLoader.h"
 
 namespace rt::scene {
 namespace {

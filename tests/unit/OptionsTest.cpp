@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/FeatureNames.h"
-#include "Common/App/Options.h"
+#include "Common/App/Options/Options.h"
+#include "Common/App/Session/FeatureNames.h"
 #include "Common/Core/Error.h"
-#include "Common/Shared/Features.h"
+#include "Common/Shared/Base/Features.h"
 
 namespace rt::app {
 namespace {
@@ -389,7 +389,8 @@ TEST_F(OptionsTest, BadConfigurationFilesAreNamed) {
 TEST_F(OptionsTest, HelpAndVersion) {
     std::ostringstream help, version;
     EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--help"}, help).has_value());
-    for (const char* flag : {"--scene", "--light-sampling", "mis|mis-balance|mixture|bsdf", "--target-error", "--resume"})
+    for (const char* flag :
+         {"--scene", "--light-sampling", "mis|mis-balance|mixture|bsdf", "--target-error", "--resume"})
         EXPECT_NE(help.str().find(flag), std::string::npos) << flag;
     EXPECT_FALSE(parseOptions("ray-tracing-cpu", {"--version"}, version).has_value());
     EXPECT_EQ(version.str().rfind("ray-tracing-cpu ", 0), 0u);

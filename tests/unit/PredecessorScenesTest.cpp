@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneBuilder.h"
-#include "Common/Scene/SceneCompiler.h"
-#include "Common/Scene/SceneJson.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Builtin/SceneBuilder.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::scene {
 namespace {

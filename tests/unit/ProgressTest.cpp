@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Progress.h"
+#include "Common/App/Session/Progress.h"
 
 namespace rt::app {
 namespace {

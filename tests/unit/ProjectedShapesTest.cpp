@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "Common/Shared/ProjectedPolygon.h"
-#include "Common/Shared/ProjectedSphere.h"
+#include "Common/Shared/Light/Projected/ProjectedPolygon.h"
+#include "Common/Shared/Light/Projected/ProjectedSphere.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

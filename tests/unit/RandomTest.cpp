@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "Common/Shared/Random.h"
+#include "Common/Shared/Base/Random.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {

@@ -1,10 +1,10 @@
 // What a render needs beyond its scene.
 #include <gtest/gtest.h>
 
-#include "Common/App/RenderParams.h"
-#include "Common/App/SceneSource.h"
-#include "Common/Scene/SceneJson.h"
-#include "Common/Shared/Features.h"
+#include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Shared/Base/Features.h"
 
 namespace rt::app {
 namespace {

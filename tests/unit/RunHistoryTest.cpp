@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/RunHistory.h"
+#include "Common/App/Interactive/RunHistory.h"
 #include "tests/TempFolder.h"
 
 namespace rt::app {

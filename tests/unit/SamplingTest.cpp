@@ -6,7 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "Common/Shared/Sampling.h"
+#include "Common/Shared/Base/Sampling.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {

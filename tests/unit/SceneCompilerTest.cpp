@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Scene/Affine.h"
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/unit/CompilerScenes.h"
 
 namespace rt::scene {

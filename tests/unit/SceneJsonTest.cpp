@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/SceneCompiler.h"
-#include "Common/Scene/SceneJson.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/SceneJson.h"
 #include "tests/unit/JsonSchema.h"
 
 namespace rt::scene {

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "Common/Scene/BuiltinScenes.h"
-#include "Common/Scene/LightTable.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/LightTable.h"
 #include "tests/unit/CompilerScenes.h"
 
 namespace rt::scene {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/SceneLoader.h"
+#include "Common/App/Session/SceneLoader.h"
 #include "Common/Core/Interruption.h"
 
 namespace rt::app {

@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/GridCdf.h"
-#include "Common/Scene/MeshOrder.h"
-#include "Common/Scene/PerlinTable.h"
-#include "Common/Scene/Polygon.h"
-#include "Common/Scene/SceneBuilder.h"
-#include "Common/Scene/StandIns.h"
+#include "Common/Scene/Builtin/SceneBuilder.h"
+#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Compiler/GridCdf.h"
+#include "Common/Scene/Compiler/MeshOrder.h"
+#include "Common/Scene/Compiler/PerlinTable.h"
+#include "Common/Scene/Obj/Polygon.h"
 
 namespace rt::scene {
 namespace {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "Common/App/Session.h"
+#include "Common/App/Session/Session.h"
 #include "Common/Image/ImageIo.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"

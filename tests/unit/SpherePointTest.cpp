@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "Common/Shared/Shapes.h"
+#include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::test {
 namespace {

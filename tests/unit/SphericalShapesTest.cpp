@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "Common/Shared/SphericalShapes.h"
+#include "Common/Shared/Shape/SphericalShapes.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 

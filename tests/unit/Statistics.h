@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::test {
 

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "Common/Shared/Types.h"
+#include "Common/Shared/Base/Types.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
@@ -41,7 +41,7 @@ uint loadPerlinPermutation(SceneRef scene, uint index) {
 } // namespace
 } // namespace rt::shared
 
-#include "Common/Shared/Textures.h"
+#include "Common/Shared/Texture/Textures.h"
 
 namespace rt::shared {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Image/ImageIo.h"
-#include "Common/Scene/BuiltinScenes.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/ViewImage.h"
+#include "Common/App/Interactive/ViewImage.h"
 
 namespace rt::app {
 namespace {

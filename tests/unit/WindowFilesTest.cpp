@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "Common/App/InteractiveSession.h"
+#include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/Image/ImageIo.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"

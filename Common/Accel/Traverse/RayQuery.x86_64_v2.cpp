@@ -1,0 +1,8 @@
+#include "Common/Accel/Traverse/RayQueryKernel.h"
+
+namespace rt::accel {
+
+extern const RayQuery kRayQuery_x86_64_v2;
+const RayQuery kRayQuery_x86_64_v2{tracer, closest, any};
+
+} // namespace rt::accel

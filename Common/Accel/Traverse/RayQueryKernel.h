@@ -1,0 +1,62 @@
+// The body of RayQuery for the instruction set of the translation unit that includes it.
+#pragma once
+#include "Common/Accel/Traverse/RayQuery.h"
+#include "Common/Accel/Traverse/Traverse.h"
+
+namespace rt::accel {
+namespace {
+
+template <shared::uint kFeatures>
+shared::Hit closestHit(const AccelView& view, const shared::Ray& ray, float tMax) {
+    return traceClosest(kFeatures, view, ray, tMax);
+}
+
+template <shared::uint kFeatures>
+bool anyHit(const AccelView& view, const shared::Ray& ray, float tMax) {
+    return occluded(kFeatures, view, ray, tMax);
+}
+
+template <shared::uint kFeatures>
+shared::Hit bothHits(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
+                     float shadowEnd, bool& isOccluded) {
+    if (!view.flat) {
+        isOccluded = anyHit<kFeatures>(view, {ray.origin, shadowDirection, ray.time}, shadowEnd);
+        return closestHit<kFeatures>(view, ray, shared::kInfinity);
+    }
+    // Never in memory, so that a compiler sees that it starts where the other does.
+    const shared::Ray shadow{ray.origin, shadowDirection, ray.time};
+    return traceFlatBoth(kFeatures, view, makeShapeRay(kFeatures, ray, true), makeShapeRay(kFeatures, shadow, true),
+                         shadowEnd, isOccluded);
+}
+
+template <shared::uint kFeatures>
+constexpr Tracer makeTracer() {
+    return {closestHit<kFeatures>, anyHit<kFeatures>, bothHits<kFeatures>};
+}
+
+// The leanest that covers the kinds.
+Tracer tracer(std::uint32_t kinds) {
+    using namespace shared;
+    constexpr std::uint32_t kBox = kFeatureSpheres | kFeatureQuads;
+    constexpr std::uint32_t kStill = kBox | kFeatureTriangles;
+    constexpr std::uint32_t kAll = kStill | kFeatureMovingSpheres | kFeatureInstances;
+    const auto covers = [kinds](std::uint32_t set) { return (kinds & ~set) == 0; };
+    if (covers(kFeatureSpheres)) return makeTracer<kFeatureSpheres>();
+    if (covers(kFeatureTriangles)) return makeTracer<kFeatureTriangles>();
+    if (covers(kBox)) return makeTracer<kBox>();
+    if (covers(kStill)) return makeTracer<kStill>();
+    return makeTracer<kAll>();
+}
+
+void closest(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits, std::size_t count) {
+    const Tracer trace = tracer(view.kinds);
+    for (std::size_t i = 0; i < count; ++i) hits[i] = trace.closest(view, rays[i], tMax[i]);
+}
+
+void any(const AccelView& view, const shared::Ray* rays, const float* tMax, std::uint8_t* hits, std::size_t count) {
+    const Tracer trace = tracer(view.kinds);
+    for (std::size_t i = 0; i < count; ++i) hits[i] = trace.occluded(view, rays[i], tMax[i]) ? 1 : 0;
+}
+
+} // namespace
+} // namespace rt::accel

@@ -1,0 +1,229 @@
+#include "Common/App/Interactive/GuiSettings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/Core/AtomicFile.h"
+#include "Common/Image/Film.h"
+
+namespace rt::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+
+// Reads members of an object; leaves a target alone where the value is missing, of another type or out of range.
+class Reader {
+  public:
+    explicit Reader(const nlohmann::json& json) : json_(json) {}
+
+    void read(const char* key, bool& target) const {
+        if (const auto* value = find(key); value != nullptr && value->is_boolean()) target = *value;
+    }
+    void read(const char* key, std::string& target) const {
+        if (const auto* value = find(key); value != nullptr && value->is_string()) target = *value;
+    }
+    template <class T>
+    void read(const char* key, T& target, double min, double max) const {
+        const auto* value = find(key);
+        if (value == nullptr || !value->is_number()) return;
+        const double number = *value;
+        if (number >= min && number <= max) target = static_cast<T>(number);
+    }
+    template <class E, std::size_t N>
+    void read(const char* key, const Named<E> (&table)[N], E& target) const {
+        std::string name;
+        read(key, name);
+        for (const auto& row : table)
+            if (row.name == name) target = row.value;
+    }
+    const nlohmann::json* find(const char* key) const {
+        if (!json_.is_object()) return nullptr;
+        const auto at = json_.find(key);
+        return at == json_.end() ? nullptr : &*at;
+    }
+
+  private:
+    const nlohmann::json& json_;
+};
+
+void readRequest(const Reader& reader, RenderRequest& request) {
+    RenderSettings& s = request.settings;
+    reader.read("spp", s.spp, 1, 0x7fffffff);
+    reader.read("max_depth", s.maxDepth, 1, 4096);
+    reader.read("seed", s.seed, 0, 4294967295.0);
+    reader.read("replicates", s.replicates, 1, 1024);
+    reader.read("light_sampling", kLightSamplings, s.lightSampling);
+    reader.read("light_selection", kLightSelections, s.lightSelection);
+    reader.read("sphere_light", kSphereLights, s.sphereLight);
+    reader.read("quad_light", kFlatLights, s.quadLight);
+    reader.read("triangle_light", kFlatLights, s.triangleLight);
+    reader.read("sampler", kSamplers, s.sampler);
+    reader.read("russian_roulette", s.russianRoulette);
+    std::uint32_t width = 0;
+    reader.read("width", width, 1, image::kMaxImageSide);
+    if (width > 0) request.size.width = width;
+    double aspect = 0;
+    reader.read("aspect", aspect, 1.0 / image::kMaxImageSide, image::kMaxImageSide);
+    if (aspect > 0) request.size.aspect = aspect;
+    reader.read("one_sided_lights", request.oneSidedLights);
+    reader.read("accumulate", request.accumulate);
+    reader.read("samples_per_frame", request.samplesPerFrame, 0, 65536);
+    reader.read("loop", request.loop);
+}
+
+Json toJson(const RenderRequest& request) {
+    const RenderSettings& s = request.settings;
+    Json json{{"spp", s.spp},
+              {"max_depth", s.maxDepth},
+              {"seed", s.seed},
+              {"replicates", s.replicates},
+              {"light_sampling", nameOf(kLightSamplings, s.lightSampling)},
+              {"light_selection", nameOf(kLightSelections, s.lightSelection)},
+              {"sphere_light", nameOf(kSphereLights, s.sphereLight)},
+              {"quad_light", nameOf(kFlatLights, s.quadLight)},
+              {"triangle_light", nameOf(kFlatLights, s.triangleLight)},
+              {"sampler", nameOf(kSamplers, s.sampler)},
+              {"russian_roulette", s.russianRoulette},
+              {"one_sided_lights", request.oneSidedLights},
+              {"accumulate", request.accumulate},
+              {"samples_per_frame", request.samplesPerFrame},
+              {"loop", request.loop}};
+    if (request.size.width) json["width"] = *request.size.width;
+    if (request.size.aspect) json["aspect"] = *request.size.aspect;
+    return json;
+}
+
+} // namespace
+
+void GuiSettings::addRecent(const std::string& file) {
+    removeRecent(file);
+    recent.insert(recent.begin(), file);
+    if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+}
+void GuiSettings::removeRecent(const std::string& file) {
+    recent.erase(std::remove(recent.begin(), recent.end(), file), recent.end());
+}
+
+GuiSettings loadGuiSettings(const std::filesystem::path& file) {
+    GuiSettings settings;
+    std::ifstream in(file, std::ios::binary);
+    const nlohmann::json json = nlohmann::json::parse(in, nullptr, false); // discarded where it is no JSON
+    const Reader reader(json);
+    reader.read("color_mode", kColorModes, settings.colorMode);
+    reader.read("ui_scale", settings.uiScale, kLeastUiScale, kMostUiScale);
+    reader.read("font", settings.font);
+    constexpr double kFar = 100'000;
+    reader.read("window_x", settings.windowX, -kFar, kFar);
+    reader.read("window_y", settings.windowY, -kFar, kFar);
+    reader.read("window_width", settings.windowWidth, 1, image::kMaxImageSide);
+    reader.read("window_height", settings.windowHeight, 1, image::kMaxImageSide);
+    reader.read("window_placed", settings.windowPlaced);
+    reader.read("window_maximised", settings.windowMaximised);
+    reader.read("show_panels", settings.showPanels);
+    reader.read("show_comparison", settings.showComparison);
+    reader.read("show_statistics", settings.showStatistics);
+    if (const auto* panels = reader.find("open_panels"); panels != nullptr) {
+        const Reader p(*panels);
+        p.read("scene", settings.openPanels.scene);
+        p.read("rendering", settings.openPanels.rendering);
+        p.read("camera", settings.openPanels.camera);
+        p.read("view", settings.openPanels.view);
+        p.read("statistics", settings.openPanels.statistics);
+    }
+    reader.read("exposure", settings.exposure, -100, 100);
+    reader.read("tonemap", kTonemaps, settings.tonemap);
+    reader.read("save_folder", settings.saveFolder);
+    reader.read("ray_tracing", settings.rayTracing);
+    reader.read("scene", settings.scene);
+    if (settings.scene.empty()) settings.scene = GuiSettings().scene;
+    if (const auto* recent = reader.find("recent"); recent != nullptr && recent->is_array()) {
+        for (const nlohmann::json& name : *recent)
+            if (name.is_string() && settings.recent.size() < kMostRecent) settings.recent.push_back(name);
+    }
+    if (const auto* render = reader.find("render"); render != nullptr) readRequest(Reader(*render), settings.request);
+    if (const auto* engine = reader.find("engine"); engine != nullptr) {
+        const Reader e(*engine);
+        e.read("kind", kGpuEngines, settings.engine.kind);
+        e.read("device", settings.engine.device);
+        e.read("policy", kPolicies, settings.engine.policy);
+        e.read("threads", settings.engine.threads, 0, 4096);
+    }
+    return settings;
+}
+
+void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
+    const Json json{{"version", kVersion},
+                    {"color_mode", nameOf(kColorModes, s.colorMode)},
+                    {"ui_scale", s.uiScale},
+                    {"font", s.font},
+                    {"window_x", s.windowX},
+                    {"window_y", s.windowY},
+                    {"window_width", s.windowWidth},
+                    {"window_height", s.windowHeight},
+                    {"window_placed", s.windowPlaced},
+                    {"window_maximised", s.windowMaximised},
+                    {"show_panels", s.showPanels},
+                    {"show_comparison", s.showComparison},
+                    {"show_statistics", s.showStatistics},
+                    {"open_panels",
+                     {{"scene", s.openPanels.scene},
+                      {"rendering", s.openPanels.rendering},
+                      {"camera", s.openPanels.camera},
+                      {"view", s.openPanels.view},
+                      {"statistics", s.openPanels.statistics}}},
+                    {"exposure", s.exposure},
+                    {"tonemap", nameOf(kTonemaps, s.tonemap)},
+                    {"save_folder", s.saveFolder},
+                    {"ray_tracing", s.rayTracing},
+                    {"scene", s.scene},
+                    {"recent", s.recent},
+                    {"render", toJson(s.request)},
+                    {"engine",
+                     {{"kind", nameOf(kGpuEngines, s.engine.kind)},
+                      {"device", s.engine.device},
+                      {"policy", nameOf(kPolicies, s.engine.policy)},
+                      {"threads", s.engine.threads}}}};
+    std::error_code ignored; // opening the file tells
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    AtomicFile target(file);
+    target.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    target.commit();
+}
+
+void override(GuiSettings& settings, const Options& options) {
+    const auto given = [&options](const char* flag) { return options.given.count(flag) > 0; };
+    const auto take = [&](const char* flag, auto& target, const auto& value) {
+        if (given(flag)) target = value;
+    };
+    RenderSettings& s = settings.request.settings;
+    const RenderSettings& o = options.settings;
+    take("--scene", settings.scene, options.scene);
+    take("--spp", s.spp, o.spp);
+    take("--max-depth", s.maxDepth, o.maxDepth);
+    take("--seed", s.seed, o.seed);
+    take("--replicates", s.replicates, o.replicates);
+    take("--light-sampling", s.lightSampling, o.lightSampling);
+    take("--light-selection", s.lightSelection, o.lightSelection);
+    take("--sphere-light", s.sphereLight, o.sphereLight);
+    take("--quad-light", s.quadLight, o.quadLight);
+    take("--triangle-light", s.triangleLight, o.triangleLight);
+    take("--sampler", s.sampler, o.sampler);
+    take("--russian-roulette", s.russianRoulette, o.russianRoulette);
+    take("--one-sided-lights", settings.request.oneSidedLights, options.oneSidedLights);
+    take("--exposure", settings.exposure, options.exposure);
+    take("--tonemap", settings.tonemap, options.tonemap);
+    if (given("--width") || given("--height") || given("--aspect")) settings.request.size = options.size;
+    s.features = o.features;
+    settings.request.timeLimit = options.timeLimit;
+    if (!options.device.empty()) settings.engine.device = options.device;
+    take("--engine", settings.engine.kind, options.gpuEngine);
+    if (given("--threads")) settings.engine.threads = options.threads;
+    if (given("--policy") || given("--engine")) settings.engine.policy = options.policy;
+}
+
+} // namespace rt::app

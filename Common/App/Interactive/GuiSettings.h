@@ -1,0 +1,60 @@
+// What a window remembers from one time to the next.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Options/Names.h"
+#include "Common/App/Options/Options.h"
+
+namespace rt::app {
+
+enum class ColorMode { Dark, Light, HighContrast };
+inline constexpr Named<ColorMode> kColorModes[] = {
+    {"dark", ColorMode::Dark}, {"light", ColorMode::Light}, {"high-contrast", ColorMode::HighContrast}};
+
+inline constexpr float kLeastUiScale = 0.75f;
+inline constexpr float kMostUiScale = 3.0f;
+inline constexpr std::size_t kMostRecent = 10; // files
+
+// Of the panels at the side, those that are folded out.
+struct OpenPanels {
+    bool scene = true, rendering = true, camera = false, view = false, statistics = false;
+    bool operator==(const OpenPanels&) const = default;
+};
+
+struct GuiSettings {
+    ColorMode colorMode = ColorMode::Dark;
+    float uiScale = 1; // on top of the monitor's own
+    std::string font;  // its name; empty: the first there is
+    int windowX = 0, windowY = 0, windowWidth = 1360, windowHeight = 860;
+    bool windowPlaced = false; // the position is known
+    bool windowMaximised = false;
+    bool showPanels = true;
+    bool showComparison = false;
+    bool showStatistics = true;
+    OpenPanels openPanels;
+    float exposure = 0; // stops
+    Tonemap tonemap = Tonemap::None;
+    std::string saveFolder;          // empty: chosen by the program
+    std::vector<std::string> recent; // scene files that have loaded, the latest first
+    std::string scene = "cornell-box-lights";
+    RenderRequest request;
+    bool rayTracing = true; // of ray-tracing-gpu; off: its preview
+    EngineChoice engine;
+    bool operator==(const GuiSettings&) const = default;
+
+    void addRecent(const std::string& file);
+    void removeRecent(const std::string& file);
+};
+
+// What is missing or makes no sense keeps its default: a damaged file is no error.
+GuiSettings loadGuiSettings(const std::filesystem::path& file);
+// Replaces the file. Throws RenderError.
+void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& settings);
+
+// What the command line, the environment or the configuration file said wins over what was stored.
+void override(GuiSettings& settings, const Options& options);
+
+} // namespace rt::app

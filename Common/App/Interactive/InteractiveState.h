@@ -1,0 +1,132 @@
+// What a window asks of its session, and what it gets to see.
+#pragma once
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/ViewImage.h"
+#include "Common/App/Options/Names.h"
+#include "Common/App/Options/Options.h"
+#include "Common/App/Session/Engine.h"
+#include "Common/App/Session/Settings.h"
+#include "Common/App/Session/Statistics.h"
+
+namespace rt::app {
+
+// Which engine on what; a change makes another one.
+struct EngineChoice {
+    GpuEngineKind kind = GpuEngineKind::Auto; // of ray-tracing-gpu
+    std::string device;                       // of ray-tracing-gpu, as --device takes it
+    Policy policy = Policy::Par;
+    std::uint32_t threads = 0;
+    bool operator==(const EngineChoice&) const = default;
+};
+// A device that serves ray-tracing-gpu.
+struct EngineDevice {
+    std::string name;
+    std::string request; // as --device takes it: the name, or the index where names are alike
+    bool hasPipeline = false;
+};
+using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
+
+// What is to be rendered and how; a change starts the film anew.
+struct RenderRequest {
+    RenderSettings settings; // width and height follow from size and scene
+    SizeRequest size;
+    bool oneSidedLights = true;
+    bool accumulate = true; // false: every frame is an image of its own, with other random numbers
+    // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second; frames of an old sum
+    // may have more. 0: as many as there is time for between two frames.
+    std::uint32_t samplesPerFrame = 25;
+    bool loop = false;               // begin again when done, with the next seed
+    std::optional<double> timeLimit; // seconds of sampling
+    bool operator==(const RenderRequest&) const = default;
+};
+// Whether the film of one is of no use for the other.
+bool needsAnotherFilm(const RenderRequest& before, RenderRequest after);
+
+enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
+
+// What is shown of the whole image.
+struct Picture {
+    std::shared_ptr<const image::Image> image;    // linear
+    std::shared_ptr<const image::Image> radiance; // the same, but for views of something else
+    bool isDisplay = false;                       // no exposure and no tone curve belong to it
+    bool isPreview = false;                       // by rasterisation
+    std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
+    std::uint64_t serial = 0;                     // grows with each new picture
+    std::uint64_t spp = 0; // of the pixel with the fewest samples; 0: partly a draft of lower resolution
+    // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
+    std::shared_ptr<const image::Image> variance, samples;
+};
+
+struct ErrorPoint {
+    double seconds = 0; // of sampling
+    double spp = 0;
+    double relmse = 0; // against the reference
+};
+
+// The last render that ended.
+struct LastRun {
+    Seconds seconds;
+    double accelBuild = 0;
+    double pipeline = 0;
+    std::uint64_t spp = 0;
+};
+
+// All that the window shows of the session, copied at one moment.
+struct SessionState {
+    Activity activity = Activity::Preparing;
+    std::string stage;       // what keeps the user waiting; empty: nothing
+    double stageSeconds = 0; // how long it has
+    std::string error;       // of the last request that failed
+    std::uint64_t errorSerial = 0;
+    std::string message; // what was last written
+    std::uint64_t messageSerial = 0;
+    std::exception_ptr fatal; // nothing can be rendered: no engine, or no scene ever
+
+    std::uint64_t sceneSerial = 0;   // grows with each scene; 0: none yet
+    std::string source;              // of the scene, as it was asked for
+    std::uint64_t sceneLoads = 0;    // grows with each that was loaded, also anew
+    std::string failedSource;        // of the last scene that could not be had
+    std::uint64_t sceneFailures = 0; // grows with each of them
+    std::shared_ptr<const scene::CompiledScene> scene;
+
+    EngineChoice engine;              // in force
+    std::uint64_t engineFailures = 0; // grows with each choice that could not be had: the engine before goes on
+    RenderSettings settings;          // of the film
+    Picture picture;
+    RenderStatus status;
+    double renderSeconds = 0;
+    Seconds seconds;
+    EngineReport report;
+    std::optional<LastRun> lastRun;
+
+    std::string reference;           // what it is; empty: there is none
+    bool referenceFits = false;      // it is of this scene, camera, size and depth
+    bool isReferenceRender = false;  // what is being rendered will be the reference
+    std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
+    std::vector<ErrorPoint> curve;   // of this film, against the reference
+    bool canShowCost = false;        // the engine knows what a pixel costs in rays
+    bool canShowTime = false;        // and in time
+    bool canPreview = false;         // it can draw without ray tracing
+    double focusDistance = 0;        // that makes sharp what was picked last
+    std::uint64_t focusSerial = 0;   // grows with each pick that met something
+    std::uint64_t historySerial = 0; // grows when a run is added to the history
+    double slowestAnswer = 0;        // seconds from a change of camera or settings to the first picture of it
+};
+
+struct SaveRequest {
+    std::vector<std::string> files{}; // the extension decides the format
+    std::vector<Aov> aovs{};          // beside each of them
+    std::string stats{};              // the statistics; "-": standard output, empty: none
+    float exposure = 0;
+    Tonemap tonemap = Tonemap::None;
+    bool operator==(const SaveRequest&) const = default;
+};
+
+} // namespace rt::app

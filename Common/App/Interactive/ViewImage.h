@@ -1,0 +1,67 @@
+// What a window can show instead of the picture.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "Common/App/Options/Names.h"
+#include "Common/App/Session/Engine.h"
+#include "Common/Image/Film.h"
+#include "Common/Image/Image.h"
+
+namespace rt::app {
+
+enum class ViewMode { Picture, Albedo, Normal, Depth, Noise, Error, Heat };
+
+struct ViewRequest {
+    ViewMode mode = ViewMode::Picture;
+    double scale = 1;       // of Noise, Error and Heat: divides the value that has the brightest colour
+    bool inspect = false;   // the state is to hold what the inspector shows
+    Cost cost = Cost::Rays; // of Heat
+    bool operator==(const ViewRequest&) const = default;
+};
+
+// First-hit features that the mode shows.
+AovRequest aovsFor(ViewMode mode);
+
+// What the colours of a view stand for: values from 0 to `most`; those beyond have the colour of `most`.
+struct Legend {
+    enum class Quantity {
+        Rays,          // of a sample
+        Time,          // of a sample, in the engine's unit
+        StandardError, // of a pixel's mean, relative to it
+        Error,         // relative to the reference
+        Distance,      // to the first surface, in the scene's unit; near is bright, 0 stands for no surface
+    };
+    Quantity quantity = Quantity::Rays;
+    float most = 0; // 0: there is nothing to show
+    float unit = 0; // below it the scale is about linear, above it about logarithmic; 0: it is linear throughout
+
+    float level(float value) const; // the value's place on the scale: 0 to 1, or beyond
+    float value(float level) const; // the other way round
+};
+
+// A row-major image of values in the legend's colours, as linear display intensities.
+image::Image paint(const Legend& legend, const std::vector<float>& values, std::uint32_t width, std::uint32_t height);
+
+// Linear display intensities, and what they stand for unless they are the values themselves.
+struct ViewImage {
+    image::Image image;
+    std::optional<Legend> legend;
+};
+
+// Albedo, normal or depth.
+ViewImage showFeatures(ViewMode mode, const AovImages& images);
+
+// The standard error of each pixel's mean relative to that mean; 1 / scale has the brightest colour. Requires what
+// Film::varianceOfMean() requires.
+ViewImage showNoise(const image::Film& film, double scale);
+
+// |picture - reference| relative to the reference, likewise.
+ViewImage showError(const image::Image& picture, const image::Image& reference, double scale);
+
+// The cost of each pixel on a logarithmic scale: the most that any pixel costs, divided by `scale`, has the brightest colour. Of
+// times it is the most but for one pixel in 200, which were interrupted.
+ViewImage showCost(Cost cost, const image::Image& costs, double scale);
+
+} // namespace rt::app

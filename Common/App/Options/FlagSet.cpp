@@ -1,0 +1,131 @@
+#include "Common/App/Options/FlagSet.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+
+#include "Common/App/Options/ConfigFile.h"
+#include "Common/Core/Error.h"
+
+namespace rt::app {
+namespace {
+
+std::string firstSpelling(const std::string& flags) {
+    return flags.substr(0, flags.find(','));
+}
+
+// CLI11 breaks some messages into lines.
+std::string oneLine(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+} // namespace
+
+FlagSet::FlagSet(const std::string& program, const std::string& description)
+    : app_(description, program), config_(std::make_shared<ConfigFile>(app_)) {
+    app_.option_defaults()->take_last();
+    app_.allow_extras();
+    app_.allow_config_extras(CLI::config_extras_mode::error);
+    app_.config_formatter(config_);
+    app_.set_config("--config", userConfigFile(), "defaults of flags, as TOML, INI or JSON")
+        ->type_name("F")
+        ->configurable(false);
+    addSwitch("--no-config", noConfig_, "ignore the user's configuration file")->configurable(false);
+    app_.set_help_flag("--help,-h", "print this and exit");
+    app_.set_version_flag("--version", program + " " RT_VERSION, "print the version and exit");
+}
+
+CLI::Option* FlagSet::add(const std::string& flags, const std::string& type, const std::string& help, Reader read) {
+    const std::string flag = firstSpelling(flags);
+    readers_.emplace_back(flag, read);
+    const auto callback = [this, flag, read = std::move(read)](const std::string& text) {
+        try {
+            read(flag, text);
+        } catch (const UsageError& error) {
+            throw UsageError(config_->placeOf(flag) + error.what());
+        }
+    };
+    return app_.add_option_function<std::string>(flags, callback, help)->type_name(type);
+}
+
+CLI::Option* FlagSet::addSwitch(const std::string& flags, bool& target, const std::string& help) {
+    return app_.add_flag(flags, target, help);
+}
+
+CLI::Option* FlagSet::addFile(const std::string& flags, std::string& target, const std::string& help) {
+    return add(flags, "F", help, [&target](const std::string& flag, const std::string& text) {
+        if (text.empty()) refuseValue(flag, text, "the name of a file");
+        target = text;
+    });
+}
+
+CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string>& target, const std::string& help) {
+    const std::string flag = firstSpelling(flags);
+    const auto callback = [this, &target, flag](const std::vector<std::string>& files) {
+        for (const std::string& file : files)
+            if (file.empty()) refuseValue(config_->placeOf(flag) + flag, file, "the name of a file");
+        target = files;
+    };
+    return app_.add_option_function<std::vector<std::string>>(flags, callback, help)
+        ->type_name("F")
+        ->take_all()
+        ->allow_extra_args(false);
+}
+
+CLI::Option* FlagSet::addSeconds(const std::string& flags, std::optional<double>& target, const std::string& help) {
+    return add(flags, "S", help, [&target](const std::string& flag, const std::string& text) {
+        constexpr double kLeast = std::numeric_limits<double>::min();
+        constexpr double kMost = 1e9; // 30 years
+        target = parseReal(flag, text, kLeast, kMost, "a number of seconds above 0, at most 1e9");
+    });
+}
+
+void FlagSet::refuse(const std::string& flag, const std::string& why) {
+    // Takes any number of values, so that the flag is blamed and not what follows it.
+    const auto callback = [this, flag, why](const std::vector<std::string>&) {
+        throw UsageError(config_->placeOf(flag) + flag + ": " + why);
+    };
+    app_.add_option_function<std::vector<std::string>>(flag, callback)->expected(0, -1)->group("");
+}
+
+void FlagSet::readEnvironment(const std::string& flag, const std::string& variable) {
+    variables_.push_back({flag, variable});
+    const char* value = std::getenv(variable.c_str());
+    if (value != nullptr && *value != '\0') config_->leaveOut(flag);
+}
+
+void FlagSet::applyEnvironment() {
+    for (const Variable& variable : variables_) {
+        const char* value = std::getenv(variable.name.c_str());
+        if (value == nullptr || *value == '\0' || given(variable.flag)) continue;
+        for (const auto& [flag, read] : readers_)
+            if (flag == variable.flag) read(variable.name, value);
+    }
+}
+
+bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
+    config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
+        return argument == "--config" || argument.starts_with("--config=");
+    }));
+    std::reverse(arguments.begin(), arguments.end()); // the order in which CLI11 takes them
+    try {
+        app_.parse(std::move(arguments));
+    } catch (const CLI::CallForHelp&) {
+        out << app_.help();
+        return false;
+    } catch (const CLI::CallForVersion& version) {
+        out << version.what() << '\n';
+        return false;
+    } catch (const CLI::FileError&) {
+        throw UsageError("--config " + config_->path() + ": cannot be read");
+    } catch (const CLI::ParseError& error) {
+        throw UsageError(oneLine(error.what()));
+    }
+    if (const auto unknown = app_.remaining(); !unknown.empty())
+        throw UsageError(unknown.front() + ": unknown flag; --help lists them all");
+    applyEnvironment();
+    return true;
+}
+
+} // namespace rt::app

@@ -1,0 +1,307 @@
+#include "Common/App/Options/Options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "Common/App/Options/FlagSet.h"
+#include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Core/Error.h"
+#include "Common/Image/Film.h"
+
+namespace rt::app {
+namespace {
+
+constexpr std::uint32_t kMaxSpp = 0x7fffffff;
+constexpr std::uint32_t kMaxDepth = 4096;
+constexpr std::uint32_t kMaxReplicates = 1024;
+constexpr std::uint32_t kErrorReplicates = 4; // what --target-error implies
+constexpr std::uint32_t kMaxThreads = 4096;
+constexpr std::uint32_t kDefaultWidth = 600;
+constexpr double kMaxAspect = image::kMaxImageSide;
+
+// Flags that a window keeps in its settings.
+constexpr const char* kStoredFlags[] = {"--scene",
+                                        "--width",
+                                        "--height",
+                                        "--aspect",
+                                        "--spp",
+                                        "--max-depth",
+                                        "--seed",
+                                        "--replicates",
+                                        "--light-sampling",
+                                        "--light-selection",
+                                        "--sampler",
+                                        "--sphere-light",
+                                        "--quad-light",
+                                        "--triangle-light",
+                                        "--one-sided-lights",
+                                        "--russian-roulette",
+                                        "--exposure",
+                                        "--tonemap",
+                                        "--threads",
+                                        "--policy",
+                                        "--engine"};
+
+// What the flags say before it is made consistent.
+struct Parsed {
+    Options options;
+    bool listScenes = false;
+    bool listDevices = false;
+    bool headless = false;
+    bool window = false;
+    std::string engine;
+};
+
+// ---- the flags ------------------------------------------------------------------------------------------------------
+
+void addScene(FlagSet& flags, Parsed& parsed) {
+    Options& options = parsed.options;
+    flags.group("Scene");
+    flags
+        .add("--scene", "S", "id of --list-scenes, a .json scene or an .obj file",
+             [&options](const std::string& flag, const std::string& text) {
+                 if (text.empty()) refuseValue(flag, text, "an id of --list-scenes, a .json scene or an .obj file");
+                 options.scene = text;
+             })
+        ->default_str(options.scene);
+    flags.add("--camera", "POSE", "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...",
+              [&options](const std::string&, const std::string& text) {
+                  (void)poseOf(text, {}); // the scene may say the rest
+                  options.camera = text;
+              });
+    flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
+    flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
+    flags.addFile("--export-scene", options.exportFile, "write the scene as a scene file and exit")
+        ->configurable(false);
+    flags.addChoice("--one-sided-lights", kOnOff, options.oneSidedLights, "lights emit from their front face only");
+}
+
+void addImage(FlagSet& flags, Options& options) {
+    RenderSettings& settings = options.settings;
+    flags.group("Image");
+    flags.addWhole("--width", options.size.width, 1, image::kMaxImageSide, "pixels")->default_str("600");
+    flags.addWhole("--height", options.size.height, 1, image::kMaxImageSide, "pixels; width / aspect");
+    flags.add("--aspect", "A", "width / height; 1 or the scene's own",
+              [&options](const std::string& flag, const std::string& text) {
+                  options.size.aspect =
+                      parseReal(flag, text, 1 / kMaxAspect, kMaxAspect, "a number from 1/16384 to 16384");
+              });
+    flags.addWhole("--spp,--samples", settings.spp, 1, kMaxSpp, "samples per pixel")->default_str("100");
+    flags.addWhole("--max-depth", settings.maxDepth, 1, kMaxDepth, "path vertices after the camera")->default_str("50");
+    flags.addWhole("--seed", settings.seed, 0, std::numeric_limits<std::uint32_t>::max(), "same seed, same image")
+        ->default_str("0");
+    flags
+        .addWhole("--replicates", settings.replicates, 1, kMaxReplicates,
+                  "independent scramblings, for honest error bars")
+        ->default_str("1");
+}
+
+void addEstimator(FlagSet& flags, RenderSettings& settings) {
+    flags.group("Estimator");
+    flags.addChoice("--light-sampling", kLightSamplings, settings.lightSampling, "how light is found");
+    flags.addChoice("--light-selection", kLightSelections, settings.lightSelection, "how one of the lights is chosen");
+    flags.addChoice("--sphere-light", kSphereLights, settings.sphereLight, "where a sphere is sampled");
+    flags.addChoice("--quad-light", kFlatLights, settings.quadLight, "where a quad is sampled");
+    flags.addChoice("--triangle-light", kFlatLights, settings.triangleLight, "where a triangle is sampled");
+    flags.addChoice("--sampler", kSamplers, settings.sampler, "the random numbers");
+    flags.addChoice("--russian-roulette", kOnOff, settings.russianRoulette, "end dim paths early, unbiased");
+    flags.add("--features", "LIST|auto|all", "force the feature mask: a superset of what the scene needs",
+              [&settings](const std::string&, const std::string& text) {
+                  settings.features.reset();
+                  if (text != "auto") settings.features = parseFeatures(text);
+              });
+}
+
+void addOutput(FlagSet& flags, Options& options) {
+    flags.group("Output");
+    flags.addFiles("--output,-o,--outfile", options.outputs, ".png: for display; .exr .hdr .pfm: linear; repeatable");
+    flags
+        .add("--exposure", "E", "stops, for PNG",
+             [&options](const std::string& flag, const std::string& text) {
+                 options.exposure = static_cast<float>(parseReal(flag, text, -100, 100, "a number from -100 to 100"));
+             })
+        ->default_str("0");
+    flags.addChoice("--tonemap", kTonemaps, options.tonemap, "for PNG; none clamps");
+    flags.add("--aov", "LIST", "write albedo,normal,depth,variance,samples as well, as NAME.albedo.EXT",
+              [&options](const std::string& flag, const std::string& text) {
+                  options.aovs = {};
+                  for (const std::string& name : parseList(flag, text)) {
+                      const Aov aov = parseChoice(flag, name, kAovs);
+                      if (!options.wants(aov)) options.aovs.push_back(aov);
+                  }
+              });
+    flags.addFile("--reference", options.reference, "linear image; its error figures go to the statistics");
+    flags.addFile("--stats", options.stats, "statistics as JSON; -: standard output");
+}
+
+void addDuration(FlagSet& flags, Options& options) {
+    flags.group("Duration");
+    flags.addSeconds("--time-limit", options.timeLimit, "stop after so long, or at --spp");
+    flags.add("--target-error", "E", "stop when the estimated relMSE is below, or at --spp; implies --replicates 4",
+              [&options](const std::string& flag, const std::string& text) {
+                  options.targetError =
+                      parseReal(flag, text, 1e-30, 1e30, "a relative squared error from 1e-30 to 1e30");
+              });
+    flags.addSeconds("--save-every", options.saveEvery, "write a checkpoint every so often");
+    flags.addFile("--checkpoint", options.checkpoint, "its file, also written at the end; OUTPUT.rtc");
+    flags.addFile("--resume", options.resume, "go on from a checkpoint as if never stopped")->configurable(false);
+}
+
+void addProcessor(FlagSet& flags, Parsed& parsed) {
+    flags.group("Machine");
+    flags.addWhole("--threads", parsed.options.threads, 0, kMaxThreads, "0: all; RT_THREADS")->default_str("0");
+    flags.readEnvironment("--threads", "RT_THREADS");
+    flags.addChoice("--policy", kPolicies, parsed.options.policy, "std::execution policy");
+    flags.add("--engine", "multi|single", "single: short for --policy seq",
+              [&parsed](const std::string& flag, const std::string& text) {
+                  if (text != "multi" && text != "single") refuseValue(flag, text, "multi or single");
+                  parsed.engine = text;
+              });
+    flags.addSwitch("--validation", parsed.options.validation,
+                    "check every Vulkan call of the window; a message makes exit code 1");
+    for (const char* flag : {"--device", "--list-devices"}) flags.refuse(flag, "a flag of ray-tracing-gpu");
+}
+
+void addDevice(FlagSet& flags, Parsed& parsed) {
+    flags.group("Machine");
+    flags.add("--device", "N|TEXT", "Vulkan device by index or part of its name; RT_DEVICE",
+              [&parsed](const std::string& flag, const std::string& text) {
+                  if (text.empty()) refuseValue(flag, text, "an index of --list-devices or part of a name");
+                  parsed.options.device = text;
+              });
+    flags.readEnvironment("--device", "RT_DEVICE");
+    flags.addSwitch("--list-devices", parsed.listDevices, "print devices, and why one is unsuitable, and exit")
+        ->configurable(false);
+    flags.addSwitch("--validation", parsed.options.validation, "check every Vulkan call; a message makes exit code 1");
+    flags.addChoice("--engine", kGpuEngines, parsed.options.gpuEngine,
+                    "Vulkan's ray tracing pipeline, or compute shaders; auto: the faster one");
+    for (const char* flag : {"--threads", "--policy"}) flags.refuse(flag, "a flag of ray-tracing-cpu");
+}
+
+void addProgram(FlagSet& flags, Parsed& parsed) {
+    flags.group("Program");
+    flags.addSwitch("--headless", parsed.headless, "no window; implied by --output, --stats and --time-limit");
+    flags.addSwitch(
+        "--window", parsed.window,
+        "a window, which is the default, even with --output, --stats, --time-limit: files are written when the "
+        "first render ends or the window closes, images again by F12");
+    flags.addSwitch("--quiet,-q", parsed.options.quiet, "no progress");
+    flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
+    flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
+}
+
+// ---- what goes together ---------------------------------------------------------------------------------------------
+
+void settleCommand(const FlagSet& flags, Parsed& parsed) {
+    Options& options = parsed.options;
+    if (options.json && !parsed.listScenes) throw UsageError("--json: only with --list-scenes");
+    if (parsed.listScenes && !options.exportFile.empty()) throw UsageError("--export-scene: contradicts --list-scenes");
+    if (parsed.listScenes) options.command = Command::ListScenes;
+    if (!options.exportFile.empty()) options.command = Command::ExportScene;
+    if (parsed.listDevices) options.command = Command::ListDevices;
+    if (options.command != Command::Render) return;
+    if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");
+    const bool implied = !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit");
+    options.window = parsed.window || (!parsed.headless && !implied);
+    if (!options.window) return;
+    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error"})
+        if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
+}
+
+// Replicates and second moments that somebody reads; whether the number of samples is known in advance.
+void settleErrorEstimate(Options& options) {
+    RenderSettings& settings = options.settings;
+    if (options.targetError) settings.replicates = std::max(settings.replicates, kErrorReplicates);
+    if (settings.replicates > settings.spp)
+        throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
+                         std::to_string(settings.spp));
+    const bool read = !options.stats.empty() || options.wants(Aov::Variance);
+    settings.secondMoments = read && settings.replicates < 2; // otherwise the replicates tell
+    settings.sppIsKnown = !options.timeLimit && !options.targetError;
+}
+
+void settleFiles(Options& options) {
+    if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
+    if (!options.saveEvery || !options.checkpoint.empty()) return;
+    if (!options.resume.empty())
+        options.checkpoint = options.resume;
+    else if (!options.outputs.empty())
+        options.checkpoint = checkpointBeside(options.outputs.front());
+    else
+        throw UsageError("--save-every: needs --checkpoint or --output");
+}
+
+void settlePolicy(const FlagSet& flags, Parsed& parsed) {
+    Policy& policy = parsed.options.policy;
+    if (parsed.engine.empty()) return;
+    const bool single = parsed.engine == "single";
+    if (flags.given("--policy") && single != (policy == Policy::Seq))
+        throw UsageError("--policy " + nameOf(kPolicies, policy) + ": contradicts --engine " + parsed.engine);
+    if (single) policy = Policy::Seq;
+}
+
+void settleValidation(const Parsed& parsed) {
+    const Options& options = parsed.options;
+    if (options.program != kGpuProgram && options.validation && !options.window)
+        throw UsageError("--validation: a flag of ray-tracing-gpu, or of a window");
+}
+
+std::uint32_t rounded(double pixels, const std::string& what) {
+    if (!(pixels < image::kMaxImageSide + 0.5))
+        throw UsageError(what + ": makes an image larger than 16384 pixels a side");
+    return std::max(1u, static_cast<std::uint32_t>(std::lround(pixels)));
+}
+
+} // namespace
+
+std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out) {
+    Parsed parsed;
+    parsed.options.program = program;
+    const bool gpu = program == kGpuProgram;
+    FlagSet flags(program, std::string("Path tracer on the ") + (gpu ? "GPU" : "CPU") +
+                               ". Any two of --width, --height, --aspect give the size.");
+    addScene(flags, parsed);
+    addImage(flags, parsed.options);
+    addEstimator(flags, parsed.options.settings);
+    addOutput(flags, parsed.options);
+    addDuration(flags, parsed.options);
+    gpu ? addDevice(flags, parsed) : addProcessor(flags, parsed);
+    addProgram(flags, parsed);
+    if (!flags.parse(std::move(arguments), out)) return std::nullopt;
+
+    settleCommand(flags, parsed);
+    settleErrorEstimate(parsed.options);
+    settleFiles(parsed.options);
+    settlePolicy(flags, parsed);
+    settleValidation(parsed);
+    for (const char* flag : kStoredFlags)
+        if (flags.given(flag)) parsed.options.given.insert(flag);
+    return parsed.options;
+}
+
+std::string checkpointBeside(const std::string& output) {
+    return output + ".rtc";
+}
+
+void settleImageSize(Options& options, double sceneAspect) {
+    const auto& [width, height, aspect] = options.size;
+    const double ratio = aspect.value_or(sceneAspect);
+    std::uint32_t& w = options.settings.width;
+    std::uint32_t& h = options.settings.height;
+    if (width && height) {
+        w = *width;
+        h = *height;
+        if (aspect && rounded(w / ratio, "--aspect") != h && rounded(h * ratio, "--aspect") != w)
+            throw UsageError("--aspect: contradicts --width " + std::to_string(w) + " --height " + std::to_string(h));
+    } else if (height) {
+        h = *height;
+        w = rounded(h * ratio, "--height " + std::to_string(h));
+    } else {
+        w = width.value_or(kDefaultWidth);
+        h = rounded(w / ratio, "--width " + std::to_string(w));
+    }
+}
+
+} // namespace rt::app

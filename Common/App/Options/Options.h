@@ -1,0 +1,82 @@
+// What the user asked for: flags, environment and configuration file, checked and made consistent.
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <optional>
+#include <ostream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "Common/App/Options/Names.h"
+#include "Common/App/Session/Settings.h"
+
+namespace rt::app {
+
+enum class Command { Render, ListScenes, ExportScene, ListDevices };
+
+// At most two say all; settleImageSize() checks a third.
+struct SizeRequest {
+    std::optional<std::uint32_t> width, height; // pixels
+    std::optional<double> aspect;               // width / height
+    bool operator==(const SizeRequest&) const = default;
+};
+
+struct Options {
+    std::string program; // "ray-tracing-cpu" or "ray-tracing-gpu"
+    Command command = Command::Render;
+    bool window = false;    // of Command::Render
+    bool json = false;      // of --list-scenes
+    std::string exportFile; // of Command::ExportScene
+
+    std::string scene = "cornell-box-lights"; // id or file
+    std::string camera;                       // its pose as JSON; empty: the scene's
+    bool oneSidedLights = true;
+    SizeRequest size;
+    RenderSettings settings; // complete but for width and height, which may depend on the scene
+
+    std::vector<std::string> outputs;
+    float exposure = 0; // stops
+    Tonemap tonemap = Tonemap::None;
+    std::vector<Aov> aovs;
+    std::string reference;
+    std::string stats; // "-": standard output
+
+    std::optional<double> timeLimit;   // seconds
+    std::optional<double> targetError; // relMSE
+    std::optional<double> saveEvery;   // seconds
+    std::string checkpoint;            // empty: none is written
+    std::string resume;                // empty: start anew
+
+    std::uint32_t threads = 0; // 0: all
+    Policy policy = Policy::Par;
+    GpuEngineKind gpuEngine = GpuEngineKind::Auto;
+    std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
+    bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
+
+    bool quiet = false;
+    bool verbose = false;
+    std::string logFile;
+
+    std::set<std::string> given; // flags that something was said about, as "--spp": a window's stored settings give way
+
+    bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
+};
+
+// What a program built without a window says when one is asked for.
+inline constexpr const char* kNoWindow =
+    "this program was built without a window: say --output FILE, --stats FILE or --headless";
+inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
+
+// Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is
+// returned after --help and --version, which are answered on `out`. Throws UsageError.
+std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out);
+
+// Sets settings.width and height: 600 pixels wide and of the scene's own aspect where nothing is said. Throws
+// UsageError.
+void settleImageSize(Options& options, double sceneAspect);
+
+// The checkpoint of an output that has no other name: image.png.rtc for image.png.
+std::string checkpointBeside(const std::string& output);
+
+} // namespace rt::app

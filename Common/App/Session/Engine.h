@@ -1,0 +1,119 @@
+// What drives a renderer: no window, no file, no flag. The CPU engine and the GPU engine implement it, Session uses it.
+#pragma once
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "Common/App/Session/Settings.h"
+#include "Common/Image/Film.h"
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::app {
+
+// Bounds one call of Engine::renderSome. Work in flight when `cancel` becomes true is abandoned within 100 ms; what had been
+// committed to the film stays.
+struct Budget {
+    std::chrono::duration<double> time{0.2};
+    const std::atomic<bool>* cancel = nullptr;
+};
+
+struct RenderStatus {
+    bool finished = false;         // every pixel has all its samples
+    std::uint64_t samplesDone = 0; // over all pixels
+    std::uint64_t samplesTotal = 0;
+};
+
+struct RayCounts {
+    std::uint64_t camera = 0;
+    std::uint64_t scattered = 0;
+    std::uint64_t shadow = 0;
+};
+
+struct EngineReport {
+    std::string engine;         // "multi", "single", "pipeline", "compute"
+    std::string device;         // processor or Vulkan device
+    std::string kernel;         // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
+    std::uint32_t threads = 0;  // CPU only
+    std::uint32_t features = 0; // in force, after any forced superset
+    double accelBuildSeconds = 0;
+    double pipelineSeconds = 0;
+    double renderDeviceSeconds = 0;    // time in kernels: GPU timestamps, or wall time inside CPU workers
+    double longestDispatchSeconds = 0; // of a GPU for what it gets at a time, since it was opened: draws wait for that
+    RayCounts rays;
+    std::uint64_t nonfiniteSamples = 0;
+    std::uint64_t deviceBytes = 0; // acceleration structure, scene and film held by the engine
+    std::string lightSampling;     // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+};
+
+// First-hit features averaged over some samples of each pixel; empty unless asked for.
+struct AovRequest {
+    bool albedo = false;
+    bool normal = false; // world space, shading normal facing the camera
+    bool depth = false;  // distance along the ray, of the samples that hit something; 0 where none did
+    bool any() const { return albedo || normal || depth; }
+};
+struct AovImages {
+    image::Image albedo, normal, depth;
+};
+
+// The film as a picture.
+struct Snapshot {
+    image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
+    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as in image::Film
+    std::uint64_t leastSamples() const {
+        return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
+    }
+};
+
+// The scene as rasterisation draws it at once: lit without shadows, one ray a pixel.
+struct Preview {
+    image::Image picture; // linear radiance
+    image::Image depth;   // as AovImages'
+};
+
+enum class Cost {
+    Rays, // camera, scattered and shadow
+    Time, // by the processor's clock, in seconds, or by that of the device's shaders, in its ticks
+};
+
+// Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
+struct Engine {
+    virtual ~Engine() = default;
+    // Builds acceleration structures. A failure (rt::Error) leaves the previous scene in place. Returns false, with the
+    // previous scene in place, when cancelled.
+    virtual bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) = 0;
+    // Starts a new film.
+    virtual void reset(const scene::CameraDesc& camera, const RenderSettings& settings) = 0;
+    // After reset: goes on from this film, whose desc() must be that of the new one.
+    virtual void restore(image::Film film) = 0;
+    virtual RenderStatus renderSome(const Budget& budget) = 0;
+    // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to date that
+    // is a RenderError, once: later calls return it as it was.
+    virtual const image::Film& film() = 0;
+    // film() resolved, but for rounding; it may cost far less than the film on the host.
+    virtual Snapshot snapshot();
+    virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
+    // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine that
+    // does not know the cost returns an image without pixels.
+    virtual bool knowsCost(Cost cost) const {
+        (void)cost;
+        return false;
+    }
+    virtual image::Image renderCost(Cost cost, std::uint32_t samples) {
+        (void)cost, (void)samples;
+        return {};
+    }
+    // Needs a scene but no film, and leaves that as it is. An engine that cannot draw returns images without pixels.
+    virtual bool canPreview() const { return false; }
+    virtual Preview renderPreview(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
+        (void)camera, (void)width, (void)height;
+        return {};
+    }
+    virtual EngineReport report() const = 0;
+};
+
+} // namespace rt::app

@@ -1,0 +1,76 @@
+#include "Common/App/Session/FeatureNames.h"
+
+#include "Common/App/Options/OptionValues.h"
+#include "Common/Shared/Base/Features.h"
+
+namespace rt::app {
+namespace {
+
+using namespace rt::shared;
+
+// "textures" stands for three bits: present when any of them is.
+constexpr Named<std::uint32_t> kFeatures[] = {
+    {"spheres", kFeatureSpheres},
+    {"moving-spheres", kFeatureMovingSpheres},
+    {"quads", kFeatureQuads},
+    {"triangles", kFeatureTriangles},
+    {"instances", kFeatureInstances},
+    {"smooth-normals", kFeatureSmoothNormals},
+    {"lambertian", kFeatureLambertian},
+    {"metal", kFeatureMetal},
+    {"fuzz", kFeatureFuzz},
+    {"dielectric", kFeatureDielectric},
+    {"emissive", kFeatureEmissive},
+    {"textures", kFeatureChecker | kFeatureNoise | kFeatureImages},
+    {"checker", kFeatureChecker},
+    {"noise", kFeatureNoise},
+    {"images", kFeatureImages},
+    {"volumes", kFeatureVolumes},
+    {"sky", kFeatureSky},
+    {"sky-image", kFeatureSkyImage},
+    {"thin-lens", kFeatureThinLens},
+    {"motion", kFeatureMotion},
+    {"lights", kFeatureLights},
+    {"many-lights", kFeatureManyLights},
+    {"sphere-lights", kFeatureSphereLights},
+    {"quad-lights", kFeatureQuadLights},
+    {"triangle-lights", kFeatureTriangleLights},
+    {"ellipsoid-lights", kFeatureEllipsoidLights},
+    {"targets", kFeatureTargets},
+    {"mixture", kFeatureMixture},
+    {"projected", kFeatureProjected},
+};
+
+constexpr std::uint32_t namedBits() {
+    std::uint32_t bits = 0;
+    for (const auto& row : kFeatures) bits |= row.value;
+    return bits;
+}
+static_assert(namedBits() == kFeatureAll, "every feature bit has a name");
+
+std::vector<std::string> namesWhere(std::uint32_t features, bool present) {
+    std::vector<std::string> names;
+    for (const auto& row : kFeatures)
+        if (has(features, row.value) == present) names.emplace_back(row.name);
+    return names;
+}
+
+} // namespace
+
+std::uint32_t parseFeatures(const std::string& text) {
+    if (text == "all") return kFeatureAll;
+    std::uint32_t features = 0;
+    for (const std::string& name : parseList("--features", text))
+        features |= parseChoice("--features", name, kFeatures);
+    return features;
+}
+
+std::vector<std::string> featureNames(std::uint32_t features) {
+    return namesWhere(features, true);
+}
+
+std::vector<std::string> absentFeatureNames(std::uint32_t features) {
+    return namesWhere(features, false);
+}
+
+} // namespace rt::app

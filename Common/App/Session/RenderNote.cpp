@@ -1,0 +1,68 @@
+#include "Common/App/Session/RenderNote.h"
+
+#include <charconv>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Session/FeatureNames.h"
+
+namespace rt::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Short, and read back as the same number.
+std::string exactly(float value) {
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+Json argumentList(const Options& options, const scene::CameraDesc& camera, const EngineReport& report) {
+    const RenderSettings& s = options.settings;
+    Json list = Json::array();
+    const auto add = [&list](const char* flag, const std::string& value) {
+        list.push_back(flag);
+        list.push_back(value);
+    };
+    add("--scene", options.scene);
+    add("--camera", CameraController::toText(camera));
+    add("--width", std::to_string(s.width));
+    add("--height", std::to_string(s.height));
+    add("--spp", std::to_string(s.spp));
+    add("--max-depth", std::to_string(s.maxDepth));
+    add("--seed", std::to_string(s.seed));
+    add("--replicates", std::to_string(s.replicates));
+    add("--light-sampling", nameOf(kLightSamplings, s.lightSampling));
+    add("--light-selection", nameOf(kLightSelections, s.lightSelection));
+    add("--sphere-light", nameOf(kSphereLights, s.sphereLight));
+    add("--quad-light", nameOf(kFlatLights, s.quadLight));
+    add("--triangle-light", nameOf(kFlatLights, s.triangleLight));
+    add("--sampler", nameOf(kSamplers, s.sampler));
+    add("--one-sided-lights", nameOf(kOnOff, options.oneSidedLights));
+    add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
+    add("--exposure", exactly(options.exposure));
+    add("--tonemap", nameOf(kTonemaps, options.tonemap));
+    if (options.program == kGpuProgram) add("--engine", report.engine); // policies and threads make no difference
+    if (s.features) {
+        std::string names;
+        for (const std::string& name : featureNames(*s.features)) names += (names.empty() ? "" : ",") + name;
+        add("--features", names);
+    }
+    return list;
+}
+
+} // namespace
+
+std::string renderNote(const Options& options, const scene::CameraDesc& camera, const EngineReport& report,
+                       const image::Film& film) {
+    const Json json{{"version", 1},
+                    {"program", options.program},
+                    {"program_version", RT_VERSION},
+                    {"device", report.device},
+                    {"spp_done", film.minSamples()},
+                    {"arguments", argumentList(options, camera, report)}};
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace); // names of files may be anything
+}
+
+} // namespace rt::app

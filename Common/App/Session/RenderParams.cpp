@@ -1,0 +1,103 @@
+#include "Common/App/Session/RenderParams.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "Common/Shared/Base/Features.h"
+
+namespace rt::app {
+namespace {
+
+// Cells per round: at least one for each sample where their number is known, so that a single round covers them all.
+shared::uvec2 strata(const RenderSettings& settings) {
+    if (!settings.sppIsKnown) return {16u, 16u};
+    const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
+    auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(samples)));
+    if (columns * std::uint64_t{columns} < samples) ++columns;
+    return {columns, (samples + columns - 1) / columns};
+}
+
+// RenderParams::russianRoulette. Most paths under a plain sky soon leave for it, which no light sampling has done for them:
+// ending bright ones by chance saves little and triples the variance. (One Weekend's final scene: 4 takes 1.15 times the rays
+// of 1 for a third of the variance.)
+constexpr std::uint32_t kRoulette = 1;
+constexpr std::uint32_t kRouletteUnderSky = 4;
+
+bool isUnderPlainSky(const scene::CompiledScene& scene) {
+    return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
+}
+
+// What sends light on into a range of directions, and what is of use only there.
+constexpr std::uint32_t kScattersWidely = shared::kFeatureLambertian | shared::kFeatureFuzz | shared::kFeatureVolumes;
+constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |
+                                         shared::kFeatureSphereLights | shared::kFeatureQuadLights |
+                                         shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights |
+                                         shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
+
+// Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
+std::uint32_t logOfBlock(const RenderSettings& settings) {
+    const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
+    const std::uint32_t wanted = settings.sppIsKnown ? static_cast<std::uint32_t>(std::bit_width(samples - 1)) : 4u;
+    const auto side = static_cast<std::uint32_t>(std::bit_width(std::max(settings.width, settings.height) - 1));
+    return std::min(wanted, 32u - 2u * std::min(side, 16u));
+}
+
+} // namespace
+
+shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    shared::RenderParams params{};
+    params.width = settings.width;
+    params.height = settings.height;
+    params.maxDepth = settings.maxDepth;
+    params.seed = settings.seed;
+    params.lightSampling = static_cast<std::uint32_t>(settings.lightSampling);
+    params.lightSelection = static_cast<std::uint32_t>(settings.lightSelection);
+    params.sphereLight = static_cast<std::uint32_t>(settings.sphereLight);
+    params.quadLight = static_cast<std::uint32_t>(settings.quadLight);
+    params.triangleLight = static_cast<std::uint32_t>(settings.triangleLight);
+    params.samplerKind = static_cast<std::uint32_t>(settings.sampler);
+    params.strataX = settings.sampler == SamplerKind::SobolBlue ? logOfBlock(settings) : strata(settings).x;
+    params.strataY = strata(settings).y;
+    if (settings.russianRoulette) params.russianRoulette = isUnderPlainSky(scene) ? kRouletteUnderSky : kRoulette;
+    return params;
+}
+
+std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                             const RenderSettings& settings) {
+    // The camera may have been given another lens than the scene's.
+    std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
+    if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
+    if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
+    for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
+        if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
+    // Mirrors, glass and emitters alone leave light sampling nothing to do.
+    if (!shared::has(features, kScattersWidely)) features &= ~kLightSampling;
+    return features | settings.features.value_or(0u);
+}
+
+std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features) {
+    std::string text;
+    const auto describe = [&](std::uint32_t feature, ShapeSampling method, const char* shape, const char* solidAngle,
+                              const char* regimes) {
+        if (!shared::has(features, feature)) return;
+        const char* used = method == ShapeSampling::Area        ? "area"
+                           : method == ShapeSampling::Auto      ? regimes
+                           : method == ShapeSampling::Projected ? "projected (of surfaces, unless tiny)"
+                                                                : solidAngle;
+        text += (text.empty() ? "" : ", ") + std::string(shape) + ": " + used;
+    };
+    if (settings.lightSampling == LightSampling::Bsdf) return "none";
+    describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone",
+             "auto (projected above the horizon, else cone)");
+    describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
+             "auto (area when far, columns when thin, else solid-angle by the cosine)");
+    describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
+             "auto (area when far, else solid-angle)");
+    const bool isProjected = settings.sphereLight == ShapeSampling::Projected; // there are no projected ellipsoids
+    describe(shared::kFeatureEllipsoidLights, isProjected ? ShapeSampling::Auto : settings.sphereLight, "ellipsoid",
+             "cone", "cone");
+    return text.empty() ? "none" : text;
+}
+
+} // namespace rt::app

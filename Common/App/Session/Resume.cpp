@@ -1,0 +1,104 @@
+#include "Common/App/Session/Resume.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Options/Names.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+#include "Common/Image/Checkpoint.h"
+
+namespace rt::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string hex(std::uint64_t value) {
+    std::string text(16, '0');
+    for (std::size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
+    return text;
+}
+
+Json toJson(const scene::CameraDesc& camera) {
+    const auto vector = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
+    return {{"look_from", vector(camera.lookFrom)},
+            {"look_at", vector(camera.lookAt)},
+            {"up", vector(camera.up)},
+            {"vertical_fov", camera.verticalFov},
+            {"defocus_angle", camera.defocusAngle},
+            {"focus_distance", camera.focusDistance}};
+}
+
+// Everything that the samples of a pixel depend on, in the order in which a difference is best explained.
+Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report) {
+    return {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
+            {"width", settings.width},
+            {"height", settings.height},
+            {"seed", settings.seed},
+            {"replicates", settings.replicates},
+            {"sampler", nameOf(kSamplers, settings.sampler)},
+            {"max_depth", settings.maxDepth},
+            {"light_sampling", nameOf(kLightSamplings, settings.lightSampling)},
+            {"light_selection", nameOf(kLightSelections, settings.lightSelection)},
+            {"sphere_light", nameOf(kSphereLights, settings.sphereLight)},
+            {"quad_light", nameOf(kFlatLights, settings.quadLight)},
+            {"triangle_light", nameOf(kFlatLights, settings.triangleLight)},
+            {"russian_roulette", settings.russianRoulette},
+            {"camera", toJson(scene.camera)},
+            {"scene_hash", hex(scene.hash)}};
+}
+
+void checkIdentity(const std::string& file, const nlohmann::json& stored, const Json& wanted) {
+    for (const auto& [field, value] : wanted.items())
+        if (stored.at(field) != nlohmann::json(value))
+            throw InputError(file + ": " + field + " is " + stored.at(field).dump() + " in the checkpoint but " +
+                             value.dump() + " now");
+}
+
+std::uint64_t mostSamples(const image::Film& film) {
+    std::uint64_t most = 0;
+    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
+    return most;
+}
+
+// More samples may be asked for than before, but not fewer than there are; strata made for a known number allow no
+// other.
+void checkSpp(const std::string& file, std::uint32_t stored, const RenderSettings& settings, const image::Film& film) {
+    const std::string now = std::to_string(settings.spp) + " now";
+    const bool isMadeForSpp = settings.sampler == SamplerKind::Stratified || settings.sampler == SamplerKind::SobolBlue;
+    if (isMadeForSpp && settings.sppIsKnown && stored != settings.spp)
+        throw InputError(file + ": spp is " + std::to_string(stored) +
+                         " in the checkpoint, whose strata allow no other, but " + now);
+    if (const std::uint64_t most = mostSamples(film); most > settings.spp)
+        throw InputError(file + ": spp is at " + std::to_string(most) + " in the checkpoint already but " + now);
+}
+
+} // namespace
+
+void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
+                    const EngineReport& report, const image::Film& film) {
+    nlohmann::json header = identity(settings, scene, report);
+    header["spp"] = settings.spp;
+    header["spp_is_known"] = settings.sppIsKnown;
+    header["kernel"] = report.kernel;
+    image::writeCheckpoint(file, header, film);
+}
+
+image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, const scene::CompiledScene& scene,
+                           const EngineReport& report) try {
+    image::Checkpoint checkpoint = image::readCheckpoint(file);
+    const nlohmann::json& stored = checkpoint.render;
+    checkIdentity(file, stored, identity(settings, scene, report));
+    const auto instructionSet = [](const std::string& kernel) { return kernel.substr(kernel.rfind('/') + 1); };
+    if (instructionSet(stored.at("kernel")) != instructionSet(report.kernel))
+        logWarning(file + ": was made with another instruction set; the last bits may differ from those of one run");
+    settings.secondMoments = checkpoint.film.desc().secondMoments;
+    settings.sppIsKnown = stored.at("spp_is_known");
+    checkSpp(file, stored.at("spp"), settings, checkpoint.film);
+    return std::move(checkpoint.film);
+} catch (const nlohmann::json::exception& error) {
+    throw InputError(file + ": not a checkpoint of this program: " + error.what());
+}
+
+} // namespace rt::app

@@ -1,0 +1,22 @@
+// Checkpoints: going on with a render exactly as if it had never stopped.
+#pragma once
+#include <string>
+
+#include "Common/App/Session/Engine.h"
+#include "Common/App/Session/Settings.h"
+#include "Common/Image/Film.h"
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::app {
+
+// Replaces the file. Throws RenderError.
+void saveCheckpoint(const std::string& file, const RenderSettings& settings, const scene::CompiledScene& scene,
+                    const EngineReport& report, const image::Film& film);
+
+// The film to go on from. The render that is asked for must be the same but for its length; InputError names the first
+// field that differs. What only says how the film is kept, or how its strata were laid out, is taken over into
+// `settings`.
+image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, const scene::CompiledScene& scene,
+                           const EngineReport& report);
+
+} // namespace rt::app

@@ -1,0 +1,78 @@
+#include "Common/App/Session/SceneLoader.h"
+
+#include <utility>
+
+#include "Common/App/Platform.h"
+#include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Interruption.h"
+
+namespace rt::app {
+namespace {
+
+LoadedScene load(const SceneRequest& request, const std::atomic<bool>& callOff) {
+    const Interruptible interruptible(callOff);
+    LoadedScene result;
+    result.request = request;
+    const Stopwatch watch;
+    try {
+        result.scene = compile(request);
+    } catch (...) {
+        result.failure = std::current_exception();
+    }
+    result.seconds = watch.seconds();
+    return result;
+}
+
+} // namespace
+
+SceneLoader::SceneLoader(std::function<void(LoadedScene)> onLoaded)
+    : onLoaded_(std::move(onLoaded)), thread_([this] { work(); }) {}
+
+SceneLoader::~SceneLoader() {
+    {
+        const std::scoped_lock lock(mutex_);
+        quit_ = callOff_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+}
+
+void SceneLoader::request(SceneRequest request) {
+    {
+        const std::scoped_lock lock(mutex_);
+        next_ = std::move(request);
+        callOff_ = true;
+    }
+    wake_.notify_one();
+}
+
+std::optional<std::string> SceneLoader::busyWith() const {
+    const std::scoped_lock lock(mutex_);
+    if (next_) return next_->source;
+    if (current_) return current_->source;
+    return std::nullopt;
+}
+
+void SceneLoader::work() {
+    lowerThreadPriority();
+    std::unique_lock lock(mutex_);
+    while (true) {
+        wake_.wait(lock, [this] { return quit_ || next_; });
+        if (quit_) return;
+        current_ = std::exchange(next_, std::nullopt);
+        const SceneRequest request = *current_;
+        callOff_ = false;
+        lock.unlock();
+        LoadedScene loaded = load(request, callOff_);
+        lock.lock();
+        const bool wanted = !quit_ && !next_;
+        if (wanted) {
+            lock.unlock();
+            onLoaded_(std::move(loaded));
+            lock.lock();
+        }
+        current_.reset();
+    }
+}
+
+} // namespace rt::app

@@ -1,0 +1,105 @@
+#include "Common/App/Session/SceneSource.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Interactive/CameraController.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Paths.h"
+#include "Common/Image/ImageIo.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Obj/ObjLoader.h"
+
+namespace rt::app {
+namespace {
+
+// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words.
+scene::TexelData readTexels(const std::filesystem::path& path) {
+    const image::Texels texels = image::loadTexels(path);
+    scene::TexelData data;
+    data.width = texels.width;
+    data.height = texels.height;
+    if (texels.srgb8.empty()) {
+        data.format = shared::kTexelLinearF32;
+        data.words.resize(texels.linear.size());
+        std::memcpy(data.words.data(), texels.linear.data(), texels.linear.size() * sizeof(float));
+        return data;
+    }
+    data.format = shared::kTexelSrgb8;
+    data.words.resize(texels.srgb8.size() / 3);
+    for (std::size_t i = 0; i < data.words.size(); ++i) {
+        const std::uint8_t* rgb = &texels.srgb8[3 * i];
+        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16;
+    }
+    return data;
+}
+
+std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& desc, bool oneSidedLights,
+                                                        bool generatedAssets,
+                                                        const std::optional<scene::CameraDesc>& camera) {
+    scene::CompileOptions options;
+    options.oneSidedLights = oneSidedLights;
+    options.generatedAssets = generatedAssets;
+    options.camera = camera;
+    options.loadTexels = readTexels;
+    return scene::compileScene(desc, options);
+}
+
+} // namespace
+
+scene::SceneDesc loadScene(const std::string& source) {
+    std::filesystem::path path(source);
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension != ".json" && extension != ".obj") return scene::findBuiltinScene(source);
+    std::error_code none;
+    if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
+    return extension == ".json" ? scene::loadSceneFile(path) : scene::loadObjScene(path);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
+                                                    bool generatedAssets) {
+    return compileWith(desc, oneSidedLights, generatedAssets, std::nullopt);
+}
+
+std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
+    const scene::SceneDesc desc = loadScene(request.source);
+    std::optional<scene::CameraDesc> camera;
+    if (!request.pose.empty()) camera = poseOf(request.pose, desc.camera);
+    return compileWith(desc, request.oneSidedLights, false, camera);
+}
+
+scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes) {
+    const auto camera = CameraController::fromText(pose, scenes);
+    if (camera) return *camera;
+    throw UsageError("--camera " + pose +
+                     ": allowed is a JSON object of look_from, look_at and up, each three numbers, vertical_fov, "
+                     "defocus_angle and focus_distance, as a window copies its pose");
+}
+
+std::string listScenes(bool json) {
+    const std::span<const scene::BuiltinScene> scenes = scene::builtinScenes();
+    if (json) {
+        nlohmann::ordered_json list = nlohmann::ordered_json::array();
+        for (const scene::BuiltinScene& scene : scenes)
+            list.push_back({{"id", scene.id}, {"title", scene.title}, {"description", scene.description}});
+        return list.dump(2) + "\n";
+    }
+    std::size_t longest = 0;
+    for (const scene::BuiltinScene& scene : scenes) longest = std::max(longest, scene.id.size());
+    std::string text;
+    for (const scene::BuiltinScene& scene : scenes)
+        text +=
+            std::string(scene.id) + std::string(longest + 2 - scene.id.size(), ' ') + std::string(scene.title) + "\n";
+    return text;
+}
+
+} // namespace rt::app

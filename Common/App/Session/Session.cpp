@@ -1,0 +1,205 @@
+#include "Common/App/Session/Session.h"
+
+#include <filesystem>
+#include <iostream>
+#include <stdexcept>
+
+#include "Common/App/Platform.h"
+#include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/Interrupt.h"
+#include "Common/App/Session/Outputs.h"
+#include "Common/App/Session/Reference.h"
+#include "Common/App/Session/RenderLoop.h"
+#include "Common/App/Session/Resume.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/App/Session/Statistics.h"
+#include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Log.h"
+#include "Common/Scene/Json/SceneJson.h"
+
+namespace rt::app {
+namespace {
+
+void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
+    const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
+    if (missing == 0) return;
+    std::string names;
+    for (const std::string& name : featureNames(missing)) names += (names.empty() ? "" : ",") + name;
+    throw UsageError("--features: the scene also needs " + names);
+}
+
+std::string describeEnd(const Statistics& statistics) {
+    const StopReason reason = statistics.stoppedBy;
+    std::string text = reason == StopReason::Interrupted   ? "interrupted"
+                       : reason == StopReason::TimeLimit   ? "time limit reached"
+                       : reason == StopReason::TargetError ? "target error reached"
+                                                           : "done";
+    if (statistics.error) text += ", relmse " + std::to_string(statistics.error->relmse);
+    return text;
+}
+
+// One render without a window, stage by stage.
+class HeadlessRender {
+  public:
+    explicit HeadlessRender(Options options) : options_(std::move(options)) {}
+
+    ExitCode run(const EngineFactory& makeEngine) {
+        checkOutputs(options_); // before hours are spent
+        load();
+        engine_ = makeEngine();
+        interrupt_.defer(); // from here on there may be something to save
+        if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
+        startFilm();
+        try {
+            sample();
+        } catch (const RenderError&) {
+            logWarning("the render failed; what there is of it is written");
+            statistics_.stoppedBy = StopReason::Failure;
+            write();
+            throw;
+        }
+        write();
+        return statistics_.stoppedBy == StopReason::Interrupted ? ExitCode::Interrupted : ExitCode::Done;
+    }
+
+  private:
+    void load();
+    void startFilm();
+    void sample();
+    void write();
+    void save(const std::string& file) const;
+    std::string rescue() const;
+    const image::Film& keptFilm(std::string& lost);
+
+    Options options_;
+    Interrupt interrupt_;
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    std::optional<image::Image> reference_;
+    std::unique_ptr<Engine> engine_;
+    Statistics statistics_;
+};
+
+// Also settles what the options leave to the scene.
+void HeadlessRender::load() {
+    const Stopwatch watch;
+    scene_ = compile(SceneRequest{options_.scene, options_.oneSidedLights, options_.camera});
+    for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
+    settleImageSize(options_, scene_->defaults.aspect);
+    checkFeatures(options_.settings, *scene_);
+    if (!options_.reference.empty())
+        reference_ = readReference(options_.reference, options_.settings.width, options_.settings.height);
+    statistics_.seconds.load = watch.seconds();
+}
+
+void HeadlessRender::startFilm() {
+    if (options_.resume.empty()) return engine_->reset(scene_->camera, options_.settings);
+    image::Film film = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+    if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !film.desc().secondMoments)
+        throw InputError(options_.resume + ": second_moments is false in the checkpoint but --aov variance needs them");
+    statistics_.samplesRestored = film.totalSamples();
+    engine_->reset(scene_->camera, options_.settings);
+    engine_->restore(std::move(film));
+}
+
+void HeadlessRender::sample() {
+    const auto style = options_.quiet              ? Progress::Style::Silent
+                       : standardErrorIsTerminal() ? Progress::Style::Terminal
+                                                   : Progress::Style::Lines;
+    Progress progress(std::cerr, style);
+    const auto saveOrWarn = [this] {
+        try {
+            save(options_.checkpoint);
+        } catch (const Error& error) {
+            logWarning(error.what()); // the render itself is well
+        }
+    };
+    const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
+                                                   interrupt_.requested(), progress, saveOrWarn);
+    statistics_.stoppedBy = result.stoppedBy;
+    statistics_.seconds.render = result.seconds;
+    if (reference_) statistics_.error = image::compare(engine_->film().resolve(), *reference_);
+    progress.finish(result.progress, describeEnd(statistics_));
+}
+
+// Everything that can be written is written; after that the first failure counts.
+void HeadlessRender::write() {
+    const Stopwatch watch;
+    std::string lost;
+    const image::Film& film = keptFilm(lost);
+    OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
+    const bool outputsFailed = !outputs.failures.empty();
+    if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
+    const auto attempt = [&outputs](const auto& action) {
+        try {
+            action();
+        } catch (const Error& error) {
+            outputs.failures.emplace_back(error.what());
+        }
+    };
+    if (!options_.checkpoint.empty()) attempt([this] { save(options_.checkpoint); });
+    statistics_.seconds.write = watch.seconds();
+    statistics_.outputs = outputs.written;
+    if (!options_.stats.empty())
+        attempt([&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });
+    if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
+        logWarning(std::to_string(bad) + " samples were not finite and count as black");
+    if (outputs.failures.empty()) return;
+    for (std::size_t i = 1; i < outputs.failures.size(); ++i) logWarning(outputs.failures[i]);
+    throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
+}
+
+// The film as it is, or as the engine last copied it when it cannot be read any more; `lost` then says why.
+const image::Film& HeadlessRender::keptFilm(std::string& lost) {
+    try {
+        return engine_->film();
+    } catch (const RenderError& error) {
+        lost = error.what();
+        return engine_->film();
+    }
+}
+
+void HeadlessRender::save(const std::string& file) const {
+    saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->film());
+}
+
+// Samples that no output took must not be lost: they go to a checkpoint in the first place that takes it.
+std::string HeadlessRender::rescue() const {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const std::string beside = checkpointBeside(options_.outputs.front());
+    for (const fs::path& place : {fs::path(beside), fs::temp_directory_path(none) / fs::path(beside).filename()}) {
+        try {
+            save(place.string());
+            return "; its samples are in " + place.string() + " for --resume";
+        } catch (const Error& error) {
+            logWarning(error.what());
+        }
+    }
+    return {};
+}
+
+void exportScene(const Options& options) {
+    scene::SceneDesc scene = loadScene(options.scene);
+    if (!options.camera.empty()) scene.camera = poseOf(options.camera, scene.camera);
+    writeText(options.exportFile, scene::toJson(scene));
+}
+
+} // namespace
+
+ExitCode runSession(Options options, const EngineFactory& makeEngine) {
+    switch (options.command) {
+        case Command::ListScenes:
+            std::cout << listScenes(options.json);
+            return ExitCode::Done;
+        case Command::ExportScene:
+            exportScene(options);
+            return ExitCode::Done;
+        case Command::ListDevices:
+            throw std::logic_error("devices are listed by the program that knows them");
+        case Command::Render:
+            break;
+    }
+    return HeadlessRender(std::move(options)).run(makeEngine);
+}
+
+} // namespace rt::app

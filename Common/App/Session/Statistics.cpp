@@ -1,0 +1,109 @@
+#include "Common/App/Session/Statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Platform.h"
+#include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/FilmEstimate.h"
+
+namespace rt::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
+Json settingsJson(const Options& options) {
+    const RenderSettings& settings = options.settings;
+    return {{"light_sampling", nameOf(kLightSamplings, settings.lightSampling)},
+            {"light_selection", nameOf(kLightSelections, settings.lightSelection)},
+            {"sphere_light", nameOf(kSphereLights, settings.sphereLight)},
+            {"quad_light", nameOf(kFlatLights, settings.quadLight)},
+            {"triangle_light", nameOf(kFlatLights, settings.triangleLight)},
+            {"sampler", nameOf(kSamplers, settings.sampler)},
+            {"one_sided_lights", options.oneSidedLights},
+            {"russian_roulette", settings.russianRoulette},
+            {"replicates", settings.replicates},
+            {"features", settings.features ? "forced" : "auto"},
+            {"policy", nameOf(kPolicies, options.policy)},
+            {"time_limit", orNull(options.timeLimit)},
+            {"target_error", orNull(options.targetError)}};
+}
+
+Json secondsJson(const Seconds& seconds, const EngineReport& report) {
+    return {
+        {"load", seconds.load},     {"accel_build", report.accelBuildSeconds},     {"pipeline", report.pipelineSeconds},
+        {"render", seconds.render}, {"render_device", report.renderDeviceSeconds}, {"write", seconds.write}};
+}
+
+double perSecond(double count, double seconds) {
+    return seconds > 0 ? count / seconds : 0;
+}
+
+Json raysJson(const RayCounts& rays, double seconds) {
+    const double all = static_cast<double>(rays.camera + rays.scattered + rays.shadow);
+    return {{"camera", rays.camera},
+            {"scattered", rays.scattered},
+            {"shadow", rays.shadow},
+            {"per_second", perSecond(all, seconds)}};
+}
+
+Json errorJson(const image::ErrorFigures& error) {
+    return {
+        {"mse", error.mse}, {"rmse", error.rmse}, {"relmse", error.relmse}, {"mae", error.mae}, {"psnr", error.psnr}};
+}
+
+Json windowJson(const WindowFigures& window, const EngineReport& report) {
+    const double dispatch = report.longestDispatchSeconds;
+    return {{"frames_per_second", window.framesPerSecond},
+            {"median_turn_seconds", window.medianTurn},
+            {"longest_turn_seconds", window.longestTurn},
+            {"slowest_answer_seconds", window.slowestAnswer},
+            {"longest_dispatch_seconds", dispatch > 0 ? Json(dispatch) : Json(nullptr)}};
+}
+
+} // namespace
+
+std::string Statistics::toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
+                               const image::Film& film) const {
+    const FilmEstimate estimated = estimate(film);
+    const RenderSettings& settings = options.settings;
+    Json json{{"version", 1},
+              {"app", options.program},
+              {"scene", scene.id},
+              {"engine", report.engine},
+              {"device", report.device},
+              {"threads", report.threads},
+              {"width", settings.width},
+              {"height", settings.height},
+              {"spp", settings.spp},
+              {"spp_done", film.minSamples()},
+              {"max_depth", settings.maxDepth},
+              {"seed", settings.seed},
+              {"stopped_by", nameOf(kStopReasons, stoppedBy)},
+              {"settings", settingsJson(options)},
+              {"features", featureNames(report.features)},
+              {"kernel", report.kernel},
+              {"light_shapes", report.lightSampling},
+              {"skipped", absentFeatureNames(report.features)},
+              {"seconds", secondsJson(seconds, report)}};
+    const double samples = static_cast<double>(film.totalSamples() - samplesRestored);
+    json["samples_per_second"] = perSecond(samples, seconds.render);
+    json["rays"] = raysJson(report.rays, seconds.render);
+    json["mean_radiance"] = estimated.meanRadiance;
+    json["standard_error"] = orNull(estimated.standardError);
+    json["nonfinite_samples"] = report.nonfiniteSamples;
+    json["estimated_relmse"] = orNull(estimated.relmse);
+    json["error_is"] = film.errorIsUpperBound() ? "upper_bound" : "replicates";
+    if (error) json["error"] = errorJson(*error);
+    json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
+    json["outputs"] = outputs;
+    if (window) json["window"] = windowJson(*window, report);
+    // Names of files may be anything; JSON is UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+} // namespace rt::app

@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+bool editVector(const char* label, const char* tip, glm::dvec3& vector) {
+    double values[3] = {vector.x, vector.y, vector.z};
+    if (!inputVector(label, tip, values)) return false;
+    vector = {values[0], values[1], values[2]};
+    return true;
+}
+
+} // namespace
+
+void drawCameraPanel(Gui& gui) {
+    scene::CameraDesc camera = gui.camera.camera();
+    const double distance = glm::length(camera.lookAt - camera.lookFrom);
+    bool changed = sliderReal("Field of view", "Vertical, in degrees", camera.verticalFov, 1, 170, "%.1f");
+    changed |=
+        sliderReal("Aperture", "Angle of the cone of light that the lens takes in, in degrees; 0: everything is sharp",
+                   camera.defocusAngle, 0, 20, "%.2f");
+    // The range follows the scene's size: boxes of 500 units as well as spheres of one.
+    changed |= sliderReal("Focus distance", "Where things are sharp, in units of the scene", camera.focusDistance,
+                          std::min(camera.focusDistance, 0.01 * distance),
+                          std::max(camera.focusDistance, 10 * distance), "%.4g", true);
+    const float half = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
+    if (button("Focus on target", "Makes sharp what the camera looks at", true, half)) {
+        camera.focusDistance = distance;
+        changed = true;
+    }
+    ImGui::SameLine();
+    if (button(gui.pickFocus ? "Click in the picture" : "Pick focus",
+               "The next click in the picture makes sharp what is there; so does Ctrl + click at any time", true,
+               half)) {
+        gui.pickFocus = !gui.pickFocus;
+    }
+    bool moved = editVector("Position", "Where the camera is", camera.lookFrom);
+    moved |= editVector("Target", "What it looks at", camera.lookAt);
+    if (changed || moved) gui.camera.set(camera);
+    if (moved && gui.camera.camera() != camera) gui.say("No camera can look from this position at this target", true);
+    double speed = gui.camera.speed();
+    row("Flying speed", "Units of the scene in a second; the mouse wheel changes it");
+    ImGui::Text("%.4g / s", speed);
+
+    const float space = ImGui::GetStyle().ItemSpacing.x;
+    const float width = (ImGui::GetContentRegionAvail().x - 2 * space) / 3;
+    if (button("Copy pose", "To the clipboard, as JSON (Ctrl+Shift+C)", true, width)) gui.copyPose();
+    ImGui::SameLine(0, space);
+    if (button("Paste pose", "From the clipboard (Ctrl+Shift+V)", true, width)) gui.pastePose();
+    ImGui::SameLine(0, space);
+    if (button("Reset", "Back to the scene's camera (R)", true, width)) gui.camera.reset();
+    note("W A S D Q E fly, Shift fast, Ctrl slow; right drag looks, Alt + left drag orbits, middle drag pans.");
+}
+
+} // namespace rt::gui

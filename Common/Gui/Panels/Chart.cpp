@@ -1,0 +1,151 @@
+#include "Common/Gui/Panels/Chart.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace rt::gui {
+namespace {
+
+struct Axis {
+    double low = 1e300, high = 0; // log10 after settle()
+
+    void include(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    // Whole decades, at least one.
+    void settle() {
+        if (!(high > 0)) low = 0.1, high = 1;
+        low = std::floor(std::log10(low));
+        high = std::ceil(std::log10(high));
+        if (high <= low) high = low + 1;
+    }
+    float at(double value) const { return static_cast<float>((std::log10(value) - low) / (high - low)); }
+};
+
+bool isShown(const std::pair<double, double>& point) {
+    return std::isfinite(point.first) && std::isfinite(point.second) && point.first > 0 && point.second > 0;
+}
+
+std::string decadeText(int exponent) {
+    char text[16];
+    if (exponent >= -2 && exponent <= 3) {
+        std::snprintf(text, sizeof text, "%g", std::pow(10.0, exponent));
+    } else {
+        std::snprintf(text, sizeof text, "1e%d", exponent);
+    }
+    return text;
+}
+
+class Plot {
+  public:
+    Plot(ImVec2 corner, ImVec2 size, Axis x, Axis y) : corner_(corner), size_(size), x_(x), y_(y) {}
+
+    ImVec2 at(const std::pair<double, double>& point) const {
+        return {corner_.x + size_.x * x_.at(point.first), corner_.y + size_.y * (1 - y_.at(point.second))};
+    }
+
+    void drawGrid(ImDrawList& list) const {
+        const ImU32 line = ImGui::GetColorU32(ImGuiCol_Separator);
+        const ImU32 faint = ImGui::GetColorU32(ImGuiCol_Separator, 0.35f);
+        const ImU32 text = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+        // Labels keep clear of one another.
+        const int everyX = std::max(1, static_cast<int>(std::ceil((x_.high - x_.low) * 42 / std::max(size_.x, 1.0f))));
+        const int everyY = std::max(
+            1, static_cast<int>(std::ceil((y_.high - y_.low) * 1.3f * ImGui::GetFontSize() / std::max(size_.y, 1.0f))));
+        for (int e = static_cast<int>(x_.low); e <= static_cast<int>(x_.high); ++e) {
+            const float x = corner_.x + size_.x * static_cast<float>((e - x_.low) / (x_.high - x_.low));
+            list.AddLine({x, corner_.y}, {x, corner_.y + size_.y}, e == x_.low ? line : faint);
+            if ((e - static_cast<int>(x_.low)) % everyX != 0) continue;
+            const std::string label = decadeText(e);
+            list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, corner_.y + size_.y + 2}, text,
+                         label.c_str());
+        }
+        for (int e = static_cast<int>(y_.low); e <= static_cast<int>(y_.high); ++e) {
+            const float y = corner_.y + size_.y * (1 - static_cast<float>((e - y_.low) / (y_.high - y_.low)));
+            list.AddLine({corner_.x, y}, {corner_.x + size_.x, y}, e == y_.low ? line : faint);
+            if ((e - static_cast<int>(y_.low)) % everyY != 0) continue;
+            const std::string label = decadeText(e);
+            const ImVec2 extent = ImGui::CalcTextSize(label.c_str());
+            list.AddText({corner_.x - extent.x - 4, y - 0.5f * extent.y}, text, label.c_str());
+        }
+    }
+
+    void drawSeries(ImDrawList& list, const ChartSeries& series) const {
+        const float radius = 0.22f * ImGui::GetFontSize();
+        const ImVec2* before = nullptr;
+        ImVec2 last;
+        for (const auto& point : series.points) {
+            if (!isShown(point)) continue;
+            const ImVec2 p = at(point);
+            if (!series.line) {
+                list.AddCircleFilled(p, radius, series.color);
+            } else {
+                if (before != nullptr) list.AddLine(*before, p, series.color, 0.12f * ImGui::GetFontSize());
+                last = p;
+                before = &last;
+            }
+        }
+    }
+
+  private:
+    ImVec2 corner_, size_;
+    Axis x_, y_;
+};
+
+void drawLegend(ImDrawList& list, const std::vector<ChartSeries>& series, float right, float top) {
+    std::vector<std::string> named;
+    float y = top + 4;
+    for (const ChartSeries& s : series) {
+        if (s.name.empty() || std::find(named.begin(), named.end(), s.name) != named.end()) continue;
+        named.push_back(s.name);
+        const float x = right - ImGui::CalcTextSize(s.name.c_str()).x - 6;
+        list.AddText({x, y}, ImGui::GetColorU32(ImGuiCol_Text), s.name.c_str());
+        list.AddCircleFilled({x - 0.6f * ImGui::GetFontSize(), y + 0.5f * ImGui::GetFontSize()},
+                             0.25f * ImGui::GetFontSize(), s.color);
+        y += ImGui::GetTextLineHeightWithSpacing();
+    }
+}
+
+} // namespace
+
+void drawLogLogChart(const char* id, const char* xLabel, const char* yLabel, const std::vector<ChartSeries>& series,
+                     ImVec2 size) {
+    Axis x, y;
+    bool any = false;
+    for (const ChartSeries& s : series) {
+        for (const auto& point : s.points) {
+            if (!isShown(point)) continue;
+            x.include(point.first);
+            y.include(point.second);
+            any = true;
+        }
+    }
+    x.settle();
+    y.settle();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float font = ImGui::GetFontSize();
+    const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.4f * font, top = 1.3f * font;
+    ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
+    if (size.x < left + 3 * font || size.y < bottom + top + 2 * font) return; // no room
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 inner{size.x - left - 0.8f * font, size.y - bottom - top};
+    const Plot plot({corner.x + left, corner.y + top}, inner, x, y);
+    plot.drawGrid(list);
+    const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    list.AddText({corner.x, corner.y}, dim, yLabel);
+    list.AddText({corner.x + left + inner.x - ImGui::CalcTextSize(xLabel).x, corner.y + size.y - 1.1f * font}, dim,
+                 xLabel);
+    if (!any) {
+        const char* nothing = "no errors yet";
+        const ImVec2 extent = ImGui::CalcTextSize(nothing);
+        list.AddText({corner.x + left + 0.5f * (inner.x - extent.x), corner.y + top + 0.5f * (inner.y - extent.y)}, dim,
+                     nothing);
+        return;
+    }
+    for (const ChartSeries& s : series) plot.drawSeries(list, s);
+    drawLegend(list, series, corner.x + left + inner.x, corner.y + top);
+}
+
+} // namespace rt::gui

@@ -1,0 +1,101 @@
+#include "Common/Gui/Panels/EnginePanel.h"
+
+#include <algorithm>
+#include <string>
+
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+using app::EngineChoice;
+using app::EngineDevice;
+using app::GpuEngineKind;
+using Devices = std::vector<EngineDevice>;
+
+constexpr app::Named<app::Policy> kPolicyNames[] = {{"Multi core: par", app::Policy::Par},
+                                                    {"Multi core: par_unseq", app::Policy::ParUnseq},
+                                                    {"Single core: seq", app::Policy::Seq}};
+constexpr app::Named<GpuEngineKind> kKindNames[] = {{"Automatic", GpuEngineKind::Auto},
+                                                    {"Ray tracing pipeline", GpuEngineKind::Pipeline},
+                                                    {"Compute shaders", GpuEngineKind::Compute}};
+
+Devices::const_iterator find(const Devices& devices, const std::string& request) {
+    return std::find_if(devices.begin(), devices.end(), [&](const EngineDevice& d) { return d.request == request; });
+}
+
+// Whether the device of the choice, which may be any, has ray tracing pipelines. One that was named in another way may.
+bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
+    if (const auto device = find(devices, choice.device); device != devices.end()) return device->hasPipeline;
+    return std::any_of(devices.begin(), devices.end(), [](const EngineDevice& d) { return d.hasPipeline; });
+}
+
+void drawProcessor(EngineChoice& engine) {
+    combo("Engine", "std::execution policy that the workers run under", kPolicyNames, engine.policy);
+    if (engine.policy == app::Policy::Seq) return;
+    inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
+}
+
+void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
+    row("Engine",
+        "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
+        "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
+        "same");
+    std::string shown = app::nameOf(kKindNames, engine.kind);
+    if (engine.kind == GpuEngineKind::Auto && state.engine == engine) shown += " (" + state.report.engine + ")";
+    if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
+    for (const auto& [name, kind] : kKindNames) {
+        if (kind == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;
+        if (ImGui::Selectable(std::string(name).c_str(), kind == engine.kind)) engine.kind = kind;
+        if (kind == engine.kind) ImGui::SetItemDefaultFocus();
+    }
+    ImGui::EndCombo();
+}
+
+void drawDevice(EngineChoice& engine, const Devices& devices) {
+    row("Device", "Vulkan devices that can render");
+    const auto current = find(devices, engine.device);
+    const std::string shown = engine.device.empty()      ? "Best suitable"
+                              : current != devices.end() ? current->name
+                                                         : engine.device;
+    if (!ImGui::BeginCombo("##device", shown.c_str())) return;
+    const auto choose = [&](const std::string& name, const std::string& request) {
+        ImGui::PushID(request.c_str());
+        if (ImGui::Selectable(name.c_str(), request == engine.device)) {
+            engine.device = request;
+            if (!mayHavePipeline(engine, devices) && engine.kind == GpuEngineKind::Pipeline) {
+                engine.kind = GpuEngineKind::Auto;
+            }
+        }
+        ImGui::PopID();
+    };
+    choose("Best suitable", "");
+    for (const EngineDevice& device : devices) choose(device.name, device.request);
+    ImGui::EndCombo();
+}
+
+} // namespace
+
+EngineChoice servedChoice(EngineChoice choice, const Devices& devices, const app::Options& options) {
+    if (options.device.empty() && find(devices, choice.device) == devices.end()) choice.device.clear();
+    const bool isAsked = options.given.count("--engine") > 0;
+    if (!isAsked && choice.kind == GpuEngineKind::Pipeline && !mayHavePipeline(choice, devices)) {
+        choice.kind = GpuEngineKind::Auto;
+    }
+    return choice;
+}
+
+void drawEnginePanel(Gui& gui) {
+    EngineChoice& engine = gui.settings.engine;
+    if (!gui.isGpu) return drawProcessor(engine);
+    if (gui.state.canPreview) {
+        checkbox(
+            "Enable ray tracing",
+            "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
+            gui.settings.rayTracing);
+    }
+    drawKind(engine, gui.state, gui.devices);
+    drawDevice(engine, gui.devices);
+}
+
+} // namespace rt::gui

@@ -1,0 +1,164 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <thread>
+
+#include "Common/App/Platform.h"
+#include "Common/Gui/Panels/EnginePanel.h"
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Widgets.h"
+#include "Common/Image/Film.h"
+
+namespace rt::gui {
+namespace {
+
+using app::LightSampling;
+using app::LightSelection;
+using app::Named;
+using app::SamplerKind;
+using app::ShapeSampling;
+
+constexpr Named<LightSampling> kLightSamplingNames[] = {{"Light sampling with MIS", LightSampling::Mis},
+                                                        {"MIS, balance heuristic", LightSampling::MisBalance},
+                                                        {"Mixture PDF (PDF on)", LightSampling::Mixture},
+                                                        {"Scattering only (PDF off)", LightSampling::Bsdf}};
+constexpr Named<LightSelection> kSelectionNames[] = {{"By contribution", LightSelection::Contribution},
+                                                     {"By power", LightSelection::Power},
+                                                     {"Uniform", LightSelection::Uniform}};
+constexpr Named<ShapeSampling> kSphereNames[] = {{"Automatic", ShapeSampling::Auto},
+                                                 {"Cone", ShapeSampling::SolidAngle},
+                                                 {"Projected cap", ShapeSampling::Projected},
+                                                 {"Area", ShapeSampling::Area}};
+constexpr Named<ShapeSampling> kFlatNames[] = {{"Automatic", ShapeSampling::Auto},
+                                               {"Solid angle", ShapeSampling::SolidAngle},
+                                               {"Projected solid angle", ShapeSampling::Projected},
+                                               {"Area", ShapeSampling::Area}};
+constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
+                                                {"Sobol, blue noise", SamplerKind::SobolBlue},
+                                                {"Stratified", SamplerKind::Stratified},
+                                                {"Normal (independent)", SamplerKind::Independent}};
+
+// Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to others: one
+// digit too many is not to end the program.
+std::uint32_t mostWidth(double aspect) {
+    constexpr double kPixelBytes = 100;
+    const double least = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
+    const double pixels = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
+    if (pixels == 0) return image::kMaxImageSide;
+    return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), least, std::max(least, side)));
+}
+
+void drawSize(Gui& gui) {
+    app::SizeRequest& size = gui.settings.request.size;
+    const app::RenderSettings& film = gui.state.settings;
+    std::uint32_t width = size.width.value_or(film.width);
+    const std::uint32_t most = std::max(width, mostWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
+    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, most, 20)) {
+        if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
+        size.width = width;
+        size.height.reset();
+    }
+    struct Aspect {
+        const char* name;
+        double value; // 0: the scene's
+    };
+    constexpr Aspect kAspects[] = {{"As the scene", 0}, {"1:1", 1},        {"5:4", 1.25},      {"4:3", 4.0 / 3},
+                                   {"3:2", 1.5},        {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
+                                   {"3:4", 0.75},       {"9:16", 9.0 / 16}};
+    const double ratio = size.aspect                 ? *size.aspect
+                         : size.width && size.height ? static_cast<double>(*size.width) / *size.height
+                                                     : 0;
+    char current[32];
+    std::snprintf(current, sizeof current, "%.3g : 1", ratio);
+    const char* name = current;
+    for (const Aspect& aspect : kAspects)
+        if (std::abs(aspect.value - ratio) < 1e-9) name = aspect.name;
+    row("Aspect ratio", "Width by height");
+    if (ImGui::BeginCombo("##aspect", name, ImGuiComboFlags_HeightLarge)) {
+        for (const Aspect& aspect : kAspects) {
+            if (!ImGui::Selectable(aspect.name, name == aspect.name)) continue;
+            if (!size.width) size.width = film.width;
+            size.height.reset();
+            size.aspect.reset();
+            if (aspect.value > 0) size.aspect = aspect.value;
+        }
+        ImGui::EndCombo();
+    }
+}
+
+void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
+    combo("Light sampling",
+          "MIS: light and scattering are both sampled and weighted against each other. Mixture: one sample from half "
+          "light, "
+          "half scattering, the predecessors' 'PDF on'. Scattering only: light is found by chance, 'PDF off'. All have "
+          "the "
+          "same mean; their noise differs.",
+          kLightSamplingNames, settings.lightSampling);
+    if (settings.lightSampling != LightSampling::Bsdf) {
+        combo("Light selection",
+              "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or "
+              "all alike",
+              kSelectionNames, settings.lightSelection);
+        combo("Sphere lights",
+              "Where on a sphere: in the cone of directions that it is seen in, in that cone weighted by the cosine at "
+              "the surface (projected), or on its area; automatic chooses",
+              kSphereNames, settings.sphereLight);
+        combo("Quad lights",
+              "Where on a quad: in the solid angle that it is seen in, in that weighted by the cosine at the surface "
+              "(projected), or on its area; automatic chooses",
+              kFlatNames, settings.quadLight);
+        combo("Triangle lights",
+              "Where on a triangle: in the solid angle that it is seen in, in that weighted by the cosine at the "
+              "surface (projected), or on its area; automatic chooses",
+              kFlatNames, settings.triangleLight);
+    }
+    checkbox("One-sided lights",
+             "Flat lights emit from their front only, the predecessors' 'unidirectional light'. Off: from both sides. "
+             "A light whose scene says which side it emits from is not concerned",
+             request.oneSidedLights);
+}
+
+void drawFrames(app::RenderRequest& request) {
+    checkbox(
+        "Accumulate rays",
+        "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other random "
+        "numbers",
+        request.accumulate);
+    bool isAuto = request.samplesPerFrame == 0;
+    if (checkbox("Auto frames", "Samples per frame: as many as there is time for between two frames", isAuto)) {
+        request.samplesPerFrame = isAuto ? 0 : app::RenderRequest().samplesPerFrame;
+    }
+    if (isAuto) return;
+    inputCount(
+        "Samples per frame",
+        "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second is "
+        "shown while it is rendered; an old render shows four a second at most, and where the window is drawn by "
+        "software, pictures come once or twice a second",
+        request.samplesPerFrame, 1, 65536, 5);
+}
+
+} // namespace
+
+void drawRenderPanel(Gui& gui) {
+    app::RenderRequest& request = gui.settings.request;
+    app::RenderSettings& settings = request.settings;
+    drawEnginePanel(gui);
+    inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
+    inputCount("Depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawSize(gui);
+    drawLights(settings, request);
+    combo("Pixel sampling",
+          "Where random numbers come from. Sobol: well spread in many dimensions. Stratified: one in each cell of a "
+          "grid. "
+          "Normal: independent.",
+          kSamplerNames, settings.sampler);
+    drawFrames(request);
+    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
+    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
+    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
+    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
+               settings.replicates, 1, 1024, 1);
+}
+
+} // namespace rt::gui

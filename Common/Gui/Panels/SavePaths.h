@@ -1,0 +1,25 @@
+// What is saved to which files.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/GuiSettings.h"
+#include "Common/App/Interactive/InteractiveState.h"
+#include "Common/App/Options/Options.h"
+
+namespace rt::gui {
+
+// `folder`, or where that is empty the user's pictures folder or home.
+std::filesystem::path saveFolder(const std::string& folder);
+
+// For pictures without a name: a PNG and an EXR in saveFolder(folder); no such file exists yet.
+std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state);
+
+// What the program was asked for when it was started.
+app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings);
+// The same, if it is to be written when the first render ends.
+std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings);
+
+} // namespace rt::gui

@@ -1,0 +1,23 @@
+#include "Common/Scene/Builtin/StandIns.h"
+
+#include <system_error>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Paths.h"
+
+namespace rt::scene {
+
+std::optional<std::filesystem::path> locateAsset(const std::string& file, const std::string& standIn,
+                                                 const CompileOptions& options, const std::string& id) {
+    if (!standIn.empty() && options.generatedAssets) return std::nullopt;
+    const std::filesystem::path path(file);
+    std::error_code ignored;
+    if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored)) return path;
+    if (path.is_relative() && !path.empty())
+        if (const auto asset = findAsset(path)) return asset;
+    if (standIn.empty())
+        throw InputError(id + ": " + file + ": no such file, neither beside the scene nor among the assets");
+    return std::nullopt;
+}
+
+} // namespace rt::scene

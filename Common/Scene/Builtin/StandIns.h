@@ -1,0 +1,27 @@
+// Generated substitutes for assets that cannot be shipped: planet maps and a statue. The same on every machine.
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+// "earth", "earth-night", "mars", "venus": latitude-longitude maps, 1024 x 512, sRGB.
+const std::vector<std::string>& planetMapNames();
+TexelData makePlanetMap(const std::string& name); // one of the names
+
+// "statue": a winged figure on the size and place of the Stanford Lucy model (about 870 units high along +Y from y =
+// 15, facing -X), a closed surface of about 450 000 triangles with normals.
+const std::vector<std::string>& meshStandInNames();
+MeshData makeMeshStandIn(const std::string& name); // one of the names
+
+// Where a file named by scene `id` is: its full path, or an asset. Nothing: the stand-in takes over, because there is
+// no such file or the options prefer what is generated. Throws InputError for a missing file without stand-in.
+std::optional<std::filesystem::path> locateAsset(const std::string& file, const std::string& standIn,
+                                                 const CompileOptions& options, const std::string& id);
+
+} // namespace rt::scene

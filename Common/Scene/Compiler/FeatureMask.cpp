@@ -1,0 +1,81 @@
+#include "Common/Scene/Compiler/FeatureMask.h"
+
+namespace rt::scene {
+
+namespace {
+
+std::uint32_t ofMaterial(const shared::Material& material) {
+    std::uint32_t mask = 0;
+    switch (material.kind) {
+        case shared::kMaterialLambertian:
+            mask = shared::kFeatureLambertian;
+            break;
+        case shared::kMaterialMetal:
+            mask = shared::kFeatureMetal | (material.fuzz > shared::kMirrorFuzz ? shared::kFeatureFuzz : 0u);
+            break;
+        case shared::kMaterialDielectric:
+            mask = shared::kFeatureDielectric;
+            break;
+        default:
+            break;
+    }
+    const shared::vec3 e = material.emission;
+    return e.x > 0 || e.y > 0 || e.z > 0 ? mask | shared::kFeatureEmissive : mask;
+}
+
+std::uint32_t ofTexture(const shared::Texture& texture) {
+    switch (texture.kind) {
+        case shared::kTextureSolid:
+            return 0;
+        case shared::kTextureChecker:
+            return shared::kFeatureChecker;
+        case shared::kTextureImage:
+            return shared::kFeatureImages;
+        default:
+            return shared::kFeatureNoise;
+    }
+}
+
+std::uint32_t ofLight(const shared::Light& light) {
+    switch (light.kind) {
+        case shared::kLightSphere:
+            return shared::kFeatureSphereLights;
+        case shared::kLightQuad:
+            return shared::kFeatureQuadLights;
+        case shared::kLightTriangle:
+            return shared::kFeatureTriangleLights;
+        case shared::kLightEllipsoid:
+            return shared::kFeatureEllipsoidLights;
+        default:
+            return 0;
+    }
+}
+
+std::uint32_t ofSky(const shared::SceneGlobals& globals) {
+    if (globals.skyKind == shared::kSkyBlack) return 0;
+    return shared::kFeatureSky | (globals.skyKind == shared::kSkyImage ? shared::kFeatureSkyImage : 0u);
+}
+
+} // namespace
+
+std::uint32_t featureMask(const CompiledScene& scene) {
+    std::uint32_t mask = ofSky(scene.globals);
+    const auto need = [&mask](bool needed, std::uint32_t bits) { mask |= needed ? bits : 0u; };
+    need(!scene.spheres.empty(), shared::kFeatureSpheres);
+    need(!scene.sphereMotions.empty(), shared::kFeatureMovingSpheres | shared::kFeatureMotion);
+    need(!scene.quads.empty(), shared::kFeatureQuads);
+    need(!scene.triangles.empty(), shared::kFeatureTriangles);
+    need(!scene.instances.empty(), shared::kFeatureInstances);
+    need(!scene.media.empty(), shared::kFeatureVolumes);
+    need(scene.camera.defocusAngle > 0, shared::kFeatureThinLens);
+    need(scene.globals.lightCount > 0, shared::kFeatureLights);
+    need(scene.globals.lightCount > shared::kContributionLights, shared::kFeatureManyLights);
+    need(scene.globals.targetCount > 0, shared::kFeatureTargets);
+    need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
+    for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
+    for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
+    for (const shared::Light& light : scene.lights) mask |= ofLight(light);
+    return mask;
+}
+
+} // namespace rt::scene

@@ -1,0 +1,41 @@
+// Materials of the flat scene, made when a primitive first refers to them: what nothing uses leaves no trace in the
+// features.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "Common/Scene/Compiler/TextureTable.h"
+
+namespace rt::scene {
+
+class MaterialTable {
+  public:
+    MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures);
+
+    // The description behind a name; throws InputError when there is none.
+    const MaterialDesc& find(const std::string& name) const;
+    // The record of a description, which must stay where it is.
+    std::uint32_t index(const MaterialDesc& desc);
+
+    // Whether texture coordinates matter to the material.
+    bool mayShowImage(const MaterialDesc& desc) const;
+
+    // Mean emitted radiance of a record.
+    const glm::dvec3& meanEmission(std::uint32_t material) const { return meanEmission_[material]; }
+
+  private:
+    const SceneDesc& desc_;
+    const CompileOptions& options_;
+    CompiledScene& out_;
+    TextureTable& textures_;
+    std::unordered_map<const MaterialDesc*, std::uint32_t> indices_;
+    std::vector<glm::dvec3> meanEmission_;
+};
+
+inline bool emits(const MaterialDesc& material) {
+    return material.emission.x > 0 || material.emission.y > 0 || material.emission.z > 0;
+}
+
+} // namespace rt::scene

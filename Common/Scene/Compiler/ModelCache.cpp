@@ -1,0 +1,50 @@
+#include "Common/Scene/Compiler/ModelCache.h"
+
+#include "Common/Core/Error.h"
+#include "Common/Scene/Builtin/StandIns.h"
+
+namespace rt::scene {
+
+ModelCache::ModelCache(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures,
+                       const MaterialTable& materials)
+    : desc_(desc), options_(options), out_(out), textures_(textures), materials_(materials) {}
+
+const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
+    const std::string key = source.file + '\n' + source.standIn + (withMaterials ? "\n+" : "\n-");
+    const auto [entry, isNew] = models_.try_emplace(key);
+    if (!isNew) return entry->second;
+    if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id)) {
+        entry->second = loadObj(*path, withMaterials, source.file + "/");
+        textures_.add(entry->second.textures);
+    } else {
+        out_.notices.push_back(source.file + ": a generated mesh stands in");
+        entry->second.parts.push_back({{}, makeMeshStandIn(source.standIn)});
+    }
+    return entry->second;
+}
+
+std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
+    if (const auto* data = std::get_if<MeshData>(&object.source)) return {{data, &materials_.find(object.material)}};
+    const bool hasOwn = object.material.empty();
+    const ObjModel& model = this->model(std::get<MeshFile>(object.source), hasOwn);
+    std::vector<Part> parts;
+    for (const ObjPart& part : model.parts) {
+        const MaterialDesc* material = &plain_;
+        if (!hasOwn)
+            material = &materials_.find(object.material);
+        else if (!part.material.empty())
+            material = &model.materials.at(part.material);
+        parts.push_back({&part.mesh, material});
+    }
+    return parts;
+}
+
+std::size_t ModelCache::triangleCount(const MeshDesc& object) {
+    std::size_t count = 0;
+    if (const auto* data = std::get_if<MeshData>(&object.source)) return data->triangles.size();
+    for (const ObjPart& part : model(std::get<MeshFile>(object.source), object.material.empty()).parts)
+        count += part.mesh.triangles.size();
+    return count;
+}
+
+} // namespace rt::scene

@@ -1,0 +1,39 @@
+// Meshes that objects refer to, each file read once.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "Common/Scene/Compiler/MaterialTable.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Compiler/TextureTable.h"
+#include "Common/Scene/Obj/ObjLoader.h"
+
+namespace rt::scene {
+
+class ModelCache {
+  public:
+    ModelCache(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures,
+               const MaterialTable& materials);
+
+    struct Part {
+        const MeshData* mesh;
+        const MaterialDesc* material;
+    };
+    // Surfaces of an object with their own materials; everything stays valid as long as the cache. Throws InputError.
+    std::vector<Part> parts(const MeshDesc& object);
+    std::size_t triangleCount(const MeshDesc& object);
+
+  private:
+    const ObjModel& model(const MeshFile& source, bool withMaterials);
+
+    const SceneDesc& desc_;
+    const CompileOptions& options_;
+    CompiledScene& out_;
+    TextureTable& textures_;
+    const MaterialTable& materials_;
+    const MaterialDesc plain_ = plainMaterial();
+    std::map<std::string, ObjModel> models_;
+};
+
+} // namespace rt::scene

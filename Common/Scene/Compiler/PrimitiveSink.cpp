@@ -1,0 +1,316 @@
+#include "Common/Scene/Compiler/PrimitiveSink.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+#include "Common/Scene/Compiler/LightTable.h"
+#include "Common/Scene/Compiler/MeshOrder.h"
+#include "Common/Shared/Shape/Ellipsoids.h"
+
+namespace rt::scene {
+
+namespace {
+
+// Fourth powers of lengths stay finite and normal in float; what lies outside counts as degenerate.
+constexpr double kMaxCoordinate = 4e9;
+constexpr double kMinRadius = 1e-9;
+constexpr double kMinArea = 1e-18;
+
+bool representable(const glm::dvec3& v) {
+    return std::abs(v.x) <= kMaxCoordinate && std::abs(v.y) <= kMaxCoordinate && std::abs(v.z) <= kMaxCoordinate;
+}
+
+// Twice the vector area of the triangle of vertices as kernels see them; zero when there is none.
+glm::dvec3 doubleArea(const shared::vec3& a, const shared::vec3& b, const shared::vec3& c) {
+    const glm::dvec3 normal = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
+    const bool usable = representable(a) && representable(b) && representable(c) && glm::length(normal) >= 2 * kMinArea;
+    return usable ? normal : glm::dvec3(0);
+}
+
+bool isExcluded(Part part, bool isShareable) {
+    return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
+}
+
+// Whether single precision inverts the map of an ellipsoid, as its sampling does. Long ones whose axes the map does not keep at
+// right angles take too many digits.
+bool isInvertible(const shared::Light& light) {
+    const shared::Ellipsoid e = shared::makeEllipsoid(light.edgeU, light.edgeV, light.normal);
+    const double determinant = glm::determinant(glm::dmat3(light.edgeU, light.edgeV, light.normal));
+    if (!(std::abs(double(e.volume) / std::abs(determinant) - 1) < 1e-3)) return false;
+    for (int axis = 0; axis < 3; ++axis) {
+        shared::vec3 unit(0.0f);
+        unit[axis] = 1.0f;
+        if (!(glm::length(shared::toSphere(e, shared::fromSphere(e, unit)) - unit) < 1e-3f)) return false;
+    }
+    return true;
+}
+
+// The factor by which a map scales a sphere, when the image is a sphere again; `isOriented`: its texture shows a
+// rotation.
+std::optional<double> sphereScale(const Affine& map, bool isOriented) {
+    const std::optional<double> scale = uniformScale(map);
+    if (!scale || !isOriented) return scale;
+    return map.linear == glm::dmat3(map.linear[0][0]) && map.linear[0][0] > 0 ? scale : std::nullopt;
+}
+
+} // namespace
+
+// What all spheres of one object have in common.
+struct PrimitiveSink::SphereFrame {
+    Affine map;
+    std::optional<double> scale; // of the map, when it leaves spheres spheres
+    const MaterialDesc& material;
+    bool light;
+    bool isOriented;  // they show how they are turned
+    bool isShareable; // unless they move
+    const Placement& at;
+};
+
+template <typename Spheres>
+PrimitiveSink::SphereFrame PrimitiveSink::frameOf(const Spheres& object, const Placement& at) const {
+    const MaterialDesc& own = materials_.find(object.material);
+    const MaterialDesc& material = at.material ? *at.material : own;
+    const bool isOriented = materials_.mayShowImage(own) || materials_.mayShowImage(material);
+    const Affine map = at.outer * at.local;
+    const bool isShareable = !emits(own) && sphereScale(at.local, isOriented);
+    return {map, sphereScale(map, isOriented), material, object.light, isOriented, isShareable, at};
+}
+
+const MaterialDesc& PrimitiveSink::materialOf(const std::string& name, const Placement& at) const {
+    return at.material ? *at.material : materials_.find(name);
+}
+
+bool PrimitiveSink::isLight(std::uint32_t material, bool wanted) const {
+    return wanted && luminance(materials_.meanEmission(material)) > 0;
+}
+
+std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t material) {
+    light.material = material;
+    light.emission = shared::vec3(materials_.meanEmission(material));
+    light.sides = out_.materials[material].emissionSides;
+    out_.lights.push_back(light);
+    return static_cast<std::uint32_t>(out_.lights.size() - 1);
+}
+
+// ---- spheres -------------------------------------------------------------------------------------------------------
+
+void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
+    const glm::dvec3 motion = object.centerEnd ? *object.centerEnd - object.center : glm::dvec3(0);
+    sphere(object.center, motion, object.radius, frameOf(object, at));
+}
+
+void PrimitiveSink::add(const SphereSetDesc& object, const Placement& at) {
+    const SphereFrame frame = frameOf(object, at);
+    for (const glm::dvec3& center : object.centers) sphere(center, glm::dvec3(0), object.radius, frame);
+}
+
+void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius,
+                           const SphereFrame& frame) {
+    const bool isMoving = motion != glm::dvec3(0);
+    if (isExcluded(frame.at.part, frame.isShareable && !isMoving)) return;
+    interruptionPoint();
+    const glm::dvec3 c = frame.map.point(center), m = frame.map.vector(motion);
+    const double r = frame.scale ? radius * *frame.scale : radius;
+    if (!representable(c) || !representable(m) || !(r >= kMinRadius && r <= kMaxCoordinate)) {
+        ++dropped_.spheres;
+        return;
+    }
+    if (!frame.scale) {
+        if (isMoving)
+            throw InputError(out_.id + ": " + frame.at.place +
+                             ": a moving sphere can be scaled uniformly only, and not be turned if it shows an image");
+        ellipsoid(frame.map * translation(center) * scaling(glm::dvec3(radius)), frame);
+        return;
+    }
+    const double largest = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+    dropped_.tinySpheres += r < 8 * shared::kEpsilon * largest;
+
+    shared::Sphere record{};
+    record.center = shared::vec3(c);
+    record.radius = static_cast<float>(r);
+    record.material = materials_.index(frame.material);
+    record.light = shared::kNone;
+    if (isLight(record.material, frame.light))
+        record.light = appendLight(sphereLight(record, shared::vec3(m)), record.material);
+    if (isMoving && out_.sphereMotions.empty()) out_.sphereMotions.resize(out_.spheres.size());
+    if (isMoving || !out_.sphereMotions.empty()) out_.sphereMotions.emplace_back(m);
+    out_.spheres.push_back(record);
+    bounds_.add(c, r);
+    bounds_.add(c + m, r);
+}
+
+void PrimitiveSink::ellipsoid(Affine toWorld, const SphereFrame& frame) {
+    if (!inverse(toWorld)) {
+        ++dropped_.spheres;
+        return;
+    }
+    const std::uint32_t material = materials_.index(frame.material);
+    std::uint32_t light = shared::kNone;
+    if (isLight(material, frame.light)) {
+        const glm::dmat3 axes = orthogonalColumns(toWorld.linear);
+        for (int i = 0; i < 3; ++i) {
+            const double length = glm::length(axes[i]);
+            if (length >= kMinRadius && length <= kMaxCoordinate) continue;
+            ++dropped_.spheres;
+            return;
+        }
+        // The same surface, but for how it is turned.
+        if (!frame.isOriented) toWorld.linear = axes;
+        const shared::Light record = ellipsoidLight(toWorld);
+        if (isInvertible(record))
+            light = appendLight(record, material);
+        else
+            ++unsampledEllipsoids_;
+    }
+    ellipsoids_.push_back({toWorld, material, light});
+}
+
+// ---- quads ---------------------------------------------------------------------------------------------------------
+
+void PrimitiveSink::add(const QuadDesc& desc, const Placement& at) {
+    if (isExcluded(at.part, !emits(materials_.find(desc.material)))) return;
+    quad(desc.corner, desc.edgeU, desc.edgeV, materialOf(desc.material, at), desc.light, at.outer * at.local);
+}
+
+void PrimitiveSink::add(const BoxDesc& box, const Placement& at) {
+    if (isExcluded(at.part, !emits(materials_.find(box.material)))) return;
+    const glm::dvec3 a = box.min, b = box.max, size = b - a;
+    const glm::dvec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z);
+    const MaterialDesc& material = materialOf(box.material, at);
+    const Affine map = at.outer * at.local;
+    const auto face = [&](const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
+        quad(corner, u, v, material, box.light, map);
+    };
+    face({a.x, a.y, b.z}, x, y);
+    face({b.x, a.y, b.z}, -z, y);
+    face({b.x, a.y, a.z}, -x, y);
+    face({a.x, a.y, a.z}, z, y);
+    face({a.x, b.y, b.z}, x, -z);
+    face({a.x, a.y, a.z}, x, z);
+}
+
+void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v,
+                         const MaterialDesc& material, bool light, const Affine& map) {
+    interruptionPoint();
+    shared::Quad record{};
+    record.corner = shared::vec3(map.point(corner));
+    record.edgeU = shared::vec3(map.vector(u));
+    record.edgeV = shared::vec3(map.vector(v));
+    const glm::dvec3 normal = doubleArea(shared::vec3(0), record.edgeU, record.edgeV);
+    if (!representable(record.corner) || normal == glm::dvec3(0)) {
+        ++dropped_.quads;
+        return;
+    }
+    record.material = materials_.index(material);
+    if (map.mirrors() && materials_.mayShowImage(material)) {
+        // Its front faces the mirrored way while its texture keeps its directions: no parallelogram says both.
+        const MeshData halves{{corner, corner + u, corner + v, corner + u + v},
+                              {},
+                              {{0, 0}, {1, 0}, {0, 1}, {1, 1}},
+                              {{0, 1, 3}, {0, 3, 2}}};
+        Placement placement;
+        placement.outer = map;
+        add(halves, material, light, placement);
+        return;
+    }
+    if (map.mirrors()) std::swap(record.edgeU, record.edgeV);
+    record.normal = shared::vec3(glm::normalize(map.mirrors() ? -normal : normal));
+    record.light = isLight(record.material, light) ? appendLight(quadLight(record), record.material) : shared::kNone;
+    out_.quads.push_back(record);
+    const glm::dvec3 c = record.corner, e = record.edgeU, f = record.edgeV;
+    for (const glm::dvec3& vertex : {c, c + e, c + f, c + e + f}) bounds_.add(vertex);
+}
+
+// ---- meshes --------------------------------------------------------------------------------------------------------
+
+void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
+    if (isExcluded(at.part, !emits(own))) return;
+    const Affine map = at.outer * at.local;
+    std::vector<shared::vec3> positions(data.positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
+
+    std::vector<glm::uvec3> triangles;
+    triangles.reserve(data.triangles.size());
+    for (const glm::uvec3& t : data.triangles) {
+        interruptionPoint();
+        if (std::max({t.x, t.y, t.z}) >= positions.size())
+            throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
+                             std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
+        if (doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0))
+            ++dropped_.triangles;
+        else
+            triangles.push_back(map.mirrors() ? glm::uvec3(t.x, t.z, t.y) : t);
+    }
+    if (triangles.empty()) return;
+    orderAlongCurve(positions, triangles);
+
+    shared::Mesh mesh{};
+    mesh.material = materials_.index(at.material ? *at.material : own);
+    mesh.firstTriangle = static_cast<std::uint32_t>(out_.triangles.size());
+    mesh.triangleCount = static_cast<std::uint32_t>(triangles.size());
+    mesh.firstVertex = static_cast<std::uint32_t>(out_.positions.size());
+    mesh.firstNormal = data.normals.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.normals.size());
+    mesh.firstUv = data.uvs.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.uvs.size());
+    const bool hasLights = isLight(mesh.material, light);
+    mesh.firstLight = hasLights ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
+    const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
+
+    // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
+    std::vector<std::uint32_t> renamed(positions.size(), shared::kNone);
+    for (const glm::uvec3& t : triangles) {
+        interruptionPoint();
+        for (int corner = 0; corner < 3; ++corner) {
+            std::uint32_t& name = renamed[t[corner]];
+            if (name == shared::kNone) {
+                name = static_cast<std::uint32_t>(out_.positions.size());
+                out_.positions.push_back(positions[t[corner]]);
+                bounds_.add(positions[t[corner]]);
+                if (!data.uvs.empty()) out_.uvs.emplace_back(data.uvs[t[corner]]);
+                if (!data.normals.empty()) {
+                    glm::dvec3 normal = normalMap * data.normals[t[corner]];
+                    if (!(glm::dot(normal, normal) > 0) || !representable(normal))
+                        normal = doubleArea(positions[t.x], positions[t.y], positions[t.z]);
+                    out_.normals.emplace_back(glm::normalize(normal));
+                }
+            }
+        }
+        out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
+        out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
+        if (hasLights) appendLight(triangleLight(positions[t.x], positions[t.y], positions[t.z]), mesh.material);
+    }
+    out_.meshes.push_back(mesh);
+}
+
+// ---- totals --------------------------------------------------------------------------------------------------------
+
+Bounds PrimitiveSink::finishGeometry() {
+    shared::Geometry geometry{};
+    if (!out_.geometries.empty()) {
+        const shared::Geometry& last = out_.geometries.back();
+        geometry.firstSphere = last.firstSphere + last.sphereCount;
+        geometry.firstQuad = last.firstQuad + last.quadCount;
+        geometry.firstTriangle = last.firstTriangle + last.triangleCount;
+    }
+    geometry.sphereCount = static_cast<std::uint32_t>(out_.spheres.size()) - geometry.firstSphere;
+    geometry.quadCount = static_cast<std::uint32_t>(out_.quads.size()) - geometry.firstQuad;
+    geometry.triangleCount = static_cast<std::uint32_t>(out_.triangles.size()) - geometry.firstTriangle;
+    out_.geometries.push_back(geometry);
+    const Bounds bounds = bounds_;
+    bounds_ = {};
+    return bounds;
+}
+
+void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
+    const auto note = [&](std::uint64_t count, const char* text) {
+        if (count > 0) notices.push_back(std::to_string(count) + text);
+    };
+    note(dropped_.spheres, " spheres without a usable centre or radius were dropped");
+    note(dropped_.quads, " quads without area were dropped");
+    note(dropped_.triangles, " triangles without area were dropped");
+    note(unsampledEllipsoids_, " emissive spheres are scaled so unequally that light sampling leaves them out");
+    note(dropped_.tinySpheres, " spheres are smaller than the spacing of single-precision numbers at their place");
+}
+
+} // namespace rt::scene

@@ -1,0 +1,76 @@
+// Turns authored objects into primitives of the flat scene: transforms in double, one rounding to float, nothing
+// degenerate, lights for what emits.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/Scene/Affine.h"
+#include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/Compiler/MaterialTable.h"
+
+namespace rt::scene {
+
+// What is shared by all instances of a prototype: static surfaces that do not emit, spheres that are spheres in its
+// space. The rest goes to the world for each instance.
+enum class Part { All, Shared, Rest };
+
+// How an object stands in what is being filled.
+struct Placement {
+    Affine outer;                           // prototype to target space
+    Affine local;                           // object to prototype
+    Part part = Part::All;                  // emit only these
+    const MaterialDesc* material = nullptr; // replaces the object's own unless null
+    std::string place;                      // JSON path, for errors
+};
+
+// What is no sphere in the world, or one whose texture is turned: the unit sphere under an affine map.
+struct Ellipsoid {
+    Affine toWorld;
+    std::uint32_t material;
+    std::uint32_t light; // kNone: it is none
+};
+
+class PrimitiveSink {
+  public:
+    PrimitiveSink(CompiledScene& out, MaterialTable& materials) : out_(out), materials_(materials) {}
+
+    void add(const SphereDesc& sphere, const Placement& at);
+    void add(const SphereSetDesc& spheres, const Placement& at);
+    void add(const QuadDesc& quad, const Placement& at);
+    void add(const BoxDesc& box, const Placement& at);
+    // One surface of a mesh with one material.
+    void add(const MeshData& mesh, const MaterialDesc& material, bool light, const Placement& at);
+
+    // Everything added since the last call as a geometry, with its bounds. The world, the first one, may have lights.
+    Bounds finishGeometry();
+
+    const std::vector<Ellipsoid>& ellipsoids() const { return ellipsoids_; }
+    // One line for each kind of thing that was dropped or is doubtful.
+    void appendNotices(std::vector<std::string>& notices) const;
+
+  private:
+    struct SphereFrame;
+    template <typename Spheres>
+    SphereFrame frameOf(const Spheres& object, const Placement& at) const;
+    void sphere(const glm::dvec3& center, const glm::dvec3& motion, double radius, const SphereFrame& frame);
+    void ellipsoid(Affine toWorld, const SphereFrame& frame);
+    void quad(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const MaterialDesc& material,
+              bool light, const Affine& map);
+    const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
+    bool isLight(std::uint32_t material, bool wanted) const;
+    std::uint32_t appendLight(shared::Light light, std::uint32_t material);
+
+    CompiledScene& out_;
+    MaterialTable& materials_;
+    Bounds bounds_;
+    std::vector<Ellipsoid> ellipsoids_;
+    struct {
+        std::uint64_t spheres = 0, quads = 0, triangles = 0, tinySpheres = 0;
+    } dropped_;
+    std::uint64_t unsampledEllipsoids_ = 0;
+};
+
+} // namespace rt::scene

@@ -1,0 +1,232 @@
+#include "Common/Scene/Compiler/SceneCompiler.h"
+
+#include <string>
+
+#include "Common/Scene/Compiler/FeatureMask.h"
+#include "Common/Scene/Compiler/InstancePlan.h"
+#include "Common/Scene/Compiler/LightTable.h"
+#include "Common/Scene/Compiler/MaterialTable.h"
+#include "Common/Scene/Compiler/ModelCache.h"
+#include "Common/Scene/Compiler/PrimitiveSink.h"
+#include "Common/Scene/Compiler/SceneHash.h"
+#include "Common/Scene/Compiler/TextureTable.h"
+
+namespace rt::scene {
+
+namespace {
+
+void setRows(const Affine& map, shared::vec4 (&rows)[3]) {
+    for (int row = 0; row < 3; ++row)
+        rows[row] = shared::vec4(map.linear[0][row], map.linear[1][row], map.linear[2][row], map.offset[row]);
+}
+
+class Compiler {
+  public:
+    Compiler(const SceneDesc& desc, const CompileOptions& options)
+        : desc_(desc),
+          camera_(options.camera.value_or(desc.camera)),
+          textures_(desc, options, *out_),
+          materials_(desc, options, *out_, textures_),
+          models_(desc, options, *out_, textures_, materials_),
+          sink_(*out_, materials_) {}
+
+    std::shared_ptr<const CompiledScene> run() {
+        out_->id = desc_.id;
+        out_->title = desc_.title;
+        out_->camera = camera_;
+        out_->defaults = desc_.render;
+        out_->origin = desc_.camera.lookFrom;
+        out_->globals.origin = shared::vec3(out_->origin);
+        const Affine toWorld = translation(-out_->origin);
+        const InstancePlan plan(desc_, materials_, models_, toWorld);
+        emitWorld(plan, toWorld);
+        emitSharedGeometries(plan);
+        emitEllipsoids();
+        emitSky();
+        finishLights(*out_);
+        for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);
+        finish();
+        return out_;
+    }
+
+  private:
+    // ---- objects ----------------------------------------------------------------------------------------------------
+
+    void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
+        Placement at = parent;
+        for (std::size_t i = 0; i < objects.size(); ++i) {
+            at.place = parent.place + "/" + std::to_string(i);
+            std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
+        }
+    }
+
+    template <typename Surface>
+    void emitOne(const Surface& surface, const Placement& at) {
+        sink_.add(surface, at);
+    }
+    void emitOne(const MeshDesc& object, const Placement& at) {
+        for (const ModelCache::Part& part : models_.parts(object))
+            sink_.add(*part.mesh, *part.material, object.light, at);
+    }
+    void emitOne(const GroupDesc& group, Placement at) {
+        at.local = at.local * toAffine(group.transform);
+        at.place += "/objects";
+        emit(group.objects, at);
+    }
+    void emitOne(const InstanceDesc&, const Placement&) {} // the plan has them
+
+    void emitOne(const MediumDesc& desc, const Placement& at) {
+        if (at.part == Part::Shared) return;
+        shared::Medium medium{};
+        Affine boundary = at.outer * at.local;
+        if (const auto* sphere = std::get_if<SphereBoundary>(&desc.boundary)) {
+            medium.shape = shared::kMediumSphere;
+            boundary = boundary * translation(sphere->center) * scaling(glm::dvec3(sphere->radius));
+        } else {
+            const auto& box = std::get<BoxBoundary>(desc.boundary);
+            medium.shape = shared::kMediumBox;
+            boundary = boundary * translation(0.5 * (box.min + box.max)) * scaling(0.5 * (box.max - box.min));
+        }
+        const std::optional<Affine> toLocal = inverse(boundary);
+        if (!toLocal || !(desc.density > 0)) {
+            ++droppedMedia_;
+            return;
+        }
+        setRows(*toLocal, medium.toLocal);
+        medium.extinction = static_cast<float>(desc.density);
+        medium.texture = textures_.resolve(desc.albedo, medium.albedo);
+        out_->media.push_back(medium);
+        Bounds cube;
+        cube.add(glm::dvec3(0), 1);
+        bounds_.add(cube, boundary);
+    }
+
+    // ---- geometries and instances -----------------------------------------------------------------------------------
+
+    void emitWorld(const InstancePlan& plan, const Affine& toWorld) {
+        emit(desc_.objects, {toWorld, {}, Part::All, nullptr, "/objects"});
+        for (const auto& [name, prototype] : plan.prototypes())
+            for (const Occurrence& occurrence : prototype.occurrences) {
+                const Part part = prototype.isShared && !occurrence.isBaked() ? Part::Rest : Part::All;
+                emit(*prototype.objects, {occurrence.toWorld, {}, part, occurrence.material, "/prototypes/" + name});
+            }
+        bounds_.add(sink_.finishGeometry(), {});
+    }
+
+    void emitSharedGeometries(const InstancePlan& plan) {
+        for (const auto& [name, prototype] : plan.prototypes()) {
+            if (!prototype.isShared) continue;
+            emit(*prototype.objects, {{}, {}, Part::Shared, nullptr, "/prototypes/" + name});
+            const Bounds bounds = sink_.finishGeometry();
+            if (bounds.empty()) {
+                out_->geometries.pop_back();
+                continue;
+            }
+            for (const Occurrence& occurrence : prototype.occurrences)
+                if (!occurrence.isBaked())
+                    addInstance(occurrence.toWorld, bounds,
+                                occurrence.material ? materials_.index(*occurrence.material) : shared::kNone,
+                                shared::kNone);
+        }
+    }
+
+    void emitEllipsoids() {
+        if (sink_.ellipsoids().empty()) return;
+        shared::Sphere sphere{};
+        sphere.radius = 1;
+        sphere.material = sink_.ellipsoids().front().material;
+        sphere.light = shared::kNone;
+        out_->spheres.push_back(sphere);
+        if (!out_->sphereMotions.empty()) out_->sphereMotions.emplace_back(0.0f);
+        sink_.finishGeometry();
+        Bounds cube;
+        cube.add(glm::dvec3(0), 1);
+        for (const Ellipsoid& ellipsoid : sink_.ellipsoids())
+            addInstance(ellipsoid.toWorld, cube, ellipsoid.material, ellipsoid.light);
+    }
+
+    // Of the latest geometry.
+    void addInstance(const Affine& toWorld, const Bounds& bounds, std::uint32_t material, std::uint32_t light) {
+        const std::optional<Affine> toObject = inverse(toWorld);
+        if (!toObject) {
+            ++droppedInstances_;
+            return;
+        }
+        shared::Instance instance{};
+        setRows(toWorld, instance.toWorld);
+        setRows(*toObject, instance.toObject);
+        instance.geometry = static_cast<std::uint32_t>(out_->geometries.size() - 1);
+        instance.material = material;
+        instance.light = light;
+        out_->instances.push_back(instance);
+        bounds_.add(bounds, toWorld);
+    }
+
+    void emitSky() {
+        shared::SceneGlobals& globals = out_->globals;
+        globals.skyImage = globals.skyLight = shared::kNone;
+        if (const auto* constant = std::get_if<ConstantBackground>(&desc_.background)) {
+            globals.skyKind = constant->color == glm::dvec3(0) ? shared::kSkyBlack : shared::kSkyConstant;
+            globals.skyTop = globals.skyBottom = shared::vec3(constant->color);
+        } else if (const auto* gradient = std::get_if<GradientBackground>(&desc_.background)) {
+            globals.skyKind = shared::kSkyGradient;
+            globals.skyTop = shared::vec3(gradient->top);
+            globals.skyBottom = shared::vec3(gradient->bottom);
+        } else {
+            const auto& sky = std::get<ImageBackground>(desc_.background);
+            globals.skyImage = textures_.image(sky.file, {});
+            globals.skyTop = shared::vec3(sky.factor);
+            globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
+        }
+    }
+
+    void addTarget(const TargetDesc& target, const Affine& toWorld) {
+        if (const auto* boundary = std::get_if<SphereBoundary>(&target.shape)) {
+            shared::Sphere sphere{};
+            sphere.center = shared::vec3(toWorld.point(boundary->center));
+            sphere.radius = static_cast<float>(boundary->radius);
+            appendTarget(sphereLight(sphere, shared::vec3(0)), *out_);
+        } else {
+            const auto& desc = std::get<QuadDesc>(target.shape);
+            shared::Quad quad{};
+            quad.corner = shared::vec3(toWorld.point(desc.corner));
+            quad.edgeU = shared::vec3(desc.edgeU);
+            quad.edgeV = shared::vec3(desc.edgeV);
+            quad.normal = shared::vec3(glm::normalize(glm::cross(desc.edgeU, desc.edgeV)));
+            appendTarget(quadLight(quad), *out_);
+        }
+    }
+
+    void finish() {
+        shared::SceneGlobals& globals = out_->globals;
+        globals.mediumCount = static_cast<std::uint32_t>(out_->media.size());
+        globals.instanceCount = static_cast<std::uint32_t>(out_->instances.size());
+        globals.sceneRadius = static_cast<float>(bounds_.radius());
+        out_->features = featureMask(*out_);
+        out_->hash = sceneHash(*out_);
+        sink_.appendNotices(out_->notices);
+        if (droppedMedia_ > 0)
+            out_->notices.push_back(std::to_string(droppedMedia_) + " media without volume or density were dropped");
+        if (droppedInstances_ > 0)
+            out_->notices.push_back(std::to_string(droppedInstances_) + " instances without volume were dropped");
+    }
+
+    const SceneDesc& desc_;
+    const CameraDesc camera_;
+    std::shared_ptr<CompiledScene> out_ = std::make_shared<CompiledScene>();
+    TextureTable textures_;
+    MaterialTable materials_;
+    ModelCache models_;
+    PrimitiveSink sink_;
+    Bounds bounds_; // of everything, in world space
+    std::uint64_t droppedMedia_ = 0;
+    std::uint64_t droppedInstances_ = 0;
+};
+
+} // namespace
+
+std::shared_ptr<const CompiledScene> compileScene(const SceneDesc& desc, const CompileOptions& options) {
+    return Compiler(desc, options).run();
+}
+
+} // namespace rt::scene

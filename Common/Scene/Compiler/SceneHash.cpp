@@ -1,0 +1,67 @@
+#include "Common/Scene/Compiler/SceneHash.h"
+
+#include <cstring>
+#include <type_traits>
+
+namespace rt::scene {
+
+namespace {
+
+class Hasher {
+  public:
+    void word(std::uint64_t value) {
+        state_ = (state_ ^ value) * 0x9e3779b97f4a7c15u;
+        state_ ^= state_ >> 32;
+    }
+    // Records consist of 32-bit fields only, so they have no padding.
+    template <typename Record>
+    void array(const std::vector<Record>& records) {
+        static_assert(std::is_trivially_copyable_v<Record> && alignof(Record) == 4 && sizeof(Record) % 4 == 0);
+        word(records.size());
+        bytes(records.data(), records.size() * sizeof(Record));
+    }
+    void bytes(const void* data, std::size_t size) {
+        const char* at = static_cast<const char*>(data);
+        for (; size >= 8; at += 8, size -= 8) {
+            std::uint64_t value;
+            std::memcpy(&value, at, 8);
+            word(value);
+        }
+        std::uint64_t rest = 0;
+        if (size > 0) std::memcpy(&rest, at, size);
+        word(rest);
+    }
+    std::uint64_t result() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0x243f6a8885a308d3u;
+};
+
+} // namespace
+
+std::uint64_t sceneHash(const CompiledScene& scene) {
+    Hasher hash;
+    hash.array(scene.spheres);
+    hash.array(scene.sphereMotions);
+    hash.array(scene.quads);
+    hash.array(scene.positions);
+    hash.array(scene.normals);
+    hash.array(scene.uvs);
+    hash.array(scene.triangles);
+    hash.array(scene.meshes);
+    hash.array(scene.geometries);
+    hash.array(scene.instances);
+    hash.array(scene.materials);
+    hash.array(scene.textures);
+    hash.array(scene.images);
+    hash.array(scene.texels);
+    hash.array(scene.perlinGradients);
+    hash.array(scene.perlinPermutations);
+    hash.array(scene.media);
+    hash.array(scene.lights);
+    hash.array(scene.skyCdf);
+    hash.bytes(&scene.globals, sizeof scene.globals);
+    return hash.result();
+}
+
+} // namespace rt::scene

@@ -1,0 +1,188 @@
+#include "Common/Scene/Compiler/TextureTable.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "Common/Core/Error.h"
+#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Compiler/PerlinTable.h"
+
+namespace rt::scene {
+
+namespace {
+
+constexpr int kMaxDepth = 64;
+
+// IEC 61966-2-1, of every byte.
+const std::array<double, 256>& srgbTable() {
+    static const auto table = [] {
+        std::array<double, 256> linear{};
+        for (int i = 0; i < 256; ++i) {
+            const double s = i / 255.0;
+            linear[static_cast<std::size_t>(i)] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+        }
+        return linear;
+    }();
+    return table;
+}
+
+std::uint32_t noiseKind(NoiseKind kind) {
+    switch (kind) {
+        case NoiseKind::Marble:
+            return shared::kTextureMarble;
+        case NoiseKind::Turbulence:
+            return shared::kTextureTurbulence;
+        case NoiseKind::Smooth:
+            break;
+    }
+    return shared::kTextureNoise;
+}
+
+} // namespace
+
+glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, std::uint32_t x, std::uint32_t y) {
+    const std::size_t texel = std::size_t{y} * image.width + x;
+    if (image.format == shared::kTexelLinearF32) {
+        const std::uint32_t* words = &scene.texels[image.firstTexel + 3 * texel];
+        return {shared::uintBitsToFloat(words[0]), shared::uintBitsToFloat(words[1]),
+                shared::uintBitsToFloat(words[2])};
+    }
+    const std::uint32_t word = scene.texels[image.firstTexel + texel];
+    const auto& linear = srgbTable();
+    return {linear[word & 255u], linear[word >> 8 & 255u], linear[word >> 16 & 255u]};
+}
+
+TextureTable::TextureTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out)
+    : id_(desc.id), library_(desc.textures), options_(options), out_(out) {}
+
+std::uint32_t TextureTable::resolve(const ColorOrTexture& source, shared::vec3& color) {
+    if (const auto* constant = std::get_if<glm::dvec3>(&source)) {
+        color = shared::vec3(*constant);
+        return shared::kNone;
+    }
+    const auto& name = std::get<std::string>(source);
+    const auto found = library_.find(name);
+    if (found != library_.end())
+        if (const auto* solid = std::get_if<SolidTexture>(&found->second)) {
+            color = shared::vec3(solid->color);
+            return shared::kNone;
+        }
+    color = shared::vec3(1.0f);
+    return named(name);
+}
+
+std::uint32_t TextureTable::named(const std::string& name) {
+    const auto desc = library_.find(name);
+    if (desc == library_.end()) throw InputError(id_ + ": texture \"" + name + "\" is not defined");
+    const auto [entry, isNew] = named_.try_emplace(name, shared::kNone);
+    if (!isNew) {
+        if (entry->second == shared::kNone) throw InputError(id_ + ": /textures/" + name + ": refers to itself");
+        return entry->second;
+    }
+    if (++depth_ > kMaxDepth) throw InputError(id_ + ": /textures/" + name + ": checkers are nested deeper than 64");
+    const shared::Texture made = record(desc->second);
+    --depth_;
+    out_.textures.push_back(made);
+    return entry->second = static_cast<std::uint32_t>(out_.textures.size() - 1);
+}
+
+// A checker refers to textures only, so its constants become solid ones.
+std::uint32_t TextureTable::child(const ColorOrTexture& source) {
+    shared::Texture solid{};
+    const std::uint32_t index = resolve(source, solid.color);
+    if (index != shared::kNone) return index;
+    solid.kind = shared::kTextureSolid;
+    solid.first = solid.second = shared::kNone;
+    out_.textures.push_back(solid);
+    return static_cast<std::uint32_t>(out_.textures.size() - 1);
+}
+
+shared::Texture TextureTable::record(const TextureDesc& desc) {
+    shared::Texture texture{};
+    texture.color = shared::vec3(1.0f);
+    texture.scale = 1.0f;
+    texture.first = texture.second = shared::kNone;
+    if (const auto* solid = std::get_if<SolidTexture>(&desc)) {
+        texture.kind = shared::kTextureSolid;
+        texture.color = shared::vec3(solid->color);
+    } else if (const auto* checker = std::get_if<CheckerTexture>(&desc)) {
+        texture.kind = shared::kTextureChecker;
+        texture.scale = static_cast<float>(checker->scale);
+        texture.first = child(checker->even);
+        texture.second = child(checker->odd);
+    } else if (const auto* noise = std::get_if<NoiseTexture>(&desc)) {
+        texture.kind = noiseKind(noise->kind);
+        texture.color = shared::vec3(noise->tint);
+        texture.scale = static_cast<float>(noise->scale);
+        texture.frequency = static_cast<float>(noise->frequency);
+        const auto [table, isNew] = perlin_.try_emplace(noise->seed, 0u);
+        if (isNew) table->second = appendPerlinTable(noise->seed, out_);
+        texture.first = table->second;
+    } else {
+        const auto& source = std::get<ImageTexture>(desc);
+        texture.kind = shared::kTextureImage;
+        texture.color = shared::vec3(source.tint);
+        texture.first = image(source.file, source.standIn);
+    }
+    return texture;
+}
+
+TexelData TextureTable::load(const std::string& file, const std::string& standIn) {
+    const std::optional<std::filesystem::path> path = locateAsset(file, standIn, options_, id_);
+    if (!path) {
+        out_.notices.push_back(file + ": a generated map stands in");
+        return makePlanetMap(standIn);
+    }
+    if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
+    return options_.loadTexels(*path);
+}
+
+std::uint32_t TextureTable::image(const std::string& file, const std::string& standIn) {
+    const auto [entry, isNew] = images_.try_emplace(file + '\n' + standIn, shared::kNone);
+    if (!isNew) return entry->second;
+    const TexelData data = load(file, standIn);
+    shared::Image image{};
+    image.firstTexel = static_cast<std::uint32_t>(out_.texels.size());
+    image.width = data.width;
+    image.height = data.height;
+    image.format = data.format;
+    out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
+    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + file + ": all images together exceed 16 GiB");
+    out_.images.push_back(image);
+    return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
+}
+
+bool TextureTable::mayShowImage(const std::string& name, int depth) const {
+    const auto found = library_.find(name);
+    if (found == library_.end()) return false;
+    if (const auto* checker = std::get_if<CheckerTexture>(&found->second)) {
+        const auto showsImage = [&](const ColorOrTexture& cube) {
+            const auto* inner = std::get_if<std::string>(&cube);
+            return inner && (depth == 0 || mayShowImage(*inner, depth - 1));
+        };
+        return showsImage(checker->even) || showsImage(checker->odd);
+    }
+    return std::holds_alternative<ImageTexture>(found->second);
+}
+
+glm::dvec3 TextureTable::mean(std::uint32_t index) const {
+    const shared::Texture& texture = out_.textures[index];
+    switch (texture.kind) {
+        case shared::kTextureSolid:
+            return texture.color;
+        case shared::kTextureChecker:
+            return 0.5 * (mean(texture.first) + mean(texture.second));
+        case shared::kTextureImage: {
+            const shared::Image& image = out_.images[texture.first];
+            glm::dvec3 sum(0);
+            for (std::uint32_t y = 0; y < image.height; ++y)
+                for (std::uint32_t x = 0; x < image.width; ++x) sum += texelColor(out_, image, x, y);
+            return sum / (double(image.width) * image.height) * glm::dvec3(texture.color);
+        }
+        default:
+            return 0.5 * glm::dvec3(texture.color);
+    }
+}
+
+} // namespace rt::scene

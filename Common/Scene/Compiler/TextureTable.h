@@ -1,0 +1,49 @@
+// Textures, images and Perlin tables of the flat scene; each is made when something first refers to it.
+#pragma once
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+class TextureTable {
+  public:
+    // All references must outlive the table.
+    TextureTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out);
+
+    // Makes the textures of a model file known.
+    void add(const std::map<std::string, TextureDesc>& textures) { library_.insert(textures.begin(), textures.end()); }
+    // Index of the texture, or kNone and `color` set for a constant.
+    std::uint32_t resolve(const ColorOrTexture& source, shared::vec3& color);
+    // Index into images of a file; files and stand-ins are read once each. Throws InputError when there is neither.
+    std::uint32_t image(const std::string& file, const std::string& standIn);
+    // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
+    // `depth`).
+    bool mayShowImage(const std::string& name, int depth = 8) const;
+    // Mean colour of a texture: exact over an image or a checker, 0.5 of the tint for noise.
+    glm::dvec3 mean(std::uint32_t texture) const;
+
+  private:
+    std::uint32_t named(const std::string& name);
+    std::uint32_t child(const ColorOrTexture& source);
+    shared::Texture record(const TextureDesc& desc);
+    TexelData load(const std::string& file, const std::string& standIn);
+
+    const std::string id_; // of the scene, for errors
+    std::map<std::string, TextureDesc> library_;
+    const CompileOptions& options_;
+    CompiledScene& out_;
+    std::map<std::string, std::uint32_t> named_; // kNone: being made
+    std::map<std::string, std::uint32_t> images_;
+    int depth_ = 0;                                 // of checkers being made
+    std::map<std::uint32_t, std::uint32_t> perlin_; // by seed
+};
+
+// Linear colour of a texel of a compiled image.
+glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, std::uint32_t x, std::uint32_t y);
+
+} // namespace rt::scene

@@ -1,0 +1,238 @@
+// Reading of scene files: objects, transforms and importance targets.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+
+#include "Common/Core/Interruption.h"
+#include "Common/Scene/Affine.h"
+#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Json/SceneReader.h"
+
+namespace rt::scene {
+
+namespace {
+
+// ---- transforms ----------------------------------------------------------------------------------------------------
+
+Rotate readRotate(const JsonNode& node) {
+    node.expectKeys({"axis", "degrees"});
+    const Rotate rotate{node.at("axis").vector(), node.at("degrees").number()};
+    if (!(glm::length(rotate.axis) > 0)) node.at("axis").failValue("a vector that is not 0");
+    return rotate;
+}
+
+Scale readScale(const JsonNode& node) {
+    const glm::dvec3 factors = node.value().is_number() ? glm::dvec3(node.number()) : node.vector();
+    if (factors.x == 0 || factors.y == 0 || factors.z == 0) node.failValue("numbers that are not 0");
+    return {factors};
+}
+
+Matrix readMatrix(const JsonNode& node) {
+    const std::vector<double> values = node.numbers(12);
+    Matrix matrix;
+    if (values.size() != matrix.rows.size()) node.failValue("12 numbers: three rows of four");
+    std::copy(values.begin(), values.end(), matrix.rows.begin());
+    if (!inverse(toAffine({matrix}))) node.failValue("an invertible map");
+    return matrix;
+}
+
+Transform readTransform(const JsonNode& node) {
+    Transform transform;
+    node.forEachElement([&](const JsonNode& step) {
+        step.expectKeys({"translate", "rotate", "scale", "matrix"});
+        if (step.value().size() != 1) step.fail("a step must be one of translate, rotate, scale, matrix");
+        if (const auto offset = step.find("translate")) transform.emplace_back(Translate{offset->vector()});
+        if (const auto rotate = step.find("rotate")) transform.emplace_back(readRotate(*rotate));
+        if (const auto scale = step.find("scale")) transform.emplace_back(readScale(*scale));
+        if (const auto matrix = step.find("matrix")) transform.emplace_back(readMatrix(*matrix));
+    });
+    return transform;
+}
+
+// ---- surfaces ------------------------------------------------------------------------------------------------------
+
+template <typename Surface>
+Surface readSurface(Surface surface, const JsonNode& node, const SceneReferences& references) {
+    surface.material = references.name(node.at("material"), "materials");
+    if (const auto light = node.find("light")) surface.light = light->boolean();
+    return surface;
+}
+
+std::vector<glm::dvec3> readVectors(const JsonNode& node) {
+    const std::vector<double> values = node.numbers(3);
+    std::vector<glm::dvec3> vectors(values.size() / 3);
+    for (std::size_t i = 0; i < vectors.size(); ++i) vectors[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+    return vectors;
+}
+
+SphereDesc readSphere(const JsonNode& node) {
+    node.expectKeys({"type", "center", "center_end", "radius", "material", "light"});
+    SphereDesc sphere;
+    sphere.center = node.at("center").vector();
+    sphere.radius = node.at("radius").positive();
+    if (const auto end = node.find("center_end")) sphere.centerEnd = end->vector();
+    return sphere;
+}
+
+SphereSetDesc readSphereSet(const JsonNode& node) {
+    node.expectKeys({"type", "centers", "radius", "material", "light"});
+    SphereSetDesc spheres;
+    spheres.centers = readVectors(node.at("centers"));
+    spheres.radius = node.at("radius").positive();
+    return spheres;
+}
+
+SphereBoundary readSphereShape(const JsonNode& node) {
+    return {node.at("center").vector(), node.at("radius").positive()};
+}
+
+QuadDesc readQuadShape(const JsonNode& node) {
+    QuadDesc quad;
+    quad.corner = node.at("corner").vector();
+    quad.edgeU = node.at("edge_u").vector();
+    quad.edgeV = node.at("edge_v").vector();
+    const double area = glm::length(glm::cross(quad.edgeU, quad.edgeV));
+    if (!(area > 0) || !std::isfinite(area)) node.fail("edge_u and edge_v must span an area");
+    return quad;
+}
+
+BoxBoundary readBoxShape(const JsonNode& node) {
+    const BoxBoundary box{node.at("min").vector(), node.at("max").vector()};
+    if (!(box.min.x < box.max.x && box.min.y < box.max.y && box.min.z < box.max.z))
+        node.fail("each component of min must be below that of max");
+    return box;
+}
+
+BoxDesc readBox(const JsonNode& node) {
+    node.expectKeys({"type", "min", "max", "material", "light"});
+    const BoxBoundary shape = readBoxShape(node);
+    BoxDesc box;
+    box.min = shape.min;
+    box.max = shape.max;
+    return box;
+}
+
+// ---- meshes --------------------------------------------------------------------------------------------------------
+
+std::vector<glm::uvec3> readTriangles(const JsonNode& node, std::size_t vertexCount) {
+    const std::size_t count = node.arraySize();
+    if (count == 0 || count % 3 != 0) node.failValue("an array whose length is a multiple of 3 and not 0");
+    std::vector<glm::uvec3> triangles(count / 3);
+    for (std::size_t i = 0; i < count; ++i) {
+        interruptionPoint();
+        const JsonNode index = node.element(i);
+        const bool isIndex = index.value().is_number_unsigned() && index.value().get<std::uint64_t>() < vertexCount;
+        if (!isIndex) index.failValue("the index of a position, 0 to " + std::to_string(vertexCount - 1));
+        triangles[i / 3][static_cast<int>(i % 3)] = index.value().get<std::uint32_t>();
+    }
+    return triangles;
+}
+
+MeshData readMeshData(const JsonNode& node) {
+    MeshData data;
+    data.positions = readVectors(node.at("positions"));
+    const auto expectOneEach = [&](const JsonNode& attribute, std::size_t count) {
+        if (count != data.positions.size())
+            attribute.failValue("one for each of the " + std::to_string(data.positions.size()) + " positions");
+    };
+    if (const auto normals = node.find("normals")) {
+        data.normals = readVectors(*normals);
+        expectOneEach(*normals, data.normals.size());
+    }
+    if (const auto uvs = node.find("uvs")) {
+        const std::vector<double> values = uvs->numbers(2);
+        expectOneEach(*uvs, values.size() / 2);
+        for (std::size_t i = 0; i < values.size(); i += 2) data.uvs.emplace_back(values[i], values[i + 1]);
+    }
+    data.triangles = readTriangles(node.at("triangles"), data.positions.size());
+    return data;
+}
+
+MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
+    MeshDesc mesh;
+    if (node.has("file")) {
+        node.expectKeys({"type", "file", "stand_in", "material", "light"});
+        MeshFile source;
+        if (const auto standIn = node.find("stand_in")) source.standIn = readChoice(*standIn, meshStandInNames());
+        source.file = references.file(node.at("file"), !source.standIn.empty());
+        mesh.source = source;
+    } else {
+        node.expectKeys({"type", "positions", "normals", "uvs", "triangles", "material", "light"});
+        mesh.source = readMeshData(node);
+    }
+    // Only a file can bring materials of its own.
+    if (node.has("material") || !node.has("file")) mesh.material = references.name(node.at("material"), "materials");
+    if (const auto light = node.find("light")) mesh.light = light->boolean();
+    return mesh;
+}
+
+// ---- other objects -------------------------------------------------------------------------------------------------
+
+MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
+    node.expectKeys({"type", "boundary", "density", "albedo"});
+    MediumDesc medium;
+    const JsonNode boundary = node.at("boundary");
+    if (boundary.at("type").oneOf({"sphere", "box"}) == "sphere") {
+        boundary.expectKeys({"type", "center", "radius"});
+        medium.boundary = readSphereShape(boundary);
+    } else {
+        boundary.expectKeys({"type", "min", "max"});
+        medium.boundary = readBoxShape(boundary);
+    }
+    medium.density = node.at("density").positive();
+    if (const auto albedo = node.find("albedo")) medium.albedo = references.colorOrTexture(*albedo);
+    return medium;
+}
+
+GroupDesc readGroup(const JsonNode& node, const SceneReferences& references) {
+    node.expectKeys({"type", "transform", "objects"});
+    GroupDesc group;
+    if (const auto transform = node.find("transform")) group.transform = readTransform(*transform);
+    group.objects = readObjects(node.at("objects"), references);
+    return group;
+}
+
+InstanceDesc readInstance(const JsonNode& node, const SceneReferences& references) {
+    node.expectKeys({"type", "prototype", "transform", "material"});
+    InstanceDesc instance;
+    instance.prototype = references.name(node.at("prototype"), "prototypes");
+    if (const auto transform = node.find("transform")) instance.transform = readTransform(*transform);
+    if (const auto material = node.find("material")) instance.material = references.name(*material, "materials");
+    return instance;
+}
+
+ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
+    const std::string type =
+        node.at("type").oneOf({"sphere", "spheres", "quad", "box", "mesh", "medium", "group", "instance"});
+    if (type == "sphere") return {readSurface(readSphere(node), node, references)};
+    if (type == "spheres") return {readSurface(readSphereSet(node), node, references)};
+    if (type == "box") return {readSurface(readBox(node), node, references)};
+    if (type == "mesh") return {readMesh(node, references)};
+    if (type == "medium") return {readMedium(node, references)};
+    if (type == "group") return {readGroup(node, references)};
+    if (type == "instance") return {readInstance(node, references)};
+    node.expectKeys({"type", "corner", "edge_u", "edge_v", "material", "light"});
+    return {readSurface(readQuadShape(node), node, references)};
+}
+
+} // namespace
+
+std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references) {
+    std::vector<ObjectDesc> objects;
+    objects.reserve(node.arraySize());
+    node.forEachElement([&](const JsonNode& element) { objects.push_back(readObject(element, references)); });
+    return objects;
+}
+
+TargetDesc readTarget(const JsonNode& node) {
+    if (node.at("type").oneOf({"sphere", "quad"}) == "sphere") {
+        node.expectKeys({"type", "center", "radius"});
+        return {readSphereShape(node)};
+    }
+    node.expectKeys({"type", "corner", "edge_u", "edge_v"});
+    return {readQuadShape(node)};
+}
+
+} // namespace rt::scene

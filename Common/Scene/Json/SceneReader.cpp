@@ -1,0 +1,155 @@
+// Reading of scene files: the scene as a whole, camera, background, and what its parts refer to.
+#include "Common/Scene/Json/SceneReader.h"
+
+#include <cstdint>
+#include <system_error>
+
+#include <glm/geometric.hpp>
+
+#include "Common/Core/Paths.h"
+#include "Common/Core/ReadFile.h"
+#include "Common/Scene/Json/SceneJson.h"
+
+namespace rt::scene {
+
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+
+CameraDesc readCamera(const JsonNode& node) {
+    node.expectKeys({"look_from", "look_at", "up", "vertical_fov", "defocus_angle", "focus_distance"});
+    CameraDesc camera;
+    if (const auto value = node.find("look_from")) camera.lookFrom = value->vector();
+    if (const auto value = node.find("look_at")) camera.lookAt = value->vector();
+    if (const auto value = node.find("up")) camera.up = value->vector();
+    if (const auto value = node.find("vertical_fov")) {
+        camera.verticalFov = value->number();
+        if (!(camera.verticalFov > 0 && camera.verticalFov < 180)) value->failValue("a number between 0 and 180");
+    }
+    if (const auto value = node.find("defocus_angle")) {
+        camera.defocusAngle = value->number();
+        if (!(camera.defocusAngle >= 0 && camera.defocusAngle < 180)) value->failValue("a number from 0 to below 180");
+    }
+    if (const auto value = node.find("focus_distance")) camera.focusDistance = value->positive();
+    const glm::dvec3 view = camera.lookAt - camera.lookFrom;
+    if (!(glm::length(glm::cross(view, camera.up)) > 1e-9 * glm::length(view) * glm::length(camera.up)))
+        node.fail("look_from and look_at must differ, and up must not be 0 or parallel to the view");
+    return camera;
+}
+
+Background readBackground(const JsonNode& node, const SceneReferences& references) {
+    const std::string type = node.at("type").oneOf({"constant", "gradient", "image"});
+    if (type == "constant") {
+        node.expectKeys({"type", "color"});
+        return ConstantBackground{node.at("color").vectorWithin(0, kLargest)};
+    }
+    if (type == "gradient") {
+        node.expectKeys({"type", "bottom", "top"});
+        return GradientBackground{node.at("bottom").vectorWithin(0, kLargest),
+                                  node.at("top").vectorWithin(0, kLargest)};
+    }
+    node.expectKeys({"type", "file", "factor"});
+    ImageBackground image;
+    image.file = references.file(node.at("file"), false);
+    if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kLargest);
+    return image;
+}
+
+RenderDefaults readRender(const JsonNode& node) {
+    node.expectKeys({"aspect"});
+    RenderDefaults defaults;
+    if (const auto aspect = node.find("aspect")) defaults.aspect = aspect->positive();
+    return defaults;
+}
+
+SceneDesc readScene(const JsonNode& root, const SceneReferences& references) {
+    root.expectKeys({"$schema", "version", "title", "camera", "background", "textures", "materials", "prototypes",
+                     "objects", "importance_targets", "render"});
+    if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
+    SceneDesc scene;
+    if (const auto node = root.find("title")) scene.title = node->string();
+    if (const auto node = root.find("camera")) scene.camera = readCamera(*node);
+    if (const auto node = root.find("background")) scene.background = readBackground(*node, references);
+    if (const auto section = root.find("textures"))
+        section->forEachMember([&](const std::string& name, const JsonNode& node) {
+            scene.textures[name] = readTexture(node, references);
+        });
+    if (const auto section = root.find("materials"))
+        section->forEachMember([&](const std::string& name, const JsonNode& node) {
+            scene.materials[name] = readMaterial(node, references);
+        });
+    if (const auto section = root.find("prototypes"))
+        section->forEachMember([&](const std::string& name, const JsonNode& node) {
+            scene.prototypes[name] = readObjects(node, references);
+        });
+    scene.objects = readObjects(root.at("objects"), references);
+    if (const auto section = root.find("importance_targets"))
+        section->forEachElement([&](const JsonNode& node) { scene.importanceTargets.push_back(readTarget(node)); });
+    if (const auto node = root.find("render")) scene.render = readRender(*node);
+    return scene;
+}
+
+} // namespace
+
+// ---- references ----------------------------------------------------------------------------------------------------
+
+std::string SceneReferences::name(const JsonNode& node, const char* section) const {
+    const std::string text = node.string();
+    const auto names = root_.find(section);
+    if (names && names->has(text.c_str())) return text;
+    std::string known;
+    if (names && names->value().is_object())
+        for (const auto& member : names->value().items())
+            if (known.size() < 200) known += (known.empty() ? "" : ", ") + member.key();
+    node.failValue("a name from " + std::string(section) + (known.empty() ? ", which is empty" : ": " + known));
+}
+
+ColorOrTexture SceneReferences::colorOrTexture(const JsonNode& node) const {
+    if (node.value().is_string()) return name(node, "textures");
+    if (!node.value().is_array()) node.failValue("an array of 3 numbers from 0 to 1, or the name of a texture");
+    return node.vectorWithin(0, 1);
+}
+
+std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
+    const std::filesystem::path path(node.string());
+    const std::filesystem::path beside = path.is_absolute() ? path : folder_ / path;
+    std::error_code ignored;
+    if (!path.empty() && std::filesystem::is_regular_file(beside, ignored))
+        return std::filesystem::absolute(beside).lexically_normal().generic_string();
+    const bool isAsset = !path.empty() && path.is_relative() && findAsset(path);
+    if (!hasStandIn && !isAsset) node.failValue("an existing file, beside the scene or among the assets");
+    return node.string();
+}
+
+std::string readChoice(const JsonNode& node, const std::vector<std::string>& allowed) {
+    const std::string text = node.string();
+    std::string known;
+    for (const std::string& name : allowed) {
+        if (name == text) return text;
+        known += (known.empty() ? "" : ", ") + name;
+    }
+    node.failValue("one of " + known);
+}
+
+// ---- interface -----------------------------------------------------------------------------------------------------
+
+SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder) {
+    const nlohmann::json document = parseJson(text, file);
+    const JsonNode root(document, file);
+    SceneDesc scene = readScene(root, SceneReferences(root, folder));
+    scene.id = file;
+    return scene;
+}
+
+SceneDesc loadSceneFile(const std::filesystem::path& path) {
+    std::string text;
+    {
+        const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
+    SceneDesc scene = parseScene(text, path.string(), path.parent_path());
+    scene.id = path.filename().string();
+    return scene;
+}
+
+} // namespace rt::scene

@@ -1,0 +1,39 @@
+// The parts of reading a scene file; SceneJson.h is the interface.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+// What values of a scene file refer to: names in its sections, and files.
+class SceneReferences {
+  public:
+    // Both must outlive this.
+    SceneReferences(const JsonNode& root, const std::filesystem::path& folder) : root_(root), folder_(folder) {}
+
+    // The name of a member of a section of the scene.
+    std::string name(const JsonNode& node, const char* section) const;
+    // A constant colour with components in [0,1], or the name of a texture.
+    ColorOrTexture colorOrTexture(const JsonNode& node) const;
+    // An existing file: its full path if it lies beside the scene, its name if it is an asset. With a stand-in it may
+    // be missing.
+    std::string file(const JsonNode& node, bool hasStandIn) const;
+
+  private:
+    const JsonNode& root_;
+    const std::filesystem::path& folder_;
+};
+
+// One of a list of names.
+std::string readChoice(const JsonNode& node, const std::vector<std::string>& allowed);
+
+TextureDesc readTexture(const JsonNode& node, const SceneReferences& references);
+MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& references);
+std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references);
+TargetDesc readTarget(const JsonNode& node);
+
+} // namespace rt::scene

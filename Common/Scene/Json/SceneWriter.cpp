@@ -1,0 +1,309 @@
+// Writing of scene files. Defaults are left out.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/Scene/Json/SceneJson.h"
+
+namespace rt::scene {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kLineWidth = 120;
+
+// ---- layout --------------------------------------------------------------------------------------------------------
+
+// Whole numbers without their fraction.
+std::string scalar(const Json& value) {
+    std::string text = value.dump();
+    const bool isWhole = value.is_number_float() && text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0;
+    if (isWhole && text != "-0.0") text.resize(text.size() - 2);
+    return text;
+}
+
+// On one line with spaces after separators; gives up and returns false once it gets longer than a line.
+bool writeInline(const Json& value, std::size_t limit, std::string& out) {
+    if (!value.is_structured()) {
+        out += scalar(value);
+        return out.size() <= limit;
+    }
+    out += value.is_object() ? '{' : '[';
+    bool first = true;
+    for (auto member = value.begin(); member != value.end(); ++member) {
+        if (!first) out += ", ";
+        first = false;
+        if (value.is_object()) out += Json(member.key()).dump() + ": ";
+        if (!writeInline(*member, limit, out)) return false;
+    }
+    out += value.is_object() ? '}' : ']';
+    return out.size() <= limit;
+}
+
+void writeNumbers(const Json& numbers, const std::string& indent, std::string& out) {
+    std::size_t width = kLineWidth;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const std::string text = scalar(numbers[i]);
+        if (i > 0) out += ',';
+        if (width + text.size() + 2 > kLineWidth) {
+            out += '\n' + indent;
+            width = indent.size();
+        } else {
+            out += ' ';
+        }
+        out += text;
+        width += text.size() + 2;
+    }
+}
+
+void write(const Json& value, const std::string& indent, std::string& out) {
+    std::string line;
+    if (writeInline(value, kLineWidth - std::min(indent.size(), kLineWidth / 2), line)) {
+        out += line;
+        return;
+    }
+    if (!value.is_structured()) {
+        out += scalar(value);
+        return;
+    }
+    const std::string inner = indent + "  ";
+    out += value.is_object() ? '{' : '[';
+    if (value.is_array() && value[0].is_number()) {
+        writeNumbers(value, inner, out);
+    } else {
+        bool first = true;
+        for (auto member = value.begin(); member != value.end(); ++member) {
+            out += (first ? "\n" : ",\n") + inner;
+            first = false;
+            if (value.is_object()) out += Json(member.key()).dump() + ": ";
+            write(*member, inner, out);
+        }
+    }
+    out += '\n' + indent + (value.is_object() ? '}' : ']');
+}
+
+// ---- values --------------------------------------------------------------------------------------------------------
+
+Json json(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+Json json(const ColorOrTexture& source) {
+    if (const auto* color = std::get_if<glm::dvec3>(&source)) return json(*color);
+    return std::get<std::string>(source);
+}
+
+template <typename Vector>
+Json flat(const std::vector<Vector>& vectors) {
+    Json numbers = Json::array();
+    for (const Vector& v : vectors)
+        for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
+    return numbers;
+}
+
+template <typename Value>
+void setUnless(Json& target, const char* key, const Value& value, const Value& usual) {
+    if (value == usual) return;
+    if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture>)
+        target[key] = json(value);
+    else
+        target[key] = value;
+}
+
+Json json(const CameraDesc& camera) {
+    return {{"look_from", json(camera.lookFrom)},
+            {"look_at", json(camera.lookAt)},
+            {"up", json(camera.up)},
+            {"vertical_fov", camera.verticalFov},
+            {"defocus_angle", camera.defocusAngle},
+            {"focus_distance", camera.focusDistance}};
+}
+
+Json json(const Background& background) {
+    if (const auto* constant = std::get_if<ConstantBackground>(&background))
+        return {{"type", "constant"}, {"color", json(constant->color)}};
+    if (const auto* gradient = std::get_if<GradientBackground>(&background))
+        return {{"type", "gradient"}, {"bottom", json(gradient->bottom)}, {"top", json(gradient->top)}};
+    const auto& image = std::get<ImageBackground>(background);
+    Json out = {{"type", "image"}, {"file", image.file}};
+    setUnless(out, "factor", image.factor, glm::dvec3(1));
+    return out;
+}
+
+// ---- appearance ----------------------------------------------------------------------------------------------------
+
+const char* nameOf(NoiseKind kind) {
+    switch (kind) {
+        case NoiseKind::Marble:
+            return "marble";
+        case NoiseKind::Turbulence:
+            return "turbulence";
+        case NoiseKind::Smooth:
+            break;
+    }
+    return "smooth";
+}
+
+Json json(const TextureDesc& texture) {
+    if (const auto* solid = std::get_if<SolidTexture>(&texture))
+        return {{"type", "solid"}, {"color", json(solid->color)}};
+    if (const auto* checker = std::get_if<CheckerTexture>(&texture))
+        return {
+            {"type", "checker"}, {"scale", checker->scale}, {"even", json(checker->even)}, {"odd", json(checker->odd)}};
+    if (const auto* noise = std::get_if<NoiseTexture>(&texture)) {
+        const NoiseTexture usual;
+        Json out = {{"type", "noise"}, {"kind", nameOf(noise->kind)}};
+        setUnless(out, "scale", noise->scale, usual.scale);
+        setUnless(out, "frequency", noise->frequency, usual.frequency);
+        setUnless(out, "tint", noise->tint, usual.tint);
+        setUnless(out, "seed", noise->seed, usual.seed);
+        return out;
+    }
+    const auto& image = std::get<ImageTexture>(texture);
+    Json out = {{"type", "image"}, {"file", image.file}};
+    setUnless(out, "stand_in", image.standIn, std::string());
+    setUnless(out, "tint", image.tint, glm::dvec3(1));
+    return out;
+}
+
+Json json(const MaterialDesc& material) {
+    const MaterialDesc usual;
+    Json out;
+    switch (material.kind) {
+        case MaterialKind::Lambertian:
+            out = {{"type", "lambertian"}, {"albedo", json(material.albedo)}};
+            break;
+        case MaterialKind::Metal:
+            out = {{"type", "metal"}, {"albedo", json(material.albedo)}, {"fuzz", material.fuzz}};
+            break;
+        case MaterialKind::Dielectric:
+            out = {{"type", "dielectric"}, {"ior", material.ior}};
+            setUnless(out, "albedo", material.albedo, usual.albedo);
+            break;
+        case MaterialKind::Emitter:
+            out = {{"type", "emitter"}, {"emission", json(material.emission)}};
+            break;
+    }
+    if (material.kind != MaterialKind::Emitter) setUnless(out, "emission", material.emission, usual.emission);
+    setUnless(out, "emission_texture", material.emissionTexture, std::string());
+    if (material.sides) out["sides"] = *material.sides == Sides::Front ? "front" : "both";
+    return out;
+}
+
+// ---- objects -------------------------------------------------------------------------------------------------------
+
+Json json(const Transform& transform) {
+    struct Step {
+        Json operator()(const Translate& step) const { return {{"translate", json(step.offset)}}; }
+        Json operator()(const Rotate& step) const {
+            return {{"rotate", {{"axis", json(step.axis)}, {"degrees", step.degrees}}}};
+        }
+        Json operator()(const Scale& step) const { return {{"scale", json(step.factors)}}; }
+        Json operator()(const Matrix& step) const { return {{"matrix", step.rows}}; }
+    };
+    Json steps = Json::array();
+    for (const auto& step : transform) steps.push_back(std::visit(Step{}, step));
+    return steps;
+}
+
+Json json(const std::vector<ObjectDesc>& objects);
+
+template <typename Surface>
+Json withSurface(Json out, const Surface& surface) {
+    setUnless(out, "material", surface.material, std::string());
+    setUnless(out, "light", surface.light, true);
+    return out;
+}
+
+Json json(const SphereBoundary& sphere) {
+    return {{"type", "sphere"}, {"center", json(sphere.center)}, {"radius", sphere.radius}};
+}
+Json json(const BoxBoundary& box) {
+    return {{"type", "box"}, {"min", json(box.min)}, {"max", json(box.max)}};
+}
+Json json(const QuadDesc& quad) {
+    return withSurface(
+        {{"type", "quad"}, {"corner", json(quad.corner)}, {"edge_u", json(quad.edgeU)}, {"edge_v", json(quad.edgeV)}},
+        quad);
+}
+Json json(const SphereDesc& sphere) {
+    Json out = {{"type", "sphere"}, {"center", json(sphere.center)}};
+    if (sphere.centerEnd) out["center_end"] = json(*sphere.centerEnd);
+    out["radius"] = sphere.radius;
+    return withSurface(std::move(out), sphere);
+}
+Json json(const SphereSetDesc& spheres) {
+    Json out = withSurface({{"type", "spheres"}, {"radius", spheres.radius}}, spheres);
+    out["centers"] = flat(spheres.centers);
+    return out;
+}
+Json json(const BoxDesc& box) {
+    return withSurface({{"type", "box"}, {"min", json(box.min)}, {"max", json(box.max)}}, box);
+}
+Json json(const MeshDesc& mesh) {
+    Json out = {{"type", "mesh"}};
+    if (const auto* source = std::get_if<MeshFile>(&mesh.source)) {
+        out["file"] = source->file;
+        setUnless(out, "stand_in", source->standIn, std::string());
+        return withSurface(std::move(out), mesh);
+    }
+    const auto& data = std::get<MeshData>(mesh.source);
+    out = withSurface(std::move(out), mesh);
+    out["positions"] = flat(data.positions);
+    if (!data.normals.empty()) out["normals"] = flat(data.normals);
+    if (!data.uvs.empty()) out["uvs"] = flat(data.uvs);
+    out["triangles"] = flat(data.triangles);
+    return out;
+}
+Json json(const MediumDesc& medium) {
+    const Json boundary = std::visit([](const auto& shape) { return json(shape); }, medium.boundary);
+    Json out = {{"type", "medium"}, {"boundary", boundary}, {"density", medium.density}};
+    setUnless(out, "albedo", medium.albedo, MediumDesc().albedo);
+    return out;
+}
+Json json(const GroupDesc& group) {
+    Json out = {{"type", "group"}};
+    if (!group.transform.empty()) out["transform"] = json(group.transform);
+    out["objects"] = json(group.objects);
+    return out;
+}
+Json json(const InstanceDesc& instance) {
+    Json out = {{"type", "instance"}, {"prototype", instance.prototype}};
+    if (!instance.transform.empty()) out["transform"] = json(instance.transform);
+    setUnless(out, "material", instance.material, std::string());
+    return out;
+}
+
+Json json(const std::vector<ObjectDesc>& objects) {
+    Json out = Json::array();
+    for (const ObjectDesc& object : objects)
+        out.push_back(std::visit([](const auto& shape) { return json(shape); }, object.shape));
+    return out;
+}
+
+template <typename Value>
+void setSection(Json& target, const char* key, const std::map<std::string, Value>& section) {
+    for (const auto& [name, value] : section) target[key][name] = json(value);
+}
+
+} // namespace
+
+std::string toJson(const SceneDesc& scene) {
+    Json out = {{"version", 1}};
+    setUnless(out, "title", scene.title, std::string());
+    out["camera"] = json(scene.camera);
+    out["background"] = json(scene.background);
+    if (scene.render != RenderDefaults()) out["render"] = {{"aspect", scene.render.aspect}};
+    setSection(out, "textures", scene.textures);
+    setSection(out, "materials", scene.materials);
+    setSection(out, "prototypes", scene.prototypes);
+    out["objects"] = json(scene.objects);
+    for (const TargetDesc& target : scene.importanceTargets)
+        out["importance_targets"].push_back(std::visit([](const auto& shape) { return json(shape); }, target.shape));
+    std::string text;
+    write(out, "", text);
+    return text + '\n';
+}
+
+} // namespace rt::scene

@@ -1,0 +1,57 @@
+// The feature mask: what a scene and its settings need. The scene compiler ORs the bits while it flattens; a bit that is
+// absent means that the code, the buffers and the shader groups behind it are absent too. `features` is a plain first
+// argument of shared functions: a template constant on the CPU, a specialization constant on the GPU.
+#ifndef RT_SHARED_FEATURES_H
+#define RT_SHARED_FEATURES_H
+#include "Common/Shared/Base/Shim.h"
+
+RT_SHARED_BEGIN
+
+const uint kFeatureSpheres = 1u << 0u;
+const uint kFeatureMovingSpheres = 1u << 1u;
+const uint kFeatureQuads = 1u << 2u;
+const uint kFeatureTriangles = 1u << 3u;
+const uint kFeatureInstances = 1u << 4u;
+const uint kFeatureLambertian = 1u << 5u;
+const uint kFeatureMetal = 1u << 6u; // any metal; fuzz 0 is a mirror
+const uint kFeatureDielectric = 1u << 7u;
+const uint kFeatureEmissive = 1u << 8u; // some surface emits
+const uint kFeatureChecker = 1u << 9u;
+const uint kFeatureNoise = 1u << 10u;   // Perlin textures of every kind
+const uint kFeatureImages = 1u << 11u;  // image textures
+const uint kFeatureVolumes = 1u << 12u; // constant media
+const uint kFeatureSky = 1u << 13u;     // a background that is not black
+const uint kFeatureSkyImage = 1u << 14u;
+const uint kFeatureThinLens = 1u << 15u;
+const uint kFeatureLights = 1u << 16u;     // the light table is not empty
+const uint kFeatureManyLights = 1u << 17u; // more lights than kContributionLights
+const uint kFeatureSphereLights = 1u << 18u;
+const uint kFeatureQuadLights = 1u << 19u;
+const uint kFeatureTriangleLights = 1u << 20u;
+const uint kFeatureSmoothNormals = 1u << 21u;
+const uint kFeatureFuzz = 1u << 22u;      // metal with fuzz above kMirrorFuzz
+const uint kFeatureTargets = 1u << 23u;   // importance targets, used by `mixture` only
+const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
+const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
+const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
+const uint kFeatureEllipsoidLights = 1u << 27u;
+const uint kFeatureBits = 28u;
+const uint kFeatureAll = (1u << kFeatureBits) - 1u;
+const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
+
+// Whether lights can be sampled by projected solid angle at all. Their samplers are as long as all other light sampling, and
+// drivers take seconds over code that a specialization constant leaves unused, so a shader that can need them says so:
+// RT_PROJECTED. One that says RT_PROJECTED_CALLS as well has useProjectedPolygon() and useProjectedSphere() call other shaders.
+#ifdef RT_PROJECTED
+const bool kProjectedCompiled = true;
+#else
+const bool kProjectedCompiled = false;
+#endif
+
+RT_FN bool has(uint features, uint bits) {
+    return (features & bits) != 0u;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,344 @@
+// The flat scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
+// relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
+#ifndef RT_SHARED_TYPES_H
+#define RT_SHARED_TYPES_H
+#include "Common/Shared/Base/Shim.h"
+
+RT_SHARED_BEGIN
+
+const float kPi = 3.14159265358979f;
+const float kInvPi = 0.318309886183791f;
+const float kInfinity = 3.0e38f;      // farther than any hit; finite, because GLSL may not honour infinities
+const float kEpsilon = 5.9604645e-8f; // 2^-24, the unit roundoff of a float
+const uint kNone = 0xffffffffu;       // "no such index"
+
+// Kinds of primitive, also the kinds of hit.
+const uint kSphere = 0u;
+const uint kQuad = 1u;
+const uint kTriangle = 2u;
+
+// ---- geometry --------------------------------------------------------------------------------------------------------
+
+struct Sphere {
+    vec3 center;  // at time 0
+    float radius; // > 0
+    uint material;
+    uint light; // index into lights, or kNone
+};
+
+// Parallelogram corner + a edgeU + b edgeV, a and b in [0,1]; the front is the side that edgeU x edgeV points to.
+struct Quad {
+    vec3 corner;
+    vec3 edgeU;
+    vec3 edgeV;
+    vec3 normal; // unit, edgeU x edgeV
+    uint material;
+    uint light;
+};
+
+// What the triangles of one mesh and one material share. A triangle's front is the side from which its vertices turn
+// counter-clockwise. Vertex attributes exist per vertex or not at all for a whole mesh.
+struct Mesh {
+    uint material;
+    uint firstTriangle;
+    uint triangleCount;
+    uint firstVertex;
+    uint firstNormal; // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
+    uint firstUv;     // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
+    uint firstLight;  // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
+};
+
+// A contiguous run of each kind of primitive: the unit that instances refer to. Geometry 0 is the world's own.
+struct Geometry {
+    uint firstSphere;
+    uint sphereCount;
+    uint firstQuad;
+    uint quadCount;
+    uint firstTriangle;
+    uint triangleCount;
+};
+
+// Affine placement of a geometry; x' = row . (x, 1). Both directions were rounded once, from double.
+struct Instance {
+    vec4 toWorld[3];
+    vec4 toObject[3];
+    uint geometry; // > 0
+    uint material; // overrides the primitives' own unless kNone
+    uint light;    // of a unit sphere that emits; kNone for all others
+};
+
+// ---- appearance ------------------------------------------------------------------------------------------------------
+
+const uint kMaterialLambertian = 0u;
+const uint kMaterialMetal = 1u;
+const uint kMaterialDielectric = 2u;
+const uint kMaterialEmitter = 3u; // emits only, absorbs what arrives
+
+const uint kSidesFront = 1u;
+const uint kSidesBoth = 3u;
+
+const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
+
+struct Material {
+    uint kind;
+    vec3 albedo;          // reflectance of lambertian and metal, tint of dielectric; the texture replaces it
+    uint texture;         // kNone: constant
+    float fuzz;           // metal, [0,1]
+    float ior;            // dielectric, inside over outside, > 0
+    vec3 emission;        // emitted radiance; zero for most. Any material may emit as well as scatter
+    uint emissionTexture; // multiplies emission; kNone: constant
+    uint emissionSides;   // kSidesFront or kSidesBoth
+};
+
+const uint kTextureSolid = 0u;
+const uint kTextureChecker = 1u;    // solid checker in world space
+const uint kTextureMarble = 2u;     // 0.5 (1 + sin(frequency z + 10 turbulence(scale p)))
+const uint kTextureTurbulence = 3u; // turbulence(scale p)
+const uint kTextureNoise = 4u;      // 0.5 (1 + noise(scale p))
+const uint kTextureImage = 5u;
+
+struct Texture {
+    uint kind;
+    vec3 color;      // solid: the colour; noise kinds and images: a tint
+    float scale;     // checker: edge of a cell; noise: multiplies the point
+    float frequency; // marble
+    uint first;      // checker: texture of even cells; noise: Perlin table; image: index into images
+    uint second;     // checker: texture of odd cells
+};
+
+const uint kTexelSrgb8 = 0u;     // one word a texel, R in the low byte, sRGB-encoded
+const uint kTexelLinearF32 = 1u; // three words a texel, floats
+
+struct Image {
+    uint firstTexel; // word offset into texels
+    uint width;
+    uint height;
+    uint format;
+};
+
+// Perlin's tables: kPerlinSize unit gradients and three permutations of [0, kPerlinSize).
+const uint kPerlinSize = 256u;
+
+// ---- participating media ---------------------------------------------------------------------------------------------
+
+const uint kMediumSphere = 0u; // boundary: the unit sphere under the inverse of toLocal
+const uint kMediumBox = 1u;    // boundary: the cube [-1,1]^3 under the inverse of toLocal
+
+struct Medium {
+    vec4 toLocal[3]; // affine world-to-local, rows
+    uint shape;
+    float extinction; // per world unit of length, > 0
+    vec3 albedo;      // single scattering
+    uint texture;     // replaces albedo; kNone: constant
+};
+
+// ---- lights ----------------------------------------------------------------------------------------------------------
+
+const uint kLightSphere = 0u;
+const uint kLightQuad = 1u;
+const uint kLightTriangle = 2u;
+const uint kLightSky = 3u;       // the sky image
+const uint kLightEllipsoid = 4u; // the unit sphere under an affine map
+
+// An emitter with its geometry in world space, or an importance target (emission zero).
+struct Light {
+    uint kind;
+    uint material; // kNone for the sky and for importance targets
+    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre
+    vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x
+    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y
+    vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z
+    float radius;  // sphere; ellipsoid: that of a sphere of the same area
+    float area;    // world units squared, one side; of an ellipsoid within 1.1 %
+    vec3 emission; // radiance, mean over the surface if textured
+    uint sides;    // kSidesFront or kSidesBoth
+    float selection; // probability under power-proportional selection
+    float cdf;       // sum of selection up to and including this light; exactly 1 for the last that can be chosen
+};
+
+// What bounds a light's contribution at a point: a sphere around it and the cone of its normals.
+struct LightBound {
+    vec3 center;
+    float radius;
+    vec3 axis;       // unit normal of a flat light; zero for a light that emits in all directions
+    float twoSided;  // 1: emits to both sides of axis
+    float intensity; // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
+};
+
+const uint kContributionLights = 32u; // up to here `contribution` weighs every light at the shading point
+
+struct LightWeights {
+    float weight[kContributionLights];
+};
+
+// A place on the line along which the weights of a short table are laid end to end.
+struct LightPick {
+    uint light;   // whose weight is there
+    float weight; // of this light
+    float beyond; // the part of it behind the place
+    float total;  // of all weights
+};
+
+// ---- light tree ------------------------------------------------------------------------------------------------------
+// Over more lights `contribution` descends a tree. Node 0 is the root.
+
+const uint kLightNodeChildren = 8u;
+const uint kLightLeaf = 0x80000000u; // in LightNode::child: the rest is a light, not a node
+
+// Bounds of up to eight children, each a light or a node, field by field so that they are weighed side by side. A child
+// that does not exist has no intensity. Six cache lines.
+struct LightNode {
+    float centerX[8]; // of a sphere around the child's lights
+    float centerY[8];
+    float centerZ[8];
+    float radius[8]; // negative: the child is a single light
+    float axisX[8];  // unit axis of a cone that holds the normals of the lights counted in `facing`
+    float axisY[8];
+    float axisZ[8];
+    float alignment[8];    // length of the mean of those normals, weighed by intensity
+    float spreadCosine[8]; // of the cone's half angle
+    float facing[8]; // intensity of flat lights along their normals; negative: a single light that emits to both sides
+    float around[8]; // mean intensity of the lights that emit to all sides
+    uint child[8];
+};
+
+// One child of a LightNode.
+struct LightCluster {
+    vec3 center;
+    float radius;
+    vec3 axis;
+    float alignment;
+    float spreadCosine;
+    float facing;
+    float around;
+    uint child;
+};
+
+struct ClusterWeights {
+    float weight[kLightNodeChildren];
+};
+
+// ---- the scene as a whole --------------------------------------------------------------------------------------------
+
+const uint kSkyBlack = 0u;
+const uint kSkyConstant = 1u; // skyTop
+const uint kSkyGradient = 2u; // mix(skyBottom, skyTop, 0.5 (unit direction.y + 1))
+const uint kSkyImage = 3u;    // latitude-longitude image, skyTop is a factor
+
+struct SceneGlobals {
+    vec3 origin; // authored camera position, subtracted from every coordinate; solid textures add it back
+    uint skyKind;
+    vec3 skyTop;
+    vec3 skyBottom;
+    uint skyImage;    // into images
+    uint skyLight;    // into lights, kNone unless the sky is sampled
+    uint lightCount;  // lights proper
+    uint targetCount; // importance targets, stored behind the lights
+    uint mediumCount;
+    uint instanceCount;
+    float sceneRadius; // half the diagonal of the bounds
+};
+
+struct Camera {
+    vec3 origin;
+    vec3 corner; // from origin to the image's upper left corner on the plane of focus
+    vec3 across; // upper left to upper right corner
+    vec3 down;   // upper left to lower left corner
+    vec3 lensU;  // half axes of the lens disk; zero for a pinhole
+    vec3 lensV;
+};
+
+// Estimators, as named in the interface.
+const uint kSampleBsdf = 0u;
+const uint kSampleMixture = 1u;
+const uint kSampleMis = 2u; // and above: next-event estimation weighed against scattering, by the power heuristic
+const uint kSampleMisBalance = 3u; // by the balance heuristic
+
+const uint kSelectUniform = 0u;
+const uint kSelectPower = 1u;
+const uint kSelectContribution = 2u;
+
+const uint kShapeAuto = 0u;
+const uint kShapeSolidAngle = 1u;
+const uint kShapeProjected = 2u;
+const uint kShapeArea = 3u;
+
+const uint kSamplerIndependent = 0u;
+const uint kSamplerStratified = 1u;
+const uint kSamplerSobol = 2u;
+const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
+
+struct RenderParams {
+    uint width; // pixels
+    uint height;
+    uint maxDepth; // path vertices after the camera
+    uint seed;
+    uint lightSampling;
+    uint lightSelection;
+    uint sphereLight;
+    uint quadLight;
+    uint triangleLight;
+    uint samplerKind;
+    uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
+                  // logarithm of the samples of a pixel that are next to each other in the sequence
+    uint strataY;
+    uint russianRoulette; // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
+};
+
+// ---- rays ------------------------------------------------------------------------------------------------------------
+
+struct Ray {
+    vec3 origin;
+    vec3 direction; // unit in world space
+    float time;     // [0,1)
+};
+
+// The nearest intersection, as the engine's traversal reports it.
+struct Hit {
+    float t;        // ray parameter; negative: nothing was hit
+    uint kind;      // kSphere, kQuad, kTriangle
+    uint primitive; // index into spheres, quads or triangles of the whole scene
+    uint instance;  // kNone: the world's own geometry
+    float u;        // quad: along edgeU; triangle: weight of vertex 1
+    float v;        // quad: along edgeV; triangle: weight of vertex 2
+};
+
+// ---- paths -----------------------------------------------------------------------------------------------------------
+
+struct LightChoice {
+    uint light;        // kNone: nothing to choose
+    float probability; // > 0 otherwise
+    float u;           // the number that chose, stretched to [0,1) for further use
+};
+
+// Where lights are seen from. The point and the normal (zero in a medium) that selection and sampling used must also be
+// those that a density is asked for, or the weights of multiple importance sampling would not sum to one.
+struct LightContext {
+    vec3 position;
+    vec3 normal;
+    float total; // sum of contributions where selection is by contribution; 0: no light can contribute
+    uint policy; // the selection in force: kSelect...
+};
+
+// A path between two steps of PathStep.h.
+struct PathState {
+    Ray ray;
+    vec3 throughput;
+    vec3 radiance;
+    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;       // surfaces and collisions met so far
+    LightContext last; // where ray starts, for the weights of multiple importance sampling
+};
+
+// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes on,
+// at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be remembered
+// meanwhile.
+struct DirectLight {
+    vec3 radiance;
+    vec3 direction; // unit
+    float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
+};
+
+RT_SHARED_END
+
+#endif

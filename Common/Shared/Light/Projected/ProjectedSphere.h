@@ -1,0 +1,196 @@
+// A sphere by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an unoccluded diffuse
+// receiver then sees no variance. What is below its horizon is cut off.
+//
+// Seen from the tangent plane the cap of directions to a sphere is an ellipse (all of it above the horizon), an ellipse
+// and a lune between it and the unit circle (its middle above), or a lune alone (its middle below). Urena & Georgiev,
+// "Stratified Sampling of Projected Spherical Caps", 2018, cut them into slices parallel to the symmetry axis; so do we,
+// at y = sine * sin(psi), with widths that need no difference of nearly equal numbers.
+#ifndef RT_SHARED_PROJECTED_SPHERE_H
+#define RT_SHARED_PROJECTED_SPHERE_H
+#include "Common/Shared/Light/Projected/PiecewiseFit.h"
+#include "Common/Shared/Light/Projected/ProjectedQuery.h"
+#include "Common/Shared/Shape/SphericalShapes.h"
+
+RT_SHARED_BEGIN
+
+const uint kCapIntervals = 10u; // of psi, from 0 to the end
+
+const uint kCapWhole = 0u;  // no part below the horizon
+const uint kCapHigh = 1u;   // cut, its middle above the horizon
+const uint kCapLow = 2u;    // cut, its middle at or below the horizon
+const uint kCapHidden = 3u; // wholly below
+
+struct ProjectedCap {
+    SphereCone cone;
+    uint kind;
+    vec3 up;                        // unit, across cone.axis towards the normal
+    vec3 side;                      // unit, across cone.axis and the normal
+    float rise;                     // cosine between axis and normal
+    float lean;                     // sine
+    float cut;                      // y beyond which the ellipse is wholly above the horizon (kCapHigh)
+    float end;                      // psi of the last slice
+    float total;                    // integral of the fit over psi, half of the projected solid angle
+    float mass[kCapIntervals + 1u]; // of slices, per psi
+};
+
+// A slice: x from right - width to right; at its right end the height above the tangent plane is `height`.
+struct CapSlice {
+    float width;
+    float right;
+    float height;
+};
+
+RT_FN CapSlice capSlice(RT_IN(ProjectedCap) cap, float sinPsi, float cosPsi) {
+    float s = cap.cone.sine;
+    float c = cap.cone.cosine;
+    float a = abs(cap.rise);
+    float y = s * sinPsi;
+    float circle = sqrt(max((1.0f - y) * (1.0f + y), 0.0f));
+    CapSlice slice;
+    slice.right = circle;
+    slice.height = 0.0f;
+    if (cap.kind == kCapLow) {
+        float z = max(s * cap.lean * cosPsi - a * c, 0.0f);
+        slice.width = z * z / max(circle + (c * cap.lean + s * a * cosPsi), 1.0e-37f);
+    } else if (cap.kind == kCapHigh && y <= cap.cut) {
+        float z = c * cap.rise + s * cap.lean * cosPsi;
+        slice.width = z * z / max(circle + (c * cap.lean - s * a * cosPsi), 1.0e-37f);
+    } else {
+        slice.width = 2.0f * s * a * cosPsi;
+        slice.right = c * cap.lean + s * a * cosPsi;
+        slice.height = max(c * cap.rise - s * cap.lean * cosPsi, 0.0f);
+    }
+    return slice;
+}
+
+// `normal` is the receiver's, unit.
+RT_FN ProjectedCap makeProjectedCap(RT_IN(SphereCone) cone, vec3 normal) {
+    ProjectedCap cap;
+    cap.cone = cone;
+    vec3 across = cross(normal, cone.axis);
+    cap.lean = length(across);
+    cap.rise = dot(normal, cone.axis);
+    // Straight overhead any direction serves.
+    cap.side = cap.lean > 1.0e-4f ? across * (1.0f / cap.lean) : makeFrame(cone.axis).bitangent;
+    cap.up = cross(cone.axis, cap.side);
+    float s = cone.sine;
+    cap.kind = cap.rise >= s ? kCapWhole : cap.rise > 0.0f ? kCapHigh : cap.rise > -s ? kCapLow : kCapHidden;
+    cap.cut = 0.0f;
+    cap.end = 0.5f * kPi;
+    cap.total = 0.0f;
+    if (cap.kind == kCapWhole || cap.kind == kCapHidden) return cap;
+    float g = sqrt((s - cap.rise) * (s + cap.rise));
+    cap.cut = g / cap.lean;
+    if (cap.kind == kCapLow) cap.end = arcTan(g, -cap.rise * cone.cosine);
+    float stepSize = cap.end / float(kCapIntervals);
+    for (uint i = 0u; i <= kCapIntervals; i++) {
+        vec2 sc = sinCos2Pi(float(i) * stepSize * (0.5f * kInvPi));
+        float cosPsi = max(sc.y, 0.0f);
+        cap.mass[i] = capSlice(cap, sc.x, cosPsi).width * s * cosPsi;
+        if (i > 0u) cap.total += 0.5f * stepSize * (cap.mass[i - 1u] + cap.mass[i]);
+    }
+    return cap;
+}
+
+// Density on the tangent plane's unit disk at psi, given the slice there; 0 where nothing is visible.
+RT_FN float capDensity(RT_IN(ProjectedCap) cap, float psi, RT_IN(CapSlice) slice, float cosPsi) {
+    float at = clamp(psi / cap.end, 0.0f, 1.0f) * float(kCapIntervals);
+    uint i = min(uint(at), kCapIntervals - 1u);
+    float fit = mix(cap.mass[i], cap.mass[i + 1u], at - float(i));
+    float own = slice.width * cap.cone.sine * cosPsi;
+    return own > 0.0f ? fit / (2.0f * cap.total * own) : 0.0f;
+}
+
+// A point on the sphere, seen along cone.axis * cosine + across, |across|^2 = sine2.
+RT_FN ConeSample placeOnSphere(RT_IN(SphereCone) cone, float radius, vec3 across, float sine2) {
+    float cosine = sqrt(max(1.0f - sine2, 0.0f));
+    return meetSphere(cone, radius, normalize(across + cone.axis * cosine), cosine, across, sine2);
+}
+
+// A direction with its density on the unit disk of the tangent plane: density per steradian is that times the cosine.
+struct ProjectedDirection {
+    ConeSample place;
+    float density; // 0: nothing is visible
+};
+
+RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radius, vec2 u) {
+    ProjectedDirection result;
+    float s = cap.cone.sine;
+    float c = cap.cone.cosine;
+    float y = 0.0f;
+    float lift = 0.0f; // of the direction along `up`
+    if (cap.kind == kCapWhole) {
+        // Uniform in the ellipse. Height above that of its middle, c * rise, without cancellation for small caps.
+        vec2 e = sampleDisk(u);
+        float cosPsi = sqrt(max(0.0f, (1.0f - e.y) * (1.0f + e.y)));
+        float a = cap.rise;
+        float low = max(c * a - s * cap.lean * cosPsi, 0.0f);
+        float x = c * cap.lean + s * a * e.x;
+        float z = sqrt(low * low + s * a * max(cosPsi - e.x, 0.0f) * (c * cap.lean + s * a * cosPsi + x));
+        float above = s * (-2.0f * c * a * cap.lean * e.x + s * (cosPsi * cosPsi - a * a * e.x * e.x)) / (z + c * a);
+        y = s * e.y;
+        lift = cap.lean * above - s * a * a * e.x;
+        result.density = kInvPi / (s * s * a);
+    } else {
+        float t = abs(2.0f * u.y - 1.0f);
+        float rest = t * cap.total;
+        float stepSize = cap.end / float(kCapIntervals);
+        uint i = 0u;
+        float part = 0.5f * stepSize * (cap.mass[0] + cap.mass[1]);
+        while (i + 1u < kCapIntervals && rest > part) {
+            rest -= part;
+            i++;
+            part = 0.5f * stepSize * (cap.mass[i] + cap.mass[i + 1u]);
+        }
+        float psi = (float(i) + invertLinear(cap.mass[i], cap.mass[i + 1u], rest / stepSize)) * stepSize;
+        vec2 sc = sinCos2Pi(min(psi, cap.end) * (0.5f * kInvPi));
+        float cosPsi = max(sc.y, 0.0f);
+        CapSlice slice = capSlice(cap, sc.x, cosPsi);
+        float inward = (1.0f - u.x) * slice.width;
+        float x = slice.right - inward;
+        float z = sqrt(slice.height * slice.height + inward * (slice.right + x));
+        y = s * sc.x * signOf(u.y - 0.5f);
+        lift = cap.lean * z - cap.rise * x;
+        result.density = capDensity(cap, psi, slice, cosPsi);
+    }
+    // Rounding must not lead out of the cone.
+    float sine2 = lift * lift + y * y;
+    float shrink = sine2 > s * s ? s / sqrt(sine2) : 1.0f;
+    result.place =
+        placeOnSphere(cap.cone, radius, cap.up * (lift * shrink) + cap.side * (y * shrink), min(sine2, s * s));
+    return result;
+}
+
+// Density on the unit disk at a direction that meets the sphere.
+RT_FN float projectedCapDensity(RT_IN(ProjectedCap) cap, vec3 wi) {
+    if (cap.kind == kCapWhole) return kInvPi / (cap.cone.sine * cap.cone.sine * cap.rise);
+    if (cap.kind == kCapHidden) return 0.0f;
+    float sinPsi = min(abs(dot(cap.side, wi)) / cap.cone.sine, 1.0f);
+    float cosPsi = sqrt((1.0f - sinPsi) * (1.0f + sinPsi));
+    return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap, sinPsi, cosPsi), cosPsi);
+}
+
+// Draws or states a density, see ProjectedQuery.h.
+RT_CALL CapSample useProjectedSphere(RT_IN(CapQuery) query) {
+    CapSample result;
+    result.direction = query.normal;
+    result.distance = 0.0f;
+    result.normal = query.normal;
+    result.density = 0.0f;
+    ProjectedCap cap = makeProjectedCap(makeSphereCone(query.toCenter, query.radius), query.normal);
+    if (cap.kind == kCapHidden) return result;
+    if (query.use == kProjectedDensity) {
+        result.density = projectedCapDensity(cap, query.given);
+        return result;
+    }
+    ProjectedDirection d = sampleProjectedCap(cap, query.radius, vec2(query.given));
+    result.direction = d.place.direction;
+    result.distance = d.place.distance;
+    result.normal = d.place.normal;
+    result.density = d.density;
+    return result;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,139 @@
+// Sampling of spheres: uniform in area, solid angle or projected solid angle, or from inside.
+#ifndef RT_SHARED_SPHERE_LIGHT_H
+#define RT_SHARED_SPHERE_LIGHT_H
+#include "Common/Shared/Light/LightSample.h"
+#include "Common/Shared/Light/Projected/ProjectedQuery.h"
+#include "Common/Shared/Light/Projected/WholeCap.h"
+#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
+#include "Common/Shared/Light/Projected/ProjectedSphere.h"
+#endif
+
+RT_SHARED_BEGIN
+
+RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
+    return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
+}
+
+RT_FN uint sphereLightRegime(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
+    float d2 = dot(toCenter, toCenter);
+    float r2 = light.radius * light.radius;
+    uint regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    if (method == kShapeAuto) {
+        uint above =
+            dot(normal, toCenter) >= light.radius ? kRegimeWholeCap : kRegimeSolidAngle; // a medium's normal is 0
+        regime = r2 >= kLeastCapSine2 * d2 ? above : kRegimeSolidAngle;
+    }
+    if (wantsProjected(features, method, normal)) {
+        regime = r2 >= kTinyExtent * kTinyExtent * d2 ? kRegimeProjected : kRegimeSolidAngle;
+    }
+    return d2 <= r2 ? kRegimeInside : regime;
+}
+
+RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
+    CapQuery query;
+    query.toCenter = toCenter;
+    query.radius = light.radius;
+    query.normal = normal;
+    query.given = given;
+    query.use = use;
+    return query;
+}
+
+// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
+// guarantees that, far from it the other is finer.
+RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
+    return either(toCenter < 2.0f * radius, onRay, center + normal * radius);
+}
+
+RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
+                                        vec2 u) {
+    LightSample s = noLightSample();
+#ifdef RT_PROJECTED
+    CapSample d = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
+    if (!(d.density > 0.0f)) return s;
+    s.wi = d.direction;
+    s.distance = d.distance;
+    s.normal = d.normal;
+    s.point = pointOnSphere(length(toCenter), center, light.radius, s.normal, position + s.wi * s.distance);
+    s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
+#endif
+    return s;
+}
+
+RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
+#ifdef RT_PROJECTED
+    float density = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDensity, wi)).density;
+    return density * max(dot(normal, wi), 0.0f);
+#else
+    return 0.0f;
+#endif
+}
+
+// The sample of a direction in the cone of a sphere that is seen from outside.
+RT_FN LightSample sampleOfCone(RT_IN(SphereCone) cone, RT_IN(ConeSample) c, float pdf, vec3 center, float radius,
+                               vec3 position) {
+    LightSample s = noLightSample();
+    s.wi = c.direction;
+    s.distance = c.distance;
+    s.normal = c.normal;
+    s.point = pointOnSphere(cone.distance, center, radius, c.normal, position + c.direction * c.distance);
+    s.pdf = pdf;
+    return s;
+}
+
+RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                                    vec3 normal, float time, vec2 u) {
+    LightSample s = noLightSample();
+    vec3 center = sphereLightCenter(features, light, time);
+    vec3 toCenter = center - position;
+    float radius = light.radius;
+    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
+        s = sampleSphereProjected(light, center, toCenter, position, normal, u);
+    } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
+        SphereCone cone = makeSphereCone(toCenter, radius);
+        if (regime == kRegimeWholeCap) {
+            ConeSample c = sampleWholeCap(cone, radius, normal, u);
+            s = sampleOfCone(cone, c, wholeCapPdf(cone, normal, c.direction), center, radius, position);
+        } else {
+            s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
+        }
+    } else if (regime == kRegimeInside) {
+        vec4 w = sampleInside(normal, u);
+        s.wi = vec3(w);
+        float along = dot(toCenter, s.wi);
+        float inside2 = radius * radius - dot(toCenter, toCenter);
+        s.distance = along + sqrt(along * along + inside2);
+        s.point = position + s.wi * s.distance;
+        s.normal = (s.point - center) / radius;
+        s.pdf = light.sides == kSidesBoth ? w.w : 0.0f;
+    } else {
+        s.normal = sampleSphere(u);
+        s.point = center + s.normal * radius;
+        vec3 v = s.point - position;
+        s.distance = length(v);
+        s.wi = v / s.distance;
+        float cosine = -dot(s.normal, s.wi);
+        // The far half is hidden by the near one, and a mixture's density counts the direction once.
+        s.pdf = cosine > 0.0f ? areaPdf(light.area, s.distance, cosine) : 0.0f;
+    }
+    return s;
+}
+
+RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                           float time, vec3 wi, float distance, vec3 lightNormal) {
+    vec3 toCenter = sphereLightCenter(features, light, time) - position;
+    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
+    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
+    if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
+    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+        return sphereProjectedPdf(light, toCenter, normal, wi);
+    if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
+    if (regime == kRegimeWholeCap) return wholeCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
+    if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
+    return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,120 @@
+// Next-event estimation: a light that is chosen and sampled from a vertex, and the shadow ray that finds whether it arrives.
+#ifndef RT_SHARED_DIRECT_LIGHT_H
+#define RT_SHARED_DIRECT_LIGHT_H
+#include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Path/Emission.h"
+#include "Common/Shared/Path/Vertex.h"
+
+RT_SHARED_BEGIN
+
+// Fraction of light that media let through along the ray up to tMax.
+RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, float tMax) {
+    if (!has(features, kFeatureVolumes)) return 1.0f;
+    float depth = 0.0f;
+    uint count = loadGlobals(scene).mediumCount;
+    for (uint i = 0u; i < count; i++) {
+        RT_IN(Medium) medium = loadMedium(scene, i);
+        depth += medium.extinction * lengthWithin(mediumInterval(medium, ray.origin, ray.direction), tMax);
+    }
+    return transmittance(depth);
+}
+
+// The numbers that choose the light: the first of the pair that also places the point, unless there are so many lights
+// that the choice would use up its bits.
+RT_FN vec2 selectionNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v) {
+    if (!usesLightTree(features, globals.lightCount)) return v.numbers.light;
+    return smp.kind == kSamplerSobol ? v.numbers.select : randomPair(smp, vertexPair(v.index, kPairSelect));
+}
+
+// Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
+RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
+    if (!has(features, kTexturedFeatures) || light.material == kNone) return;
+    if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
+    }
+    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
+}
+
+RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
+                                    RT_IN(Vertex) v, float time, vec2 u) {
+    if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
+    LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
+    applyEmissionTexture(features, scene, light, sampled);
+    return sampled;
+}
+
+// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
+// the light's coordinates when the light is far from the shading point but not from the origin.
+const float kShadowMargin = 32.0f * kEpsilon;
+
+RT_FN DirectLight noDirectLight() {
+    DirectLight direct;
+    direct.radiance = vec3(0.0f, 0.0f, 0.0f);
+    direct.direction = vec3(0.0f, 0.0f, 0.0f);
+    direct.distance = 0.0f;
+    return direct;
+}
+
+// What a sample of a light that was chosen with `probability` brings to a path of this throughput, weighed against the bsdf's
+// density. Without a branch, for loops over samples.
+RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, RT_IN(LightSample) sampled,
+                              RT_IN(Vertex) v, vec3 throughput) {
+    vec4 f = evalScattering(features, v, sampled.wi);
+    vec3 contribution = throughput * vec3(f) * sampled.radiance;
+    float brought = sampled.pdf > 0.0f ? maxComponent(contribution) : 0.0f;
+    // The weight and the division by the light's own density are one division.
+    float density = probability * sampled.pdf;
+    float scattering = params.lightSampling == kSampleMisBalance ? f.w : f.w * (f.w / density);
+    // The segment ends at the light's own offset point, so that the emitter does not shadow itself and no primitive has
+    // to be excluded.
+    vec3 end = offsetOrigin(sampled.point, sampled.error, sampled.normal, -sampled.wi);
+    vec3 segment = end - v.origin;
+    float whole = length(segment);
+    // Closer than rounding can tell apart nothing fits in between.
+    float distance = dot(segment, sampled.wi) > 0.0f ? whole * (1.0f - kShadowMargin) : 0.0f;
+    bool isSky = has(features, kFeatureSkyImage) && sampled.distance == kInfinity;
+    DirectLight direct;
+    direct.radiance = either(brought > 0.0f, contribution * (1.0f / (density + scattering)), vec3(0.0f));
+    direct.direction = either(isSky, sampled.wi, segment / whole);
+    distance = isSky ? kInfinity : distance;
+    direct.distance = brought > 0.0f ? distance : 0.0f;
+    return direct;
+}
+
+// The number that chooses a light of a short table is the first of those that sample it.
+RT_FN vec2 sampleNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice, RT_IN(Vertex) v) {
+    return usesLightTree(features, globals.lightCount) ? v.numbers.light : vec2(choice.u, v.numbers.light.y);
+}
+
+// Next-event estimation with the light that was chosen: one sample, one shadow ray.
+RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+                                    RT_IN(LightChoice) choice, RT_IN(Vertex) v, RT_IN(PathState) s) {
+    if (choice.light == kNone) return noDirectLight();
+    RT_IN(Light) light = loadLight(scene, choice.light);
+    vec2 u = sampleNumbers(features, loadGlobals(scene), choice, v);
+    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
+    return weighSample(features, params, choice.probability, sampled, v, s.throughput);
+}
+
+// Adds what needs no shadow ray.
+RT_FN void addUnshadowed(RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
+    if (direct.distance == 0.0f) s.radiance += direct.radiance;
+}
+
+RT_FN Ray shadowRay(RT_IN(PathState) s, RT_IN(DirectLight) direct) {
+    Ray ray;
+    ray.origin = s.last.position;
+    ray.direction = direct.direction;
+    ray.time = s.ray.time;
+    return ray;
+}
+
+// To be called where no surface is in the way of shadowRay(s, direct).
+RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
+    s.radiance += direct.radiance * rayTransmittance(features, scene, shadowRay(s, direct), direct.distance);
+}
+
+RT_SHARED_END
+
+#endif

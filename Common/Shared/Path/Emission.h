@@ -1,0 +1,61 @@
+// Light that a path meets, weighed against the light sampling of the vertex before.
+#ifndef RT_SHARED_EMISSION_H
+#define RT_SHARED_EMISSION_H
+#include "Common/Shared/Light/LightSelection.h"
+#include "Common/Shared/Light/Lights.h"
+#include "Common/Shared/Light/Sky.h"
+#include "Common/Shared/Shape/Surface.h"
+#include "Common/Shared/Texture/Textures.h"
+
+RT_SHARED_BEGIN
+
+RT_FN bool usesMis(RT_IN(RenderParams) params) {
+    return params.lightSampling >= kSampleMis;
+}
+
+// Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
+RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
+    if (!usesMis(params) || pdf == 0.0f) return 1.0f;
+    return params.lightSampling == kSampleMisBalance ? balanceHeuristic(pdf, lightDensity)
+                                                     : powerHeuristic(pdf, lightDensity);
+}
+
+RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
+    if (!has(features, kFeatureSky)) return;
+    float weight = 1.0f;
+    if (has(features, kFeatureSkyImage)) {
+        RT_IN(SceneGlobals) globals = loadGlobals(scene);
+        if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {
+            float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
+            weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
+        }
+    }
+    s.radiance += s.throughput * skyRadiance(features, scene, s.ray.direction) * weight;
+}
+
+// Emitted radiance at a point of a surface with this material, both sides alike.
+RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv) {
+    if (material.emissionTexture == kNone) return material.emission;
+    return material.emission *
+           evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv);
+}
+
+RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
+                       RT_IN(Material) material, float distance, RT_INOUT(PathState) s) {
+    if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
+    bool front = dot(s.ray.direction, surface.normal) < 0.0f;
+    if (!front && material.emissionSides != kSidesBoth) return;
+    vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv);
+    float weight = 1.0f;
+    if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
+        float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
+        float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
+                                 s.ray.time, s.ray.direction, distance, surface.normal);
+        weight = emissionWeight(params, s.pdf, probability * density);
+    }
+    s.radiance += s.throughput * emitted * weight;
+}
+
+RT_SHARED_END
+
+#endif

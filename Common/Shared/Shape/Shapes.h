@@ -1,0 +1,206 @@
+// Intersection of a ray with one shape: the formulas of the GPU's own traversal, and the reference for the blocks of
+// eight that the CPU tests at a time (Common/Accel/ShapeBlocks.h).
+//
+// A ray's parameter t counts lengths of its direction, which needs no unit length. Origins lie off their surface
+// already, so every hit with 0 < t < tMax counts. No constant here has a unit of length: scaling a scene by a power of
+// two changes no bit of a decision.
+#ifndef RT_SHARED_SHAPES_H
+#define RT_SHARED_SHAPES_H
+#include "Common/Shared/Base/Types.h"
+
+RT_SHARED_BEGIN
+
+struct ShapeHit {
+    float t; // negative: missed
+    float u; // as in Hit
+    float v;
+};
+
+RT_FN ShapeHit missedShape() {
+    ShapeHit hit;
+    hit.t = -1.0f;
+    hit.u = 0.0f;
+    hit.v = 0.0f;
+    return hit;
+}
+
+RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
+    return centerAtStart + motion * time;
+}
+
+// The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the centre,
+// not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision Improvements for
+// Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance to the centre: that is
+// what the origin of a ray that leaves the sphere is offset by. inverseSquaredLength: 1 / dot(direction, direction).
+RT_FN float intersectSphere(Ray ray, float inverseSquaredLength, vec3 center, float radius, float tMax) {
+    vec3 f = center - ray.origin;
+    float middle = dot(f, ray.direction) * inverseSquaredLength;
+    vec3 l = f - middle * ray.direction; // to the centre from the point of the line that is nearest to it
+    float squaredHalf = (radius * radius - dot(l, l)) * inverseSquaredLength;
+    if (!(squaredHalf >= 0.0f)) return -1.0f;
+    float halfChord = sqrt(squaredHalf);
+    float t = middle - halfChord > 0.0f ? middle - halfChord : middle + halfChord;
+    return t > 0.0f && t < tMax ? t : -1.0f;
+}
+
+RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
+    return intersectSphere(ray, 1.0f / dot(ray.direction, ray.direction), center, radius, tMax);
+}
+
+struct SpherePoint {
+    vec3 position;
+    vec3 normal; // unit, outwards
+};
+
+// Where the ray meets the sphere, on the side that the hit at parameter t is on. The position is off the sphere by less than 8
+// roundings of |center| + radius, which is what rays that leave it are offset by.
+RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
+    vec3 f = ray.origin - center;
+    float a = dot(ray.direction, ray.direction);
+    float middle = -dot(f, ray.direction) / a;
+    bool first = t < middle;
+    SpherePoint point;
+    vec3 reach = abs(ray.origin) + abs(ray.direction) * t;
+    vec3 size = abs(center) + radius;
+    if (4.0f * max(reach.x, max(reach.y, reach.z)) < max(size.x, max(size.y, size.z))) {
+        // Near a huge sphere, the ground say: the sphere's coordinates would take the digits of the point's. Half the chord
+        // from the power of the origin, which is small, without the cancellation of its largest term; then along the ray.
+        vec3 m = abs(f);
+        float largest = max(m.x, max(m.y, m.z));
+        vec3 others = m.x == largest   ? vec3(0.0f, m.y, m.z)
+                      : m.y == largest ? vec3(m.x, 0.0f, m.z)
+                                       : vec3(m.x, m.y, 0.0f);
+        float power = ((largest - radius) * (largest + radius) + dot(others, others)) / a;
+        float halfChord = sqrt(max(middle * middle - power, 0.0f));
+        bool behind = middle < 0.0f;
+        float q = behind ? middle - halfChord : middle + halfChord; // the root of larger magnitude
+        vec3 along = ray.direction * (first == behind ? q : power / q);
+        point.position = ray.origin + along;
+        point.normal = normalize(f + along);
+        return point;
+    }
+    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et al.,
+    // Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
+    vec3 foot = f + ray.direction * middle;
+    float halfChord = sqrt(max(0.0f, radius * radius - dot(foot, foot)) / a);
+    point.normal = normalize(foot + ray.direction * (first ? -halfChord : halfChord));
+    point.position = center + point.normal * radius;
+    return point;
+}
+
+// What the test of a quad needs to know of it; computed once, or per test where memory is dearer.
+struct QuadFrame {
+    vec3 normal; // along edgeU x edgeV, of any length
+    vec3 dualU;  // dot(dualU, edgeU) = 1, dot(dualU, edgeV) = 0
+    vec3 dualV;
+    vec2 margin; // errors of u and v for a unit of t |direction|
+};
+
+// Bounds the rounding errors of u and v, relative to the terms they are sums of. Of rays aimed exactly at the edges of turned
+// boxes one in 30 000 gets out; twice as much would stop that one too, but makes lamps larger: a strip as wide as 1/100 of its
+// distance by 5e-5. Each direction has its own bound, since what a strip needs along its short side would lengthen it.
+const float kQuadError = 2.0f * kEpsilon;
+
+RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
+    QuadFrame frame;
+    vec3 n = cross(edgeU, edgeV);
+    frame.normal = n / dot(n, n);
+    frame.dualU = cross(edgeV, frame.normal);
+    frame.dualV = cross(frame.normal, edgeU);
+    frame.margin = kQuadError * vec2(length(frame.dualU), length(frame.dualV));
+    return frame;
+}
+
+// The parallelogram is closed and widened by what rounding may take off its edges, so that quads which share an edge
+// leave no gap. Only rays within the plane are rejected for their angle. rayLength: length(direction).
+RT_FN ShapeHit intersectQuad(Ray ray, float rayLength, vec3 corner, QuadFrame frame, float tMax) {
+    ShapeHit hit = missedShape();
+    vec3 f = corner - ray.origin;
+    float t = dot(frame.normal, f) / dot(frame.normal, ray.direction);
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
+    float u = t * dot(frame.dualU, ray.direction) - dot(frame.dualU, f);
+    float v = t * dot(frame.dualV, ray.direction) - dot(frame.dualV, f);
+    vec2 reach = t * rayLength * frame.margin + (0.5f + kQuadError);
+    if (!(abs(u - 0.5f) <= reach.x && abs(v - 0.5f) <= reach.y)) return hit;
+    hit.t = t;
+    hit.u = clamp(u, 0.0f, 1.0f);
+    hit.v = clamp(v, 0.0f, 1.0f);
+    return hit;
+}
+
+RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) {
+    return intersectQuad(ray, length(ray.direction), corner, frame, tMax);
+}
+
+// p.x q.y - p.y q.x, rounded alike for both directions of an edge, however a compiler fuses products with sums: the two
+// triangles at an edge always agree on which side of it a ray passes.
+RT_FN float edgeFunction(vec2 p, vec2 q) {
+    bool swapped = p.x > q.x || (p.x == q.x && p.y > q.y);
+    vec2 a = swapped ? q : p;
+    vec2 b = swapped ? p : q;
+    float e = a.x * b.y - a.y * b.x;
+    return swapped ? -e : e;
+}
+
+RT_FN uint largestAxis(vec3 v) {
+    vec3 m = abs(v);
+    return m.x > m.y ? (m.x > m.z ? 0u : 2u) : (m.y > m.z ? 1u : 2u);
+}
+
+// What the tests of all triangles have in common for a ray: the axis that it mostly runs along, and the shear that makes it run
+// along that axis exactly.
+struct TriangleRay {
+    uint axis;
+    float shearX;
+    float shearY;
+    float along; // component of the direction on the axis
+};
+
+// The components in cyclic order, that of `axis` last.
+RT_FN vec3 axisLast(vec3 v, uint axis) {
+    if (axis == 2u) return v;
+    return axis == 0u ? vec3(v.y, v.z, v.x) : vec3(v.z, v.x, v.y);
+}
+
+RT_FN TriangleRay makeTriangleRay(vec3 direction) {
+    TriangleRay r;
+    r.axis = largestAxis(direction);
+    vec3 d = axisLast(direction, r.axis);
+    r.shearX = d.x / d.z;
+    r.shearY = d.y / d.z;
+    r.along = d.z;
+    return r;
+}
+
+// Woop, Benthin & Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: shear space so that the ray runs along
+// an axis, then ask on which side of the three edges it passes. Edges belong to both triangles that share them.
+RT_FN ShapeHit intersectTriangle(vec3 origin, RT_IN(TriangleRay) ray, vec3 vertex0, vec3 vertex1, vec3 vertex2,
+                                 float tMax) {
+    ShapeHit hit = missedShape();
+    vec3 a = axisLast(vertex0 - origin, ray.axis);
+    vec3 b = axisLast(vertex1 - origin, ray.axis);
+    vec3 c = axisLast(vertex2 - origin, ray.axis);
+    vec2 a2 = vec2(a.x - ray.shearX * a.z, a.y - ray.shearY * a.z);
+    vec2 b2 = vec2(b.x - ray.shearX * b.z, b.y - ray.shearY * b.z);
+    vec2 c2 = vec2(c.x - ray.shearX * c.z, c.y - ray.shearY * c.z);
+
+    float wa = edgeFunction(c2, b2);
+    float wb = edgeFunction(a2, c2);
+    float wc = edgeFunction(b2, a2);
+    if (min(wa, min(wb, wc)) < 0.0f && max(wa, max(wb, wc)) > 0.0f) return hit;
+    float sum = wa + wb + wc;
+    float t = (wa * a.z + wb * b.z + wc * c.z) / (sum * ray.along);
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the triangle is seen edge-on
+    hit.t = t;
+    hit.u = wb / sum;
+    hit.v = wc / sum;
+    return hit;
+}
+
+RT_FN ShapeHit intersectTriangle(Ray ray, vec3 vertex0, vec3 vertex1, vec3 vertex2, float tMax) {
+    return intersectTriangle(ray.origin, makeTriangleRay(ray.direction), vertex0, vertex1, vertex2, tMax);
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,69 @@
+// The layout of acceleration structures that shaders traverse on their own: a binary tree whose nodes hold the boxes of both
+// children, with primitives in the order of its leaves, or, for the smallest scenes, lists without a tree.
+#ifndef RT_SHARED_TREE_RECORDS_H
+#define RT_SHARED_TREE_RECORDS_H
+#include "Common/Shared/Base/Types.h"
+
+RT_SHARED_BEGIN
+
+// ---- references ------------------------------------------------------------------------------------------------------
+
+// What a child of a node is: another node (its index), or a run of primitives of one kind in their array.
+//   bit 31: leaf    30..29: kind    28..26: primitives - 1    25..0: index of the first
+// A leaf of kind kInstanceLeaf is a single instance, named by its index in the scene.
+const uint kInstanceLeaf = 3u; // beside kSphere, kQuad, kTriangle
+const uint kTreeLeaf = 0x80000000u;
+const uint kTreeKindShift = 29u;
+const uint kTreeCountShift = 26u;
+const uint kTreeLeafSize = 8u;            // most primitives of a leaf
+const uint kTreeItems = (1u << 26u) - 1u; // most primitives of a kind; the last index stays free for kTreeReturn
+const uint kTreeReturn = 0xffffffffu;     // on a traversal's stack: the instance ends here
+
+RT_FN uint treeLeaf(uint kind, uint first, uint count) {
+    return kTreeLeaf | kind << kTreeKindShift | (count - 1u) << kTreeCountShift | first;
+}
+RT_FN uint treeLeafKind(uint leaf) {
+    return leaf >> kTreeKindShift & 3u;
+}
+RT_FN uint treeLeafFirst(uint leaf) {
+    return leaf & kTreeItems;
+}
+RT_FN uint treeLeafCount(uint leaf) {
+    return (leaf >> kTreeCountShift & (kTreeLeafSize - 1u)) + 1u;
+}
+
+// ---- records ---------------------------------------------------------------------------------------------------------
+// Vectors of four, so that each is one load. Indices among floats are their bits.
+
+// Slabs: lower and upper bound of the first child, then of the second.
+struct TreeNode {
+    vec4 x;
+    vec4 y;
+    vec4 z;
+    uvec4 children; // two references; the rest is unused
+};
+
+// See QuadFrame.
+struct TreeQuad {
+    vec4 corner;
+    vec4 normal; // w: index of the primitive
+    vec4 dualU;  // w: margin of u
+    vec4 dualV;  // w: margin of v
+};
+
+struct TreeTriangle {
+    vec4 vertex0; // w: index of the primitive
+    vec4 vertex1;
+    vec4 vertex2;
+};
+
+// ---- lists -----------------------------------------------------------------------------------------------------------
+// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), then four a quad, three a triangle, as
+// above.
+
+const uint kFlatPrimitives = 64u; // most that lists may hold
+const uint kFlatVectors = 4u * kFlatPrimitives;
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,135 @@
+// Procedural and image textures. The includer defines a type SceneRef and, before including, the fetches
+//     Texture loadTexture(SceneRef scene, uint texture)
+//     Image loadImage(SceneRef scene, uint image)
+//     vec3 loadTexel(SceneRef scene, Image image, uint x, uint y)         linear RGB; Color.h decodes
+//     vec3 loadPerlinGradient(SceneRef scene, uint index)
+//     uint loadPerlinPermutation(SceneRef scene, uint index)
+// In C++ they stand in namespace rt::shared.
+#ifndef RT_SHARED_TEXTURES_H
+#define RT_SHARED_TEXTURES_H
+#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/Sampling.h"
+
+RT_SHARED_BEGIN
+
+// ---- coordinates ----------------------------------------------------------------------------------------------------
+
+// Texture coordinates of a sphere's outward unit normal: u around +y from -x, v from the south pole.
+RT_FN vec2 sphereUv(vec3 n) {
+    float u = (arcTan(-n.z, n.x) + kPi) * (0.5f * kInvPi);
+    float v = arcTan(sqrt(n.x * n.x + n.z * n.z), -n.y) * kInvPi;
+    return clamp(vec2(u, v), vec2(0.0f), vec2(1.0f));
+}
+
+// ---- Perlin noise ---------------------------------------------------------------------------------------------------
+
+// Contribution of the lattice point `cell` + `corner`, corner in {0,1}^3, to the noise at `cell` + `f`.
+RT_FN float perlinCorner(SceneRef scene, uint table, ivec3 cell, vec3 f, vec3 smoothed, ivec3 corner) {
+    uint base = table * (3u * kPerlinSize);
+    uint x = loadPerlinPermutation(scene, base + uint((cell.x + corner.x) & 255));
+    uint y = loadPerlinPermutation(scene, base + kPerlinSize + uint((cell.y + corner.y) & 255));
+    uint z = loadPerlinPermutation(scene, base + 2u * kPerlinSize + uint((cell.z + corner.z) & 255));
+    vec3 c = vec3(corner);
+    vec3 weight = c * smoothed + (vec3(1.0f) - c) * (vec3(1.0f) - smoothed);
+    return weight.x * weight.y * weight.z * dot(loadPerlinGradient(scene, table * kPerlinSize + (x ^ y ^ z)), f - c);
+}
+
+// Gradient noise in about [-1, 1], 0 at lattice points, of period 256.
+RT_FN float perlinNoise(SceneRef scene, uint table, vec3 p) {
+    vec3 whole = floor(p);
+    vec3 f = p - whole;
+    // Reduced while still a float: far coordinates would overflow an integer.
+    ivec3 cell = ivec3(whole - floor(whole * (1.0f / 256.0f)) * 256.0f);
+    vec3 smoothed = f * f * (3.0f - 2.0f * f);
+    float sum = 0.0f;
+    for (int i = 0; i < 8; ++i) {
+        sum += perlinCorner(scene, table, cell, f, smoothed, ivec3(i & 1, i >> 1 & 1, i >> 2));
+    }
+    return sum;
+}
+
+const int kTurbulenceOctaves = 7;
+
+RT_FN float perlinTurbulence(SceneRef scene, uint table, vec3 p) {
+    float sum = 0.0f;
+    float weight = 1.0f;
+    for (int octave = 0; octave < kTurbulenceOctaves; ++octave) {
+        sum += weight * perlinNoise(scene, table, p);
+        weight *= 0.5f;
+        p = p * 2.0f;
+    }
+    return abs(sum);
+}
+
+// Brightness of the noise kinds.
+RT_FN float noiseValue(SceneRef scene, RT_IN(Texture) t, vec3 point) {
+    vec3 p = point * t.scale;
+    if (t.kind == kTextureNoise) return 0.5f * (1.0f + perlinNoise(scene, t.first, p));
+    float turbulence = perlinTurbulence(scene, t.first, p);
+    if (t.kind == kTextureTurbulence) return turbulence;
+    float turns = (t.frequency * point.z + 10.0f * turbulence) * (0.5f * kInvPi);
+    return 0.5f * (1.0f + sinCos2Pi(turns - floor(turns)).x);
+}
+
+// ---- images ---------------------------------------------------------------------------------------------------------
+
+// The four texels of a bilinear lookup and the weights of the second column and row. Texel centres lie at (i + 1/2) /
+// size; beyond the outermost the edge is repeated.
+struct Footprint {
+    uvec2 low;
+    uvec2 high;
+    vec2 weight;
+};
+
+// uv with v upwards from the last row of the image.
+RT_FN Footprint imageFootprint(RT_IN(Image) image, vec2 uv) {
+    vec2 limit = vec2(float(image.width - 1u), float(image.height - 1u));
+    vec2 p = vec2(uv.x * float(image.width), (1.0f - uv.y) * float(image.height)) - 0.5f;
+    p = clamp(p, vec2(0.0f), limit);
+    vec2 low = min(floor(p), limit);
+    Footprint f;
+    f.low = uvec2(low);
+    f.high = uvec2(min(low + 1.0f, limit));
+    f.weight = p - low;
+    return f;
+}
+
+RT_FN vec3 imageColor(SceneRef scene, RT_IN(Image) image, vec2 uv) {
+    Footprint f = imageFootprint(image, uv);
+    vec3 upper = mix(loadTexel(scene, image, f.low.x, f.low.y), loadTexel(scene, image, f.high.x, f.low.y), f.weight.x);
+    vec3 lower =
+        mix(loadTexel(scene, image, f.low.x, f.high.y), loadTexel(scene, image, f.high.x, f.high.y), f.weight.x);
+    return mix(upper, lower, f.weight.y);
+}
+
+// ---- any texture ----------------------------------------------------------------------------------------------------
+
+// Whether the cell of the solid checker that holds p, cells of edge `scale`, is one of the even ones.
+RT_FN bool isEvenCell(vec3 p, float scale) {
+    vec3 cell = floor(p / scale);
+    float sum = cell.x + cell.y + cell.z;
+    return sum - 2.0f * floor(0.5f * sum) == 0.0f;
+}
+
+const int kMaxCheckerDepth = 8; // checkers within checkers
+
+// `point` in authored world coordinates (SceneGlobals::origin added back), `uv` the surface's.
+RT_FN vec3 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv) {
+    Texture t = loadTexture(scene, texture);
+    if (has(features, kFeatureChecker)) {
+        for (int depth = 0; depth < kMaxCheckerDepth && t.kind == kTextureChecker; ++depth) {
+            t = loadTexture(scene, isEvenCell(point, t.scale) ? t.first : t.second);
+        }
+    }
+    vec3 color = t.color;
+    if (has(features, kFeatureImages) && t.kind == kTextureImage) {
+        color = color * imageColor(scene, loadImage(scene, t.first), uv);
+    } else if (has(features, kFeatureNoise) && t.kind != kTextureSolid) {
+        color = color * noiseValue(scene, t, point);
+    }
+    return color;
+}
+
+RT_SHARED_END
+
+#endif
