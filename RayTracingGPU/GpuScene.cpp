@@ -72,9 +72,9 @@ void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>
     tree_.instanceRoots = add(context, t.instanceRoots, "the tree's instances");
     tree_.root = t.root;
 
-    std::vector<shared::vec4> lists = bvh->flat.vectors;
-    lists.resize(shared::kFlatVectors);
-    flatLists_ = vulkan::deviceArray<shared::vec4>(context, lists, "primitives", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    std::vector<shared::vec4> lists = bvh->lists.vectors;
+    lists.resize(shared::kListVectors);
+    linearLists_ = vulkan::deviceArray<shared::vec4>(context, lists, "primitives", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 }
 
 void GpuScene::provideMotion(vulkan::VulkanContext& context) {

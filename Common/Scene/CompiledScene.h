@@ -1,4 +1,4 @@
-// The flat scene: arrays of records, nothing else. What a kernel, CPU or GPU, sees of a scene.
+// The compiled scene: arrays of records, nothing else. What a kernel, CPU or GPU, sees of a scene.
 #pragma once
 #include <cstdint>
 #include <string>
