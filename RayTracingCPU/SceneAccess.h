@@ -16,59 +16,17 @@ const uint kFarLights = 4096u; // more than a core's own cache holds
 RT_FN const SceneGlobals& loadGlobals(SceneRef scene) {
     return scene.globals;
 }
-RT_FN const Sphere& loadSphere(SceneRef scene, uint i) {
-    return scene.spheres[i];
-}
+#define RT_LOAD(Type, name, load, title)             \
+    RT_FN const Type& load(SceneRef scene, uint i) { \
+        return scene.name[i];                        \
+    }
+#define RT_DEFINED_BELOW(Type, name, load, title)
+RT_SCENE_ARRAYS(RT_LOAD, RT_DEFINED_BELOW)
+#undef RT_LOAD
+#undef RT_DEFINED_BELOW
+
 RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
     return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
-}
-RT_FN const Quad& loadQuad(SceneRef scene, uint i) {
-    return scene.quads[i];
-}
-RT_FN vec3 loadPosition(SceneRef scene, uint i) {
-    return scene.positions[i];
-}
-RT_FN vec3 loadNormal(SceneRef scene, uint i) {
-    return scene.normals[i];
-}
-RT_FN vec2 loadUv(SceneRef scene, uint i) {
-    return scene.uvs[i];
-}
-RT_FN uvec3 loadTriangle(SceneRef scene, uint i) {
-    return scene.triangles[i];
-}
-RT_FN const Mesh& loadMesh(SceneRef scene, uint i) {
-    return scene.meshes[i];
-}
-RT_FN uint loadTriangleMesh(SceneRef scene, uint i) {
-    return scene.triangleMesh[i];
-}
-RT_FN const Instance& loadInstance(SceneRef scene, uint i) {
-    return scene.instances[i];
-}
-RT_FN const Material& loadMaterial(SceneRef scene, uint i) {
-    return scene.materials[i];
-}
-RT_FN const Texture& loadTexture(SceneRef scene, uint i) {
-    return scene.textures[i];
-}
-RT_FN const Image& loadImage(SceneRef scene, uint i) {
-    return scene.images[i];
-}
-RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) {
-    return scene.perlinGradients[i];
-}
-RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) {
-    return scene.perlinPermutations[i];
-}
-RT_FN const Medium& loadMedium(SceneRef scene, uint i) {
-    return scene.media[i];
-}
-RT_FN const Light& loadLight(SceneRef scene, uint i) {
-    return scene.lights[i];
-}
-RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) {
-    return scene.lightBounds[i];
 }
 RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     const LightNode& n = scene.lightNodes[node];
@@ -102,13 +60,7 @@ RT_FN void expectLightChild(SceneRef scene, uint child) {
     accel::prefetch(record + bytes - 1);
 }
 RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
-    return scene.lightPlaces[scene.globals.lightCount + node];
-}
-RT_FN uint loadLightPlace(SceneRef scene, uint light) {
-    return scene.lightPlaces[light];
-}
-RT_FN float loadSkyCdf(SceneRef scene, uint i) {
-    return scene.skyCdf[i];
+    return loadLightPlace(scene, scene.globals.lightCount + node);
 }
 
 RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
