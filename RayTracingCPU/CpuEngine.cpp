@@ -99,17 +99,11 @@ struct PreparedScene {
 
 CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     const scene::CompiledScene& s = *prepared.compiled;
-    CpuScene view;
-    view.accel = prepared.accel->view();
+    CpuScene view{shared::viewOf(s, s.globals), prepared.accel->view(), {}, &prepared.lightBounds};
     view.tracer = accel::rayQuery(set)->tracer(view.accel.kinds);
-    shared::forEachArray(
-        [](const char*, const auto& records, auto& first) { first = records.empty() ? nullptr : records.data(); }, s,
-        view);
     if (prepared.lights.size() > 0) view.lights = prepared.lights.data();
     view.lightNodes = prepared.lightNodes.data();
-    view.lightBoundsSoa = &prepared.lightBounds;
     view.srgbToLinear = prepared.srgbToLinear.data();
-    view.globals = s.globals;
     return view;
 }
 

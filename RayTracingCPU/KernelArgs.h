@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "Common/Accel/Traverse/RayQuery.h"
-#include "Common/Scene/SceneArrays.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::cpu {
@@ -35,16 +35,11 @@ RT_FN void setBound(LightBoundsSoa& bounds, std::size_t i, const shared::LightBo
     bounds.intensity[i] = bound.intensity;
 }
 
-template <typename Record>
-using ConstPointer = const Record*;
-
-// The compiled scene's arrays, null where the scene has none, and its acceleration structure. Owned by the engine.
-struct CpuScene : shared::SceneArraysOf<ConstPointer> {
+// The scene and its acceleration structure. Owned by the engine.
+struct CpuScene : shared::SceneView {
     accel::AccelView accel;
     accel::Tracer tracer;                           // for the primitives in `accel`
-    const float* srgbToLinear = nullptr;            // 256 entries
     const LightBoundsSoa* lightBoundsSoa = nullptr; // of a table that is chosen from light by light
-    shared::SceneGlobals globals{};
 };
 
 struct KernelCounters {

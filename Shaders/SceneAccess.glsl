@@ -1,12 +1,9 @@
-// Gives Common/Shared its access to the scene on the GPU: SceneRef and every load...().
+// Common/Shared/Base/SceneAccess.h for shaders: out of the buffers that Bindings.glsl names.
 #include "Bindings.glsl"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Texture/Color.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Light/Lights.h"
-
-struct SceneRef {
-    uint unused;
-};
 
 SceneGlobals loadGlobals(SceneRef scene) { return constants.globals; }
 #define RT_LOAD(Type, name, load, title) Type load(SceneRef scene, uint i) { return constants.arrays.name.at[i]; }
@@ -14,8 +11,6 @@ SceneGlobals loadGlobals(SceneRef scene) { return constants.globals; }
 RT_SCENE_ARRAYS(RT_LOAD, RT_DEFINED_BELOW)
 
 vec3 loadSphereMotion(SceneRef scene, uint i) { return constants.arrays.sphereMotions.at[i]; }
-void expectLights(SceneRef scene, uint node) {} // nothing to be gained by fetching ahead
-uint loadLightNodeParent(SceneRef scene, uint node) { return loadLightPlace(scene, constants.globals.lightCount + node); }
 
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     LightCluster c;
@@ -38,11 +33,4 @@ vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint first = image.firstTexel + 3u * texel;
     return vec3(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
                 uintBitsToFloat(constants.arrays.texels.at[first + 2u]));
-}
-
-LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
-    LightWeights weights;
-    uint count = min(constants.globals.lightCount, kContributionLights);
-    for (uint i = 0u; i < count; i++) weights.weight[i] = lightContribution(constants.arrays.lightBounds.at[i], position, normal);
-    return weights;
 }

@@ -6,9 +6,9 @@
 
 #include <glm/mat4x4.hpp>
 
-#include "Common/Scene/SceneArrays.h"
 #include "Common/Scene/SceneDesc.h"
 #include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::scene {
