@@ -16,7 +16,6 @@
     PLAIN(vec2, uvs, loadUv, "texture coordinates") \
     PLAIN(uvec3, triangles, loadTriangle, "triangles") /* into positions; along a space-filling curve per mesh */ \
     PLAIN(Mesh, meshes, loadMesh, "meshes") \
-    PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     PLAIN(Geometry, geometries, loadGeometry, "geometries") \
     PLAIN(Instance, instances, loadInstance, "instances") \
     PLAIN(Material, materials, loadMaterial, "materials") \
@@ -31,6 +30,7 @@
 
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
+    PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     PLAIN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \
     /* node * kLightNodeChildren + child, or kNone: of each of those lights, then of each node, in its parent */ \
