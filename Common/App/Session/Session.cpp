@@ -6,10 +6,10 @@
 
 #include "Common/App/Platform.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Reference.h"
-#include "Common/App/Session/RenderLoop.h"
 #include "Common/App/Session/Resume.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
@@ -49,7 +49,7 @@ class HeadlessRender {
         engine_ = makeEngine();
         interrupt_.defer(); // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
-        startFilm();
+        beginFilm();
         try {
             sample();
         } catch (const RenderError&) {
@@ -64,18 +64,18 @@ class HeadlessRender {
 
   private:
     void load();
-    void startFilm();
+    void beginFilm();
     void sample();
     void write();
     void save(const std::string& file) const;
     std::string rescue() const;
-    const image::Film& keptFilm(std::string& lost);
 
     Options options_;
     Interrupt interrupt_;
     std::shared_ptr<const scene::CompiledScene> scene_;
     std::optional<image::Image> reference_;
     std::unique_ptr<Engine> engine_;
+    std::optional<FilmRun> run_;
     Statistics statistics_;
 };
 
@@ -91,14 +91,16 @@ void HeadlessRender::load() {
     statistics_.seconds.load = watch.seconds();
 }
 
-void HeadlessRender::startFilm() {
-    if (options_.resume.empty()) return engine_->reset(scene_->camera, options_.settings);
-    image::Film film = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
-    if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !film.desc().secondMoments)
-        throw InputError(options_.resume + ": second_moments is false in the checkpoint but --aov variance needs them");
-    statistics_.samplesRestored = film.totalSamples();
-    engine_->reset(scene_->camera, options_.settings);
-    engine_->restore(std::move(film));
+void HeadlessRender::beginFilm() {
+    image::Film kept;
+    if (!options_.resume.empty()) {
+        kept = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+        if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !kept.desc().secondMoments)
+            throw InputError(options_.resume +
+                             ": second_moments is false in the checkpoint but --aov variance needs them");
+    }
+    run_.emplace(*engine_, scene_->camera, options_.settings, std::move(kept));
+    statistics_.samplesRestored = run_->samplesRestored();
 }
 
 void HeadlessRender::sample() {
@@ -113,19 +115,23 @@ void HeadlessRender::sample() {
             logWarning(error.what()); // the render itself is well
         }
     };
-    const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
-                                                   interrupt_.requested(), progress, saveOrWarn);
-    statistics_.stoppedBy = result.stoppedBy;
-    statistics_.seconds.render = result.seconds;
+    run_->limit({options_.timeLimit, options_.targetError, options_.saveEvery, saveOrWarn});
+    std::optional<StopReason> reason;
+    while (!reason) {
+        reason = run_->slice(FilmRun::kSliceSeconds, interrupt_.requested());
+        progress.update(run_->progress());
+    }
+    statistics_.stoppedBy = *reason;
     if (reference_) statistics_.error = image::compare(engine_->film().resolve(), *reference_);
-    progress.finish(result.progress, describeEnd(statistics_));
+    progress.finish(run_->progress(), describeEnd(statistics_));
 }
 
 // Everything that can be written is written; after that the first failure counts.
 void HeadlessRender::write() {
     const Stopwatch watch;
     std::string lost;
-    const image::Film& film = keptFilm(lost);
+    const image::Film& film = run_->keptFilm(lost);
+    statistics_.seconds.render = run_->seconds();
     OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
     const bool outputsFailed = !outputs.failures.empty();
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
@@ -146,16 +152,6 @@ void HeadlessRender::write() {
     if (outputs.failures.empty()) return;
     for (std::size_t i = 1; i < outputs.failures.size(); ++i) logWarning(outputs.failures[i]);
     throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
-}
-
-// The film as it is, or as the engine last copied it when it cannot be read any more; `lost` then says why.
-const image::Film& HeadlessRender::keptFilm(std::string& lost) {
-    try {
-        return engine_->film();
-    } catch (const RenderError& error) {
-        lost = error.what();
-        return engine_->film();
-    }
 }
 
 void HeadlessRender::save(const std::string& file) const {
