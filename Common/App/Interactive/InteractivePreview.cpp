@@ -61,8 +61,8 @@ void InteractiveSession::writePreview(const SaveRequest& request) {
             if (previewIsStale_) throw RenderError("nothing to save yet: the preview is being drawn");
             const auto curve = static_cast<std::uint32_t>(request.tonemap);
             const bool isDisplay = image::isDisplayReferred(file);
-            image::writeImage(
-                file, isDisplay ? image::toDisplay(preview_.picture, request.exposure, curve) : preview_.picture);
+            const image::ImageRows picture = preview_.picture;
+            image::writeImage(file, isDisplay ? image::toDisplay(picture, request.exposure, curve) : picture);
             update([&](SessionState& state) {
                 state.message = "Saved the preview as " + file;
                 ++state.messageSerial;
