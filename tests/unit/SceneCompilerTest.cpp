@@ -10,6 +10,7 @@
 
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Shared/Texture/Checker.h"
 #include "tests/unit/CompilerScenes.h"
 
 namespace rt::scene {
@@ -260,11 +261,11 @@ TEST(SceneCompiler, CheckersNestToTheLimitOfTheKernels) {
     for (const int depth : {kMost + 2, 39, 100'000}) // not by exhausting the stack
         EXPECT_NE(errorOf(withNestedCheckers(depth)).find("nested deeper"), std::string::npos) << depth;
     // Around textures that another material has needed already.
-    SceneDesc shared = withNestedCheckers(kMost + 1);
-    shared.materials["inner"] = shared.materials["matte"];
-    shared.materials["inner"].albedo = std::to_string(kMost);
-    shared.objects.insert(shared.objects.begin(), {sphere({0, 0, 0}, 1, "inner")});
-    EXPECT_NE(errorOf(shared).find(nine), std::string::npos);
+    SceneDesc both = withNestedCheckers(kMost + 1);
+    both.materials["inner"] = both.materials["matte"];
+    both.materials["inner"].albedo = std::to_string(kMost);
+    both.objects.insert(both.objects.begin(), {sphere({0, 0, 0}, 1, "inner")});
+    EXPECT_NE(errorOf(both).find(nine), std::string::npos);
     // A checker may end in any other texture.
     SceneDesc noisy = withNestedCheckers(kMost);
     noisy.textures["1"] = CheckerTexture{1, std::string("noise"), glm::dvec3(1)};
