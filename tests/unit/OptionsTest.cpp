@@ -13,20 +13,12 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/Core/Error.h"
 #include "Common/Shared/Base/Features.h"
+#include "tests/Environment.h"
 
 namespace rt::app {
 namespace {
 
-void setVariable(const char* name, const std::string& value) {
-#ifdef _WIN32
-    _putenv_s(name, value.c_str());
-#else
-    if (value.empty())
-        unsetenv(name);
-    else
-        setenv(name, value.c_str(), 1);
-#endif
-}
+using test::setVariable;
 
 // A user without configuration whose environment says nothing.
 class OptionsTest : public testing::Test {
