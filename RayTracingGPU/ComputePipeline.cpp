@@ -14,12 +14,12 @@ struct Constants {
     TraversalShape shape;
 };
 
-std::string describe(std::uint32_t features, bool isFlat) {
-    std::string name = isFlat ? "flat" : "tree";
+std::string describe(std::uint32_t features, bool isLinear) {
+    std::string name = isLinear ? "list" : "tree";
     if (shared::has(features, shared::kFeatureTriangles)) name += "+triangles";
     if (shared::has(features, shared::kFeatureQuads)) name += "+quads";
     if (shared::has(features, shared::kFeatureSpheres)) name += "+spheres";
-    if (!isFlat && shared::has(features, shared::kFeatureInstances)) name += "+instances";
+    if (!isLinear && shared::has(features, shared::kFeatureInstances)) name += "+instances";
     return name;
 }
 
@@ -28,18 +28,18 @@ std::string describe(std::uint32_t features, bool isFlat) {
 TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
     TraversalShape shape;
-    shape.treeDepth = bvh.isFlat ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
-    shape.isFlat = bvh.isFlat ? 1 : 0;
-    shape.flatSpheres = bvh.flat.spheres;
-    shape.flatQuads = bvh.flat.quads;
-    shape.flatTriangles = bvh.flat.triangles;
+    shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
+    shape.isLinear = bvh.isLinear ? 1 : 0;
+    shape.listedSpheres = bvh.lists.spheres;
+    shape.listedQuads = bvh.lists.quads;
+    shape.listedTriangles = bvh.lists.triangles;
     return shape;
 }
 
 ComputePipeline::ComputePipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                  const RenderBindings& bindings, const PipelineDecisions& decisions,
                                  const TraversalShape& shape, Shader shader)
-    : bindings_(bindings), name_(describe(decisions.features, shape.isFlat != 0)) {
+    : bindings_(bindings), name_(describe(decisions.features, shape.isLinear != 0)) {
     const Constants constants{decisions, shape};
     constexpr std::uint32_t kCount = sizeof constants / sizeof(std::uint32_t);
     std::array<VkSpecializationMapEntry, kCount> entries;

@@ -16,10 +16,10 @@ inline constexpr std::uint32_t kGroupSize = 64; // invocations of a work group
 struct TraversalShape {
     std::uint32_t groupSize = kGroupSize;
     std::uint32_t treeDepth = 0;
-    std::uint32_t isFlat = 0;
-    std::uint32_t flatSpheres = 0;
-    std::uint32_t flatQuads = 0;
-    std::uint32_t flatTriangles = 0;
+    std::uint32_t isLinear = 0;
+    std::uint32_t listedSpheres = 0;
+    std::uint32_t listedQuads = 0;
+    std::uint32_t listedTriangles = 0;
     bool operator==(const TraversalShape&) const = default;
 };
 
@@ -31,7 +31,7 @@ class ComputePipeline final : public Kernel {
     ComputePipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const RenderBindings& bindings,
                     const PipelineDecisions& decisions, const TraversalShape& shape, Shader shader);
 
-    // How rays are traced and through what: "flat+quads+spheres", "tree+triangles+instances".
+    // How rays are traced and through what: "list+quads+spheres", "tree+triangles+instances".
     const std::string& name() const override { return name_; }
 
   private:

@@ -145,7 +145,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
     uploadConstants(camera);
     if (isCompute()) {
-        bindings_.update(constants_, scene_->flatLists());
+        bindings_.update(constants_, scene_->linearLists());
     } else {
         bindings_.update(constants_, scene_->topLevel());
     }

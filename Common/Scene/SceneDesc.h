@@ -1,6 +1,6 @@
 // The authoring scene: what a person writes, in code or in a scene file. Names, files and nesting are still there;
 // lengths are world units, angles degrees, colours linear RGB, everything in double precision. compileScene() turns it
-// into the flat scene.
+// into the compiled scene.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Textures, images and Perlin tables of the flat scene; each is made when something first refers to it.
+// Textures, images and Perlin tables of the compiled scene; each is made when something first refers to it.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -1,4 +1,4 @@
-// The flat scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
+// The compiled scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
 // relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
 #ifndef RT_SHARED_TYPES_H
 #define RT_SHARED_TYPES_H

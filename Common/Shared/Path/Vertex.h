@@ -1,5 +1,4 @@
-// The vertices of a path: how one comes about, and how it scatters. The includer provides SceneRef, loadGlobals, loadMedium, and what
-// the included headers name.
+// The vertices of a path: how one comes about, and how it scatters.
 #ifndef RT_SHARED_VERTEX_H
 #define RT_SHARED_VERTEX_H
 #include "Common/Shared/Base/Features.h"

@@ -1,14 +1,9 @@
-// Procedural and image textures. The includer defines a type SceneRef and, before including, the fetches
-//     Texture loadTexture(SceneRef scene, uint texture)
-//     Image loadImage(SceneRef scene, uint image)
-//     vec3 loadTexel(SceneRef scene, Image image, uint x, uint y)         linear RGB; Color.h decodes
-//     vec3 loadPerlinGradient(SceneRef scene, uint index)
-//     uint loadPerlinPermutation(SceneRef scene, uint index)
-// In C++ they stand in namespace rt::shared.
+// Procedural and image textures.
 #ifndef RT_SHARED_TEXTURES_H
 #define RT_SHARED_TEXTURES_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Sampling.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Texture/Checker.h"
 
 RT_SHARED_BEGIN
