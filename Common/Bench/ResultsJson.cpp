@@ -8,6 +8,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Json/JsonText.h"
 
 namespace rt::bench {
 namespace {

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 
 namespace rt {
 namespace {
@@ -57,15 +58,15 @@ void setUpLog(const LogSettings& settings) try {
 }
 
 void logDebug(const std::string& message) {
-    spdlog::default_logger_raw()->debug(message);
+    spdlog::default_logger_raw()->debug(printable(message));
 }
 
 void logInfo(const std::string& message) {
-    spdlog::default_logger_raw()->info(message);
+    spdlog::default_logger_raw()->info(printable(message));
 }
 
 void logWarning(const std::string& message) {
-    spdlog::default_logger_raw()->warn(message);
+    spdlog::default_logger_raw()->warn(printable(message));
 }
 
 } // namespace rt

@@ -15,6 +15,7 @@ struct LogSettings {
 // a terminal unless NO_COLOR is set. Throws UsageError for a bad RT_LOG, RenderError when the file cannot be written.
 void setUpLog(const LogSettings& settings);
 
+// One line each, made printable (Printable.h).
 void logDebug(const std::string& message);
 void logInfo(const std::string& message);
 void logWarning(const std::string& message);

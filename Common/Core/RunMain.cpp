@@ -1,20 +1,19 @@
 #include "Common/Core/RunMain.h"
 
-#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <new>
-#include <string>
+#include <string_view>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 
 namespace rt {
 
 namespace {
 
-int report(const char* program, std::string message, ExitCode code) {
-    std::replace(message.begin(), message.end(), '\n', ' ');
-    std::cerr << program << ": " << message << std::endl;
+int report(const char* program, std::string_view message, ExitCode code) {
+    std::cerr << program << ": " << printable(message) << std::endl;
     return static_cast<int>(code);
 }
 

@@ -5,7 +5,7 @@
 namespace rt {
 
 // Runs `body`, whose result is the exit code unless it throws, or standard output cannot be written. Lines are
-// "<program>: <message>".
+// "<program>: <message>", the message made printable.
 int runMain(const char* program, const std::function<int()>& body);
 
 } // namespace rt

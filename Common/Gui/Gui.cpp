@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include "Common/Core/Printable.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
@@ -71,7 +72,7 @@ void Gui::scaleInterface(float change) {
 }
 
 void Gui::say(const std::string& text, bool isError) {
-    toast = text;
+    toast = printable(text); // names of files, too
     toastTime = ImGui::GetTime();
     toastIsError = isError;
 }

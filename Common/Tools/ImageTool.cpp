@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/ImageIo.h"
@@ -19,6 +20,7 @@ namespace {
 using namespace rt;
 
 constexpr const char* kProgram = "ray-tracing-image";
+constexpr std::size_t kMostDescription = 16384; // bytes of it that are printed
 
 struct Metric {
     const char* name;
@@ -90,7 +92,8 @@ int info(const Arguments& arguments) {
               << "\nmax " << *most << "\nmean";
     for (std::uint32_t c = 0; c < image.channels; ++c) std::cout << ' ' << mean[c];
     std::cout << "\nnonfinite " << bad << '\n';
-    if (const auto description = image::readDescription(arguments.a)) std::cout << "render " << *description << '\n';
+    if (const auto description = image::readDescription(arguments.a)) // by whomever: it must not look like other lines
+        std::cout << "render " << printable(*description, kMostDescription) << '\n';
     return static_cast<int>(ExitCode::Done);
 }
 

@@ -89,6 +89,9 @@ TEST_F(ImageTool, ConvertsBetweenFormats) {
 }
 
 TEST_F(ImageTool, InfoDescribes) {
+    image::writeImage(path("forged.exr"), image::Image(4, 4), "x\nmin -1\x1b[2J");
+    const std::string forged = tool({"info", "forged.exr"}).out;
+    EXPECT_NE(forged.find("\nrender x\\nmin -1\\x1b[2J\n"), std::string::npos) << forged;
     const auto result = tool({"info", "reference.exr"});
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_NE(result.out.find("size 16 9\nchannels 3\nmin 0\nmax 0.5625\nmean "), std::string::npos) << result.out;
@@ -117,6 +120,8 @@ TEST_F(ImageTool, WrongUseExitsWith2) {
 TEST_F(ImageTool, BadInputExitsWith3) {
     EXPECT_TRUE(failsWith(tool({"info", "none.exr"}), 3, "none.exr"));
     EXPECT_TRUE(failsWith(tool({"info", ""}), 3, "allowed"));
+    EXPECT_TRUE(failsWith(tool({"info", "a\x1b[2J\n.exr"}), 3, "a\\x1b[2J\\n.exr"));
+    EXPECT_LT(tool({"info", std::string(100'000, 'a')}).err.size(), 1500u);
     EXPECT_TRUE(failsWith(tool({"diff", "small.exr", "reference.exr"}), 3, "4x4"));
     EXPECT_TRUE(failsWith(tool({"convert", "none.pfm", "out.png"}), 3, "none.pfm"));
     fs::resize_file(path("reference.exr"), 500);

@@ -37,7 +37,9 @@ TEST(RunMain, MapsErrorsToExitCodes) {
 }
 
 TEST(RunMain, PrintsOneLine) {
-    EXPECT_EQ(endOf([]() -> int { throw InputError("a.json: bad\nvalue"); }).err, "program: a.json: bad value\n");
+    EXPECT_EQ(endOf([]() -> int { throw InputError("a.json: bad\nvalue"); }).err, "program: a.json: bad\\nvalue\n");
+    const Ending lengthy = endOf([]() -> int { throw InputError(std::string(3'000'000, 'x')); });
+    EXPECT_LT(lengthy.err.size(), 1200u);
 }
 
 TEST(RunMain, NoticesWhenStandardOutputIsLost) {

@@ -11,6 +11,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/JsonText.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/unit/JsonSchema.h"
 
@@ -211,6 +212,27 @@ TEST(SceneJson, EveryMistakeIsNamed) {
     }
 }
 
+TEST(SceneJson, TheElementsOfALongArrayAreParsedOneByOne) {
+    const std::string file = "test.json";
+    const auto count = [&file](const std::string& text) { return LongJson(text, file, "objects").elementCount(); };
+    const std::string text = R"( {"a": "\"objects\": [{", "b": {"objects": [{}, {}]}, "c": 1.5, "objects" :
+                                [ {"x": "]}"} ,{"y": [{}, {}]}], "d": [{"e": 2}]})";
+    const LongJson json(text, file, "objects");
+    ASSERT_EQ(json.elementCount(), 2u);
+    EXPECT_EQ(json.element(0), Json::parse(R"({"x": "]}"})"));
+    EXPECT_EQ(json.element(1), Json::parse(R"({"y": [{}, {}]})"));
+    Json whole = Json::parse(text);
+    EXPECT_EQ(parseJson(text, file), whole);
+    whole["objects"] = {0, 0};
+    EXPECT_EQ(json.document(), whole);
+    // What is not a list of objects is left to the parser.
+    for (const char* other :
+         {"", "{", "[]", "[{\"objects\": [{}]}]", "{\"objects\"", "{\"objects\": {}}", "{\"objects\": []}",
+          "{\"objects\": [{}, 1]}", "{\"objects\": [{}", "{\"objects\": [{}}", "{\"objects\": [{},]}",
+          "{\"objects\": [{\"]}", "{\"a\": {", "{\"a", "{\"a\\", "{\"a\": \"\\"})
+        EXPECT_EQ(count(other), 0u) << other;
+}
+
 TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_EQ(errorOf("{\n  \"objects\": [,]\n}").rfind("test.json:2:15: ", 0), 0u)
         << errorOf("{\n  \"objects\": [,]\n}");
@@ -219,6 +241,13 @@ TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_EQ(errorOf("{\n\"objects\": [1e999]}"), "test.json:2:18: number overflow parsing '1e999'");
     EXPECT_EQ(errorOf("{\"objects\": [],\n\"objects\": []}"),
               "test.json:2:9: key \"objects\" appears twice in one object");
+    // Objects are parsed one by one.
+    EXPECT_EQ(errorOf("{\"objects\": [\n{\"a\": [1], \"a\": 2}]}"),
+              "test.json:2:14: key \"a\" appears twice in one object");
+    EXPECT_EQ(errorOf("{\"objects\": [\n{\"type\": tru}]}").rfind("test.json:2:13: ", 0), 0u);
+    EXPECT_EQ(errorOf("{\"objects\": [{}, {\"type\": \"}]}").rfind("test.json:1:31: ", 0), 0u)
+        << errorOf("{\"objects\": [{}, {\"type\": \"}]}");
+    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": " + std::string(300, '[') + "]}]}").find("test.json:1:"), 0u);
     EXPECT_EQ(errorOf(std::string(300, '[')), "test.json:1:258: values are nested deeper than 256");
     EXPECT_NE(errorOf(std::string("\0\0\0\0", 4)), "no error");
     EXPECT_NE(errorOf("{\"objects\": [], \"title\": \"\xff\xfe\"}"), "no error");

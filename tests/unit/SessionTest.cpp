@@ -350,6 +350,35 @@ TEST_F(SessionTest, PlacesThatCannotBeWrittenAreFoundBeforeRendering) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1); // nothing was left behind
 }
 
+TEST_F(SessionTest, FilesThatWouldOverwriteOthersAreFoundBeforeRendering) {
+    ASSERT_EQ(run({"--spp", "1", "-o", path("old.pfm"), "--checkpoint", path("old.rtc")}), ExitCode::Done);
+    std::ofstream(path("scene.json")) << "{}";
+    fs::create_directory(folder_ / "sub");
+    fs::create_directory_symlink(folder_ / "sub", folder_ / "alias");
+    fs::create_symlink("scene.json", path("link.rtc"));
+    const std::vector<std::vector<std::string>> wrong = {
+        {"--scene", path("scene.json"), "--checkpoint", path("scene.json")},
+        {"--scene", path("scene.json"), "--stats", path("sub/../scene.json")},
+        {"--scene", path("scene.json"), "--checkpoint", path("link.rtc")},
+        {"--reference", path("old.pfm"), "-o", path("old.pfm")},
+        {"--resume", path("old.rtc"), "--stats", path("old.rtc")},
+        {"-o", path("a.png"), "-o", path("a.png")},
+        {"-o", path("sub/a.png"), "-o", path("alias/a.png")},
+        {"-o", path("a.png"), "-o", path("a.albedo.png"), "--aov", "albedo"},
+        {"--checkpoint", path("a"), "--stats", path("a")},
+    };
+    for (const auto& arguments : wrong) {
+        const std::string message = error<UsageError>(arguments);
+        EXPECT_NE(message.find("would overwrite"), std::string::npos) << arguments.back() << ": " << message;
+        EXPECT_EQ(engine_, nullptr);
+    }
+    EXPECT_EQ(bytesOf(path("scene.json")), "{}");
+    EXPECT_EQ(run({"--spp", "2", "--resume", path("old.rtc"), "--checkpoint", path("old.rtc")}), ExitCode::Done);
+#ifdef __linux__
+    EXPECT_EQ(run({"--spp", "2", "--checkpoint", "/dev/null", "--stats", "/dev/null"}), ExitCode::Done);
+#endif
+}
+
 TEST_F(SessionTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {
     fs::create_directories(folder_ / "gone");
     fs::create_directories(folder_ / "kept");

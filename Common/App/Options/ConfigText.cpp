@@ -7,7 +7,7 @@
 
 #include "Common/App/Options/OptionValues.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Json/JsonText.h"
 
 namespace rt::app {
 namespace {

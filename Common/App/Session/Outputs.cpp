@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "Common/App/Session/Attempt.h"
+#include "Common/App/Session/DistinctFiles.h"
 #include "Common/App/Session/RenderNote.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -85,8 +86,9 @@ std::filesystem::path aovPath(const std::filesystem::path& output, Aov aov) {
 }
 
 void checkOutputs(const Options& options) {
+    for (const std::string& output : options.outputs) image::checkWritable(output);
+    checkDistinctFiles(options);
     for (const std::string& output : options.outputs) {
-        image::checkWritable(output);
         probe(output);
         for (const Aov aov : options.aovs) probe(aovPath(output, aov));
     }

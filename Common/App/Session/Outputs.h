@@ -16,8 +16,8 @@ bool isLinearFormat(const std::filesystem::path& path); // by its extension: .ex
 std::filesystem::path aovPath(const std::filesystem::path& output, Aov aov);
 
 // Creates and removes a file beside each one that the options name, so that hours of rendering do not end with a
-// directory that does not exist. Throws UsageError for an unknown image format, RenderError for a place that cannot be
-// written.
+// directory that does not exist. Throws UsageError for an unknown image format and for files that would overwrite each
+// other or what is read (DistinctFiles.h), RenderError for a place that cannot be written.
 void checkOutputs(const Options& options);
 
 struct OutputResult {

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
@@ -113,7 +114,7 @@ void drawScenePanel(Gui& gui) {
         for (const std::string& notice : gui.state.scene->notices) {
             ImGui::PushStyleColor(ImGuiCol_Text, noticeColor(gui.settings.colorMode));
             ImGui::PushTextWrapPos(0);
-            ImGui::TextUnformatted(("Notice: " + notice).c_str());
+            ImGui::TextUnformatted(("Notice: " + printable(notice)).c_str());
             ImGui::PopTextWrapPos();
             ImGui::PopStyleColor();
         }

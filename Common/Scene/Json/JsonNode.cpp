@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <set>
 #include <sstream>
 
 #include "Common/Core/Error.h"
@@ -14,24 +12,6 @@ namespace rt::scene {
 namespace {
 
 using Json = nlohmann::json;
-
-constexpr int kMaxDepth = 256;
-
-std::string lineAndColumn(const std::string& text, std::size_t offset) {
-    offset = std::min(offset, text.size());
-    const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
-    const auto line = std::count(text.begin(), end, '\n') + 1;
-    const std::size_t lineStart = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
-    const std::size_t column = lineStart == std::string::npos ? offset + 1 : offset - lineStart;
-    return std::to_string(line) + ":" + std::to_string(column);
-}
-
-// The library's message without its prefix of identifiers and positions.
-std::string reason(const std::string& message) {
-    const std::size_t syntax = message.find("syntax error ");
-    const std::size_t start = syntax != std::string::npos ? syntax : message.find("] ") + 2;
-    return message.substr(start, 200);
-}
 
 // What a message quotes of a value.
 std::string excerpt(const Json& value) {
@@ -47,26 +27,6 @@ std::string listed(std::span<const char* const> names) {
     return text;
 }
 
-// Walks over a text and leaves word of how far: what the library's parser has read when something but the syntax is wrong.
-struct Reader {
-    using iterator_category = std::input_iterator_tag;
-    using value_type = char;
-    using difference_type = std::ptrdiff_t;
-    using pointer = const char*;
-    using reference = const char&;
-
-    const char* at;
-    const char** read;
-
-    reference operator*() const { return *at; }
-    Reader& operator++() {
-        *read = ++at;
-        return *this;
-    }
-    bool operator==(const Reader& other) const { return at == other.at; }
-    bool operator!=(const Reader& other) const { return at != other.at; }
-};
-
 std::string rangeText(double low, double high) {
     std::ostringstream text;
     text << "from " << low << " to " << high;
@@ -74,32 +34,6 @@ std::string rangeText(double low, double high) {
 }
 
 } // namespace
-
-Json parseJson(const std::string& text, const std::string& file) {
-    const char* const end = text.data() + text.size();
-    const char* read = text.data();
-    const auto place = [&] {
-        const std::ptrdiff_t count = read - text.data();
-        return file + ":" + lineAndColumn(text, count > 0 ? static_cast<std::size_t>(count - 1) : 0) + ": ";
-    };
-    std::vector<std::set<std::string>> keys; // of the objects being read
-    const auto check = [&](int depth, Json::parse_event_t event, Json& parsed) {
-        if (depth > kMaxDepth) throw InputError(place() + "values are nested deeper than " + std::to_string(kMaxDepth));
-        if (event == Json::parse_event_t::object_start) keys.emplace_back();
-        if (event == Json::parse_event_t::object_end) keys.pop_back();
-        if (event == Json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
-            throw InputError(place() + "key " + excerpt(parsed) + " appears twice in one object");
-        return true;
-    };
-    try {
-        return Json::parse(Reader{text.data(), &read}, Reader{end, &read}, check);
-    } catch (const Json::parse_error& error) {
-        throw InputError(file + ":" + lineAndColumn(text, error.byte > 0 ? error.byte - 1 : 0) + ": " +
-                         reason(error.what()));
-    } catch (const Json::exception& error) { // a number that no double can hold
-        throw InputError(place() + reason(error.what()));
-    }
-}
 
 std::string JsonNode::path() const {
     if (!parent_) return "";

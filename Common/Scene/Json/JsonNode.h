@@ -13,10 +13,6 @@
 
 namespace rt::scene {
 
-// Parses a document. Throws InputError with line and column for syntax errors, numbers out of range and duplicate keys,
-// and for values nested deeper than 256.
-nlohmann::json parseJson(const std::string& text, const std::string& file);
-
 // Numbers of a scene stay within this, and lengths above its inverse: their fourth powers are finite and not 0 in single
 // precision.
 inline constexpr double kLargest = 1e9;
@@ -25,6 +21,9 @@ inline constexpr double kLargest = 1e9;
 class JsonNode {
   public:
     JsonNode(const nlohmann::json& document, const std::string& file) : value_(&document), file_(&file) {}
+    // An element of an array whose value is kept elsewhere (JsonText.h).
+    JsonNode(const nlohmann::json& value, const JsonNode& array, std::size_t index)
+        : JsonNode(value, array, nullptr, index) {}
 
     const nlohmann::json& value() const { return *value_; }
     std::string path() const; // "/objects/3/radius"

@@ -226,6 +226,17 @@ std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences&
     return objects;
 }
 
+std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references, const LongJson& text) {
+    if (text.elementCount() == 0) return readObjects(node, references);
+    std::vector<ObjectDesc> objects;
+    objects.reserve(text.elementCount());
+    for (std::size_t i = 0; i < text.elementCount(); ++i) {
+        const nlohmann::json element = text.element(i);
+        objects.push_back(readObject(JsonNode(element, node, i), references));
+    }
+    return objects;
+}
+
 TargetDesc readTarget(const JsonNode& node) {
     if (node.at("type").oneOf({"sphere", "quad"}) == "sphere") {
         node.expectKeys({"type", "center", "radius"});

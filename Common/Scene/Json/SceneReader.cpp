@@ -62,7 +62,7 @@ RenderDefaults readRender(const JsonNode& node) {
     return defaults;
 }
 
-SceneDesc readScene(const JsonNode& root, const SceneReferences& references) {
+SceneDesc readScene(const JsonNode& root, const SceneReferences& references, const LongJson& text) {
     root.expectKeys({"$schema", "version", "title", "camera", "background", "textures", "materials", "prototypes",
                      "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
@@ -82,7 +82,7 @@ SceneDesc readScene(const JsonNode& root, const SceneReferences& references) {
         section->forEachMember([&](const std::string& name, const JsonNode& node) {
             scene.prototypes[name] = readObjects(node, references);
         });
-    scene.objects = readObjects(root.at("objects"), references);
+    scene.objects = readObjects(root.at("objects"), references, text);
     if (const auto section = root.find("importance_targets"))
         section->forEachElement([&](const JsonNode& node) { scene.importanceTargets.push_back(readTarget(node)); });
     if (const auto node = root.find("render")) scene.render = readRender(*node);
@@ -134,9 +134,10 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 // ---- interface -----------------------------------------------------------------------------------------------------
 
 SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder) {
-    const nlohmann::json document = parseJson(text, file);
+    const LongJson json(text, file, "objects");
+    const nlohmann::json document = json.document();
     const JsonNode root(document, file);
-    SceneDesc scene = readScene(root, SceneReferences(root, folder));
+    SceneDesc scene = readScene(root, SceneReferences(root, folder), json);
     scene.id = file;
     return scene;
 }

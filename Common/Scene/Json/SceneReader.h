@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Json/JsonText.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
@@ -34,6 +35,8 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 TextureDesc readTexture(const JsonNode& node, const SceneReferences& references);
 MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& references);
 std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references);
+// Of the array that `text` may have left out of the document.
+std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references, const LongJson& text);
 TargetDesc readTarget(const JsonNode& node);
 
 } // namespace rt::scene

@@ -1,0 +1,238 @@
+#include "Common/Scene/Json/JsonText.h"
+
+#include <algorithm>
+#include <iterator>
+#include <span>
+
+#include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+
+namespace rt::scene {
+
+namespace {
+
+using Json = nlohmann::json;
+using Elements = std::span<const std::string_view>;
+
+constexpr std::size_t kMaxDepth = 256;
+
+std::string lineAndColumn(const std::string& text, std::size_t offset) {
+    offset = std::min(offset, text.size());
+    const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
+    const auto line = std::count(text.begin(), end, '\n') + 1;
+    const std::size_t lineStart = offset == 0 ? std::string::npos : text.rfind('\n', offset - 1);
+    const std::size_t column = lineStart == std::string::npos ? offset + 1 : offset - lineStart;
+    return std::to_string(line) + ":" + std::to_string(column);
+}
+
+// The library's message without its prefix of identifiers and positions.
+std::string reason(const std::string& message) {
+    const std::size_t syntax = message.find("syntax error ");
+    const std::size_t start = syntax != std::string::npos ? syntax : message.find("] ") + 2;
+    return message.substr(start, 200);
+}
+
+// ---- parsing --------------------------------------------------------------------------------------------------------
+
+// Walks over a text and leaves word of how far; a 0 stands for each element that is left out.
+struct Reader {
+    using iterator_category = std::input_iterator_tag;
+    using value_type = char;
+    using difference_type = std::ptrdiff_t;
+    using pointer = const char*;
+    using reference = const char&;
+
+    const char* at;
+    const char** read;
+    const std::string_view* leftOut; // the next of them
+    const std::string_view* leftOutEnd;
+
+    bool isAtLeftOut() const { return leftOut != leftOutEnd && at == leftOut->data(); }
+    reference operator*() const {
+        static constexpr char kZero = '0';
+        return isAtLeftOut() ? kZero : *at;
+    }
+    Reader& operator++() {
+        at += isAtLeftOut() ? (leftOut++)->size() : 1;
+        *read = at;
+        return *this;
+    }
+    bool operator==(const Reader& other) const { return at == other.at; }
+    bool operator!=(const Reader& other) const { return at != other.at; }
+};
+
+// Builds values from what the library's parser reports. The library's own builder takes time in proportion to the square of
+// an array's length once a callback watches it, and without one a repeated key goes unnoticed.
+class Builder : public nlohmann::json_sax<Json> {
+  public:
+    Builder(const std::string& text, const std::string& file, std::string_view part, Elements leftOut)
+        : text_(text), file_(file), part_(part), leftOut_(leftOut), read_(part.data()) {}
+
+    Json build() {
+        const char* const end = part_.data() + part_.size();
+        const std::string_view* const none = leftOut_.data() + leftOut_.size();
+        Json::sax_parse(Reader{part_.data(), &read_, leftOut_.data(), none}, Reader{end, &read_, none, none}, this);
+        return std::move(root_);
+    }
+
+    bool null() override { return add(nullptr); }
+    bool boolean(bool value) override { return add(value); }
+    bool number_integer(std::int64_t value) override { return add(value); }
+    bool number_unsigned(std::uint64_t value) override { return add(value); }
+    bool number_float(double value, const std::string&) override { return add(value); }
+    bool string(std::string& value) override { return add(std::move(value)); }
+    bool binary(Json::binary_t&) override { return false; } // not in a text
+    bool start_object(std::size_t) override { return open(Json::object()); }
+    bool start_array(std::size_t) override { return open(Json::array()); }
+    bool end_object() override { return close(); }
+    bool end_array() override { return close(); }
+    bool key(std::string& name) override {
+        const auto [member, isNew] = open_.back()->get_ref<Json::object_t&>().try_emplace(name, nullptr);
+        if (!isNew)
+            fail("key " + Json(name).dump(-1, ' ', false, Json::error_handler_t::replace) +
+                 " appears twice in one object");
+        member_ = &member->second;
+        return true;
+    }
+    bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
+        if (const auto* syntax = dynamic_cast<const Json::parse_error*>(&error))
+            failAt(offsetOf(part_.data()) + (syntax->byte > 0 ? syntax->byte - 1 : 0), reason(error.what()));
+        fail(reason(error.what())); // a number that no double can hold
+    }
+
+  private:
+    std::size_t offsetOf(const char* place) const { return static_cast<std::size_t>(place - text_.data()); }
+    [[noreturn]] void failAt(std::size_t offset, const std::string& what) const {
+        throw InputError(file_ + ":" + lineAndColumn(text_, offset) + ": " + what);
+    }
+    [[noreturn]] void fail(const std::string& what) const { // at what was read last
+        failAt(offsetOf(std::max(read_ - 1, part_.data())), what);
+    }
+
+    Json& place(Json&& value) {
+        if (open_.empty()) return root_ = std::move(value);
+        if (open_.back()->is_array()) return open_.back()->get_ref<Json::array_t&>().emplace_back(std::move(value));
+        return *member_ = std::move(value);
+    }
+    bool add(Json&& value) {
+        place(std::move(value));
+        return true;
+    }
+    bool open(Json&& value) {
+        interruptionPoint();
+        Json& placed = place(std::move(value));
+        open_.push_back(&placed);
+        if (open_.size() > kMaxDepth + 1) fail("values are nested deeper than " + std::to_string(kMaxDepth));
+        return true;
+    }
+    bool close() {
+        open_.pop_back();
+        return true;
+    }
+
+    const std::string& text_;
+    const std::string& file_;
+    std::string_view part_; // of text_
+    Elements leftOut_;
+    const char* read_;
+    Json root_;
+    std::vector<Json*> open_; // arrays and objects around what comes next
+    Json* member_ = nullptr;  // of the innermost object, what comes next
+};
+
+// ---- finding the elements of an array -------------------------------------------------------------------------------
+
+// Looks at quotes and brackets only; whatever else is wrong shows when it is parsed. Positions beyond the end are the end.
+class Scanner {
+  public:
+    explicit Scanner(std::string_view text) : text_(text) {}
+
+    char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
+    std::size_t position() const { return at_; }
+    void skipSpace() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
+    bool take(char expected) {
+        if (peek() != expected) return false;
+        ++at_;
+        return true;
+    }
+    // What stands between its quotes.
+    std::string_view string() {
+        const std::size_t start = ++at_;
+        for (; at_ < text_.size() && text_[at_] != '"'; ++at_)
+            if (text_[at_] == '\\') ++at_;
+        at_ = std::min(at_, text_.size());
+        const std::string_view inside = text_.substr(start, at_ - start);
+        at_ = std::min(at_ + 1, text_.size());
+        return inside;
+    }
+    // From a bracket to the one that closes it; empty where none does.
+    std::string_view bracketed() {
+        const std::size_t start = at_;
+        std::size_t depth = 0;
+        for (at_ = text_.find_first_of("\"[]{}", at_); at_ < text_.size(); at_ = text_.find_first_of("\"[]{}", at_)) {
+            if (peek() == '"') {
+                string();
+                continue;
+            }
+            const char bracket = text_[at_++];
+            depth += bracket == '{' || bracket == '[' ? 1 : -1;
+            if (depth == 0) return text_.substr(start, at_ - start);
+        }
+        return {};
+    }
+
+  private:
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+// The elements of the array that is the root's member `name`; none when one of them is no object, or there is no such array.
+std::vector<std::string_view> findObjects(std::string_view text, std::string_view name) {
+    Scanner in(text);
+    in.skipSpace();
+    if (!in.take('{')) return {};
+    for (in.skipSpace(); in.peek() == '"'; in.skipSpace()) {
+        const std::string_view key = in.string();
+        in.skipSpace();
+        if (!in.take(':')) return {};
+        in.skipSpace();
+        if (key == name) break;
+        if (in.peek() == '{' || in.peek() == '[')
+            in.bracketed();
+        else if (in.peek() == '"')
+            in.string();
+        else
+            while (in.peek() != ',' && in.peek() != '}' && in.peek() != '\0') in.take(in.peek());
+        in.skipSpace();
+        if (!in.take(',')) return {};
+    }
+    std::vector<std::string_view> elements;
+    if (!in.take('[')) return {};
+    for (in.skipSpace(); in.peek() == '{'; in.skipSpace()) {
+        interruptionPoint();
+        elements.push_back(in.bracketed());
+        in.skipSpace();
+        if (in.take(']')) return elements;
+        if (elements.back().empty() || !in.take(',')) return {};
+    }
+    return {};
+}
+
+} // namespace
+
+Json parseJson(const std::string& text, const std::string& file) {
+    return Builder(text, file, text, {}).build();
+}
+
+LongJson::LongJson(const std::string& text, const std::string& file, const std::string& longArray)
+    : text_(text), file_(file), elements_(findObjects(text, longArray)) {}
+
+Json LongJson::document() const {
+    return Builder(text_, file_, text_, elements_).build();
+}
+
+Json LongJson::element(std::size_t index) const {
+    return Builder(text_, file_, elements_[index], {}).build();
+}
+
+} // namespace rt::scene

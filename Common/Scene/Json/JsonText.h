@@ -1,0 +1,33 @@
+// The text of a JSON document. Mistakes are InputErrors that name file, line and column: syntax, numbers out of range, a key
+// that appears twice in an object, values nested deeper than 256.
+#pragma once
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace rt::scene {
+
+nlohmann::json parseJson(const std::string& text, const std::string& file);
+
+// A document of which one array, a member of the root, may be long: where it holds nothing but objects they are left out of
+// the document and parsed one by one, as all at once take ten times the memory of the text.
+class LongJson {
+  public:
+    // Both must outlive this.
+    LongJson(const std::string& text, const std::string& file, const std::string& longArray);
+
+    // With zeros for the elements that are left out.
+    nlohmann::json document() const;
+    std::size_t elementCount() const { return elements_.size(); } // 0: none is left out
+    nlohmann::json element(std::size_t index) const;
+
+  private:
+    const std::string& text_;
+    const std::string& file_;
+    std::vector<std::string_view> elements_; // of text_
+};
+
+} // namespace rt::scene
