@@ -35,6 +35,10 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
     if (fs::is_directory(status)) fail(reasonOf(EISDIR));
     if (!fs::exists(status)) createTemporary(Access::Everybody);
     if (fs::is_regular_file(status)) createTemporary(Access::OwnerOnly); // what it replaces may be private
+    HeldPipe pipe;
+    if (fs::is_fifo(status))
+        if (const std::error_code error = pipe.open(target_))
+            fail(error == std::errc::no_such_device_or_address ? "nobody reads from this pipe" : error.message());
     errno = 0;
     stream_.open(temporary_.empty() ? target_ : temporary_, std::ios::binary | std::ios::trunc);
     if (!stream_) {

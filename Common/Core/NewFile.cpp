@@ -28,6 +28,11 @@ std::error_code createExclusively(const fs::path& path, Access) {
 
 void copyOwnerAndMode(const fs::path&, const fs::path&) {}
 
+HeldPipe::~HeldPipe() = default;
+std::error_code HeldPipe::open(const fs::path&) {
+    return {}; // no file is a pipe here
+}
+
 #else
 
 std::error_code createExclusively(const fs::path& path, Access access) {
@@ -49,6 +54,15 @@ void copyOwnerAndMode(const fs::path& from, const fs::path& to) {
     if (chmod(to.c_str(), mode) != 0) return;
     // Last: a file that has been given away can no more be changed.
     if (made.st_uid != wanted.st_uid) (void)!lchown(to.c_str(), wanted.st_uid, static_cast<gid_t>(-1));
+}
+
+HeldPipe::~HeldPipe() {
+    if (descriptor_ >= 0) close(descriptor_);
+}
+
+std::error_code HeldPipe::open(const fs::path& path) {
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+    return descriptor_ < 0 ? std::error_code(errno, std::generic_category()) : std::error_code();
 }
 
 #endif

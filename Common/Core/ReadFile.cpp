@@ -15,30 +15,35 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
     const auto fail = [&path](const std::string& reason) {
         throw InputError("cannot read " + path.string() + ": " + reason);
     };
-    std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) fail(std::generic_category().message(EISDIR));
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) fail(error ? error.message() : std::generic_category().message(ENOENT));
+    if (std::filesystem::is_directory(status)) fail(std::generic_category().message(EISDIR));
+    if (!std::filesystem::is_regular_file(status)) fail("it is not a regular file"); // it might wait for ever
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) fail(error.message());
+    if (size > limit) fail("it is larger than " + std::to_string(limit) + " bytes");
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in) fail(errno == 0 ? "open failed" : std::generic_category().message(errno));
 
-    // In growing pieces, because pipes and devices do not tell their size.
     std::vector<std::byte> content;
-    std::size_t piece = std::size_t{1} << 16;
     try {
-        while (in) {
-            interruptionPoint();
-            const std::size_t have = content.size();
-            content.resize(have + piece);
-            errno = 0;
-            in.read(reinterpret_cast<char*>(content.data() + have), static_cast<std::streamsize>(piece));
-            content.resize(have + static_cast<std::size_t>(in.gcount()));
-            if (content.size() > limit) fail("it is larger than " + std::to_string(limit) + " bytes");
-            piece = std::clamp(content.size(), piece, std::size_t{1} << 26);
-        }
+        content.resize(static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
         fail("it does not fit into memory");
     }
+    constexpr std::size_t kPiece = std::size_t{1} << 26; // between two looks at whether somebody waits for the end
+    for (std::size_t at = 0; at < content.size() && in; at += kPiece) {
+        interruptionPoint();
+        const std::size_t count = std::min(kPiece, content.size() - at);
+        errno = 0;
+        in.read(reinterpret_cast<char*>(content.data() + at), static_cast<std::streamsize>(count));
+    }
     if (in.bad()) fail(errno == 0 ? "read failed" : std::generic_category().message(errno));
+    if (!in) fail("it became shorter while it was read");
+    // Neither do files of a system's making, as below /proc, tell their size.
+    if (in.peek() != std::ifstream::traits_type::eof()) fail("it holds more than its size says");
     return content;
 }
 

@@ -89,6 +89,9 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+        throw InputError("cannot read " + path.string() + ": it is not a regular file"); // it might wait for ever
     errno = 0;
     std::ifstream in(path, std::ios::binary);
     if (!in)

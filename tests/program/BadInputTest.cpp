@@ -3,6 +3,7 @@
 
 #ifndef _WIN32
 #include <sys/resource.h>
+#include <sys/stat.h>
 #endif
 
 #include "Common/Image/ImageIo.h"
@@ -110,6 +111,15 @@ TEST_F(BadInput, FullDisk) {
 }
 
 #ifndef _WIN32
+TEST_F(BadInput, PipesThatNobodyReadsOrWrites) {
+    for (const char* name : {"a.png", "s.json", "c.rtc", "scene.json"}) ASSERT_EQ(mkfifo(path(name).c_str(), 0600), 0);
+    EXPECT_TRUE(failsWith(render({"-o", "a.png"}), 1, "a.png: nobody reads"));
+    EXPECT_TRUE(failsWith(render({"--stats", "s.json"}), 1, "s.json: nobody reads"));
+    EXPECT_TRUE(failsWith(render({"--resume", "c.rtc"}), 3, "c.rtc: it is not a regular file"));
+    EXPECT_TRUE(failsWith(render({"--scene", "scene.json"}), 3, "scene.json: it is not a regular file"));
+    EXPECT_TRUE(failsWith(render({"--stats", "s.json", "--reference", "a.png"}), 3, "a.png"));
+}
+
 TEST_F(BadInput, FilesLargerThanTheLimit) {
     rlimit before{};
     ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);

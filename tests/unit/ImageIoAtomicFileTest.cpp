@@ -1,12 +1,14 @@
 // Output files are replaced wholly or left alone, and nothing else stays behind.
 #include <fstream>
 #include <iterator>
+#include <thread>
 
 #include <gtest/gtest.h>
 
 #ifdef __linux__
 #include <csignal>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #endif
 
 #include "Common/Core/AtomicFile.h"
@@ -92,6 +94,28 @@ TEST(ImageIoAtomicFile, WritesDevicesDirectly) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
+TEST(ImageIoAtomicFile, WritesAPipeOnlyToAReader) {
+    const test::TempFolder folder;
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_NE(errorOf(pipe).find("pipe: nobody reads from this pipe"), std::string::npos);
+    EXPECT_THROW(readFile(pipe, 100), InputError);
+    std::string received;
+    std::thread reader([&] { received = contentOf(pipe); });
+    bool isWritten = false;
+    while (!isWritten) { // until the reader is there
+        try {
+            write(pipe, "whole");
+            isWritten = true;
+        } catch (const RenderError&) {
+            std::this_thread::yield();
+        }
+    }
+    reader.join();
+    EXPECT_EQ(received, "whole");
+    EXPECT_TRUE(fs::is_fifo(pipe));
+}
+
 TEST(ImageIoAtomicFile, AFullDiskLeavesTheOldFile) {
     const test::TempFolder folder;
     write(folder / "a", "old");
@@ -172,6 +196,7 @@ TEST(ImageIoAtomicFile, ReadFileKeepsToItsLimit) {
     EXPECT_TRUE(readFile(folder / "empty", 10).empty());
 #ifdef __linux__
     EXPECT_THROW(readFile("/dev/zero", 1000000), InputError);
+    EXPECT_THROW(readFile("/proc/self/maps", 1000000), InputError); // says that it is empty
 #endif
 }
 

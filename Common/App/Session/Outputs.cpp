@@ -71,7 +71,9 @@ ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features) {
 
 void probe(const std::filesystem::path& path) {
     if (std::filesystem::is_directory(path)) throw RenderError(path.string() + ": is a directory");
-    AtomicFile file(path); // never committed: only its temporary file comes and goes
+    std::error_code ignored;
+    if (std::filesystem::is_fifo(path, ignored)) return; // whose reader would take a probe for all there is
+    AtomicFile file(path);                               // never committed: only its temporary file comes and goes
 }
 
 } // namespace
