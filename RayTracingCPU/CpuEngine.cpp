@@ -121,7 +121,9 @@ class CpuEngine final : public app::Engine {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
-        prepared->accel = accel::CpuAccel::build(input, {}, cancel);
+        accel::BuildSettings build;
+        build.tree.threads = threads_;
+        prepared->accel = accel::CpuAccel::build(input, build, cancel);
         if (!prepared->accel) return false;
         prepared->lightBounds = makeLightBoundsSoa(s);
         if (!s.lightNodes.empty()) {

@@ -133,6 +133,17 @@ TEST(Textures, CheckersNestWithoutRecursion) {
     EXPECT_TRUE(isFinite(evalTexture(kFeatureChecker, cyclic, 0, vec3(0), vec2(0))));
 }
 
+// What the compiler refuses must not make a kernel read beyond a table: `first` of a checker is no Perlin table.
+TEST(Textures, CheckersNestedTooDeepAreNotTakenForNoise) {
+    TextureScene scene;
+    for (uint i = 0; i <= kMaxCheckerDepth; ++i)
+        scene.textures.push_back({kTextureChecker, vec3(0.25f), 1, 0, i + 1, i + 1});
+    scene.textures.push_back({kTextureSolid, vec3(1), 1, 0, 0, 0});
+    const uint features = kFeatureChecker | kFeatureNoise | kFeatureImages;
+    EXPECT_EQ(evalTexture(features, scene, 1, vec3(0.5f), vec2(0)), vec3(1)) << "as deep as is allowed";
+    EXPECT_EQ(evalTexture(features, scene, 0, vec3(0.5f), vec2(0)), vec3(0.25f)) << "one too deep";
+}
+
 // ---- noise ----------------------------------------------------------------------------------------------------------
 
 TEST(Textures, NoiseMatchesTheBook) {

@@ -46,9 +46,9 @@ void writePreview(const SaveRequest& request, const Preview& preview, PublishedS
         try {
             if (preview.picture.data.empty()) throw RenderError("nothing to save yet: the preview is being drawn");
             const auto curve = static_cast<std::uint32_t>(request.tonemap);
-            image::writeImage(file, image::isDisplayReferred(file)
-                                        ? image::toDisplay(preview.picture, request.exposure, curve)
-                                        : preview.picture);
+            const image::ImageRows picture = preview.picture;
+            image::writeImage(
+                file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
             state.say("Saved the preview as " + file);
         } catch (...) {
             state.fail(std::current_exception());
