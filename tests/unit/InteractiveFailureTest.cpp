@@ -1,10 +1,14 @@
 // Scenes and engines that cannot be had, and engines that fail, in a window that goes on.
 #include <fstream>
 #include <memory>
+#include <sstream>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/ImageIo.h"
 #include "tests/unit/InteractiveFixture.h"
 
 namespace rt::app {
@@ -80,6 +84,39 @@ TEST_F(InteractiveFailureTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
     session.render();
     EXPECT_TRUE(reaches(session, isFinished));
     EXPECT_EQ(made, 2);
+}
+
+// What had been rendered can be saved, and is what the program leaves at its end; only what needs rays makes another engine.
+TEST_F(InteractiveFailureTest, AFilmThatFailedKeepsItsSamples) {
+    const std::string atEnd = (folder_ / "end.pfm").string(), saved = (folder_ / "saved.pfm").string();
+    InteractiveSession::Setup s = setup(100);
+    int made = 0;
+    s.makeEngine = [&made](const EngineChoice&) {
+        ++made;
+        auto engine = std::make_unique<SlowEngine>();
+        engine->onSample = [](std::uint32_t spp) {
+            if (spp == 20) throw RenderError("the device was lost");
+        };
+        return engine;
+    };
+    s.atEnd = {.files = {atEnd}, .stats = (folder_ / "stats.json").string()};
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Failed; }));
+    session.save({.files = {saved}});
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.messageSerial == 1; }));
+    EXPECT_EQ(session.state().activity, Activity::Failed);
+    EXPECT_EQ(made, 1);
+    EXPECT_TRUE(session.close().empty());
+    FakeEngine engine;
+    RenderSettings settings = session.state().settings;
+    settings.spp = 20;
+    const std::atomic<bool> goOn{false};
+    FilmRun(engine, session.state().scene->camera, settings).untilStopped(goOn);
+    EXPECT_EQ(image::readImage(saved).data, engine.film().resolve().data);
+    EXPECT_EQ(image::readImage(atEnd).data, engine.film().resolve().data);
+    std::stringstream text;
+    text << std::ifstream(folder_ / "stats.json").rdbuf();
+    EXPECT_NE(text.str().find("\"stopped_by\": \"failure\""), std::string::npos) << text.str();
 }
 
 TEST_F(InteractiveFailureTest, AnEngineThatCannotBeHadLeavesTheOneBeforeAtWork) {

@@ -57,6 +57,32 @@ TEST_F(InteractiveSessionTest, PausesGoesOnAndStops) {
     EXPECT_TRUE(reaches(session, [&](const SessionState&) { return SlowEngine::films > films; }));
 }
 
+// Even before there is anything to see: its engine does nothing but wait until it is told to give up.
+TEST_F(InteractiveSessionTest, WhatHasNoPictureYetIsCancelledToo) {
+    static std::atomic<int> waits{0};
+    class WaitingEngine : public FakeEngine {
+        RenderStatus renderSome(const Budget& budget) override {
+            ++waits;
+            while (!budget.cancel->load()) std::this_thread::sleep_for(1ms);
+            return {};
+        }
+    };
+    InteractiveSession::Setup s = setup(100);
+    s.makeEngine = [](const EngineChoice&) { return std::make_unique<WaitingEngine>(); };
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, [](const SessionState&) { return waits > 0; }));
+    session.stop();
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Stopped; }));
+    EXPECT_EQ(session.state().picture.serial, 0u);
+    const int before = waits;
+    session.render();
+    ASSERT_TRUE(reaches(session, [before](const SessionState&) { return waits > before; }));
+    EngineChoice choice;
+    choice.threads = 2;
+    session.choose(choice);
+    EXPECT_TRUE(reaches(session, [&](const SessionState& state) { return state.engine == choice; }));
+}
+
 TEST_F(InteractiveSessionTest, AChangeStartsTheFilmAnew) {
     InteractiveSession session(setup(8));
     ASSERT_TRUE(reaches(session, isFinished));

@@ -28,34 +28,45 @@ std::vector<std::string> readLines(const fs::path& file) {
     return lines;
 }
 
+// Every field but the curve: its place in the JSON object, its column in the table, its value.
+template <class Record, class Visit>
+void forEachField(Record&& r, const Visit& visit) {
+    visit("/time", "time", r.time);
+    visit("/app", "app", r.app);
+    visit("/engine", "engine", r.engine);
+    visit("/device", "device", r.device);
+    visit("/scene", "scene", r.scene);
+    visit("/light_sampling", "light_sampling", r.lightSampling);
+    visit("/sampler", "sampler", r.sampler);
+    visit("/width", "width", r.width);
+    visit("/height", "height", r.height);
+    visit("/spp", "spp", r.spp);
+    visit("/max_depth", "max_depth", r.maxDepth);
+    visit("/threads", "threads", r.threads);
+    visit("/seconds/load", "load_seconds", r.loadSeconds);
+    visit("/seconds/accel_build", "build_seconds", r.buildSeconds);
+    visit("/seconds/pipeline", "pipeline_seconds", r.pipelineSeconds);
+    visit("/seconds/render", "render_seconds", r.renderSeconds);
+    visit("/samples_per_second", "samples_per_second", r.samplesPerSecond);
+    visit("/rays_per_second", "rays_per_second", r.raysPerSecond);
+    visit("/relmse", "relmse", r.relmse);
+    visit("/against_reference", "against_reference", r.hasReference);
+}
+
 RunRecord fromJson(const nlohmann::json& json) {
     RunRecord r;
-    r.time = json.at("time");
-    r.app = json.at("app");
-    r.engine = json.at("engine");
-    r.device = json.at("device");
-    r.scene = json.at("scene");
-    r.lightSampling = json.at("light_sampling");
-    r.sampler = json.at("sampler");
-    r.width = json.at("width");
-    r.height = json.at("height");
-    r.maxDepth = json.at("max_depth");
-    r.threads = json.at("threads");
-    r.spp = json.at("spp");
-    const nlohmann::json& seconds = json.at("seconds");
-    r.loadSeconds = seconds.at("load");
-    r.buildSeconds = seconds.at("accel_build");
-    r.pipelineSeconds = seconds.at("pipeline");
-    r.renderSeconds = seconds.at("render");
-    r.samplesPerSecond = json.at("samples_per_second");
-    r.raysPerSecond = json.at("rays_per_second");
-    r.relmse = json.at("relmse");
-    r.hasReference = json.at("against_reference");
+    forEachField(r, [&](const char* place, const char*, auto& value) {
+        json.at(nlohmann::json::json_pointer(place)).get_to(value);
+    });
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
 }
 
 // Fields with commas or quotes are quoted as in RFC 4180.
+template <class T>
+const T& csvField(const T& number) {
+    return number;
+}
 std::string csvField(const std::string& text) {
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     std::string quoted = "\"";
@@ -68,46 +79,21 @@ std::string csvField(const std::string& text) {
 std::string toJsonLine(const RunRecord& r) {
     Json curve = Json::array();
     for (const RunRecord::Point& point : r.curve) curve.push_back({point.seconds, point.relmse});
-    const Json json{{"version", kVersion},
-                    {"time", r.time},
-                    {"app", r.app},
-                    {"engine", r.engine},
-                    {"device", r.device},
-                    {"scene", r.scene},
-                    {"light_sampling", r.lightSampling},
-                    {"sampler", r.sampler},
-                    {"width", r.width},
-                    {"height", r.height},
-                    {"max_depth", r.maxDepth},
-                    {"threads", r.threads},
-                    {"spp", r.spp},
-                    {"seconds",
-                     {{"load", r.loadSeconds},
-                      {"accel_build", r.buildSeconds},
-                      {"pipeline", r.pipelineSeconds},
-                      {"render", r.renderSeconds}}},
-                    {"samples_per_second", r.samplesPerSecond},
-                    {"rays_per_second", r.raysPerSecond},
-                    {"relmse", r.relmse},
-                    {"against_reference", r.hasReference},
-                    {"curve", curve}};
+    Json json{{"version", kVersion}};
+    forEachField(r,
+                 [&](const char* place, const char*, const auto& value) { json[Json::json_pointer(place)] = value; });
+    json["curve"] = curve;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string toCsv(const std::vector<RunRecord>& records) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    out << "time,app,engine,device,scene,light_sampling,sampler,width,height,spp,max_depth,threads,load_seconds,"
-           "build_seconds,pipeline_seconds,render_seconds,samples_per_second,rays_per_second,relmse,against_reference,"
-           "efficiency\n";
-    out << std::setprecision(9);
+    forEachField(RunRecord{}, [&](const char*, const char* column, const auto&) { out << column << ','; });
+    out << "efficiency\n" << std::setprecision(9);
     for (const RunRecord& r : records) {
-        for (const std::string& text : {r.time, r.app, r.engine, r.device, r.scene, r.lightSampling, r.sampler})
-            out << csvField(text) << ',';
-        out << r.width << ',' << r.height << ',' << r.spp << ',' << r.maxDepth << ',' << r.threads << ','
-            << r.loadSeconds << ',' << r.buildSeconds << ',' << r.pipelineSeconds << ',' << r.renderSeconds << ','
-            << r.samplesPerSecond << ',' << r.raysPerSecond << ',' << r.relmse << ',' << (r.hasReference ? 1 : 0) << ','
-            << r.efficiency() << '\n';
+        forEachField(r, [&](const char*, const char*, const auto& value) { out << csvField(value) << ','; });
+        out << r.efficiency() << '\n';
     }
     return out.str();
 }
