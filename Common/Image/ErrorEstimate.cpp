@@ -44,8 +44,8 @@ struct Span {
     double count() const { return static_cast<double>(last - first + 1); }
 };
 
-// The windows around the values of one row of pixels. Every row is summed anew: what is added and subtracted again would
-// leave the rounding error of a firefly in all rows below it.
+// The windows around the values of one row of pixels. Every row is summed anew: what is added and subtracted again
+// would leave the rounding error of a firefly in all rows below it.
 class RowOfWindows {
   public:
     RowOfWindows(const Image& mean, const Image& variance)

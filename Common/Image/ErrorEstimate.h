@@ -7,9 +7,9 @@ namespace rt::image {
 // Of the relMSE of Metrics.h: what it is expected to be over all seeds, given what one seed has shown.
 struct RelMseEstimate {
     double value = 0;
-    // Of `value`: what its noise would be if that of every pixel were one rare event (Campbell's theorem: the variance of
-    // a sum of rare events is the sum of their squares), too large for noise that many samples share, right for
-    // fireflies; and 5 % for what the formula below takes for granted. What no sample has met is in neither.
+    // Of `value`: what it would be if the noise of every pixel were one rare event (Campbell's theorem: the variance of
+    // a sum of rare events is the sum of their squares), which is right for fireflies and too large for noise that many
+    // samples share; and 5 % for what the formula below takes for granted. What no sample has met is in neither.
     double standardError = 0;
 
     // Ends of the 95 % confidence interval.

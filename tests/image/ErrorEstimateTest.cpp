@@ -3,16 +3,16 @@
 #include <utility>
 #include <vector>
 
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ErrorEstimate.h"
+#include "Common/Image/Metrics.h"
 #include "Common/Image/Summary.h"
-#include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
 
 namespace rt::test {
 namespace {
 
 constexpr std::uint32_t kSeeds = 40;
-constexpr double kRelativeFloor = 0.01;
 
 // Of one seed, by its own replicates.
 struct Run {
@@ -49,7 +49,7 @@ std::vector<double> ratios(const std::vector<Run>& runs) {
         for (std::size_t r = 0; r < runs.size(); ++r) {
             const double value = runs[r].picture.data[i], reference = (sum - value) / kOthers;
             const double square = (value - reference) * (value - reference) - variance / kOthers;
-            measured[r] += square / (reference * reference + kRelativeFloor) / static_cast<double>(values);
+            measured[r] += square / (reference * reference + image::kRelativeFloor) / static_cast<double>(values);
         }
     }
     std::vector<double> result;
@@ -64,7 +64,7 @@ TEST(ErrorEstimate, HoldsOnScenesWithFireflies) {
     std::size_t all = 0, low = 0;
     for (const auto& [id, spp] : {std::pair("cornell-box-lights", 16u), std::pair("cornell-box-lights", 64u),
                                   std::pair("next-week-cornell-smoke", 16u), std::pair("one-weekend-default", 16u)}) {
-        const auto scene = scene::compileScene(scene::builtinScene(id));
+        const auto scene = scene::compileScene(app::loadScene(id));
         engine->setScene(scene, nullptr);
         for (const app::SamplerKind sampler : {app::SamplerKind::Sobol, app::SamplerKind::Independent}) {
             app::RenderSettings settings = smallSettings(40, spp);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Image/ErrorEstimate.h"
+#include "Common/Image/Metrics.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::image {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr std::uint32_t kSide = 48;
 constexpr int kReplicates = 4;
-constexpr double kFloor = 0.01; // of relMSE
 
 using Noise = std::function<double(std::uint32_t x, std::uint32_t y, std::mt19937& random)>; // one replicate's mean
 
@@ -52,7 +52,7 @@ TEST(ErrorEstimate, GaussianNoise) {
     for (const double level : {0.03, 0.5, 20.0}) {
         const double sigma = 0.4 * level; // of one replicate
         expectTruth([&](auto, auto, std::mt19937& random) { return std::normal_distribution(level, sigma)(random); },
-                    sigma * sigma / kReplicates / (level * level + kFloor));
+                    sigma * sigma / kReplicates / (level * level + kRelativeFloor));
     }
 }
 
@@ -63,7 +63,7 @@ TEST(ErrorEstimate, RareBrightEvents) {
         [&](auto, auto, std::mt19937& random) {
             return kRest + (std::bernoulli_distribution(kChance)(random) ? kRadiance : 0);
         },
-        kChance * (1 - kChance) * kRadiance * kRadiance / kReplicates / (kMean * kMean + kFloor));
+        kChance * (1 - kChance) * kRadiance * kRadiance / kReplicates / (kMean * kMean + kRelativeFloor));
 }
 
 // Pixels of which a bright light covers a part are unlike both sides: their neighbours say little about them. One
@@ -79,7 +79,7 @@ TEST(ErrorEstimate, Edges) {
         for (std::uint32_t x = 0; x < kSide; ++x) {
             const double a = coverage(x, y), mean = kDark + a * (kLight - kDark);
             truth += a * (1 - a) * (kLight - kDark) * (kLight - kDark) / kSamples / kReplicates /
-                     (mean * mean + kFloor) / (kSide * kSide);
+                     (mean * mean + kRelativeFloor) / (kSide * kSide);
         }
     expectTruth(
         [&](std::uint32_t x, std::uint32_t y, std::mt19937& random) {
