@@ -178,21 +178,22 @@ TEST_F(Render, TargetError) {
     EXPECT_GE(stats["settings"]["replicates"], 4);
 }
 
-// Fireflies of the glass sphere once made it stop at 64 samples, with a relMSE of 0.05.
-TEST_F(Render, TargetErrorIsMetOnAPictureWithFireflies) {
-    const auto boxOfLights = [this](Arguments more) {
-        more.insert(more.begin(),
-                    {"-q", "--headless", "--no-config", "--scene", "cornell-box-lights", "--width", "48"});
-        return cpu(more).exitCode;
+// The noise of 64 samples, much of it fireflies of the glass sphere, was once stated as 0.6 of what it is, and so ended a render
+// with a target of 0.03 at an error of 0.05.
+TEST_F(Render, StatedErrorsCountFireflies) {
+    const auto stated = [this](Arguments more) {
+        more.insert(more.begin(), {"-q", "--headless", "--no-config", "--scene", "cornell-box-lights", "--width", "48",
+                                   "--seed", "9", "--stats", "s.json", "--reference", "reference.exr"});
+        EXPECT_EQ(cpu(more).exitCode, 0);
+        return jsonOf("s.json");
     };
-    ASSERT_EQ(boxOfLights({"--spp", "2048", "--seed", "1", "-o", "reference.exr"}), 0);
-    ASSERT_EQ(boxOfLights({"--spp", "4000", "--seed", "9", "--target-error", "0.03", "--reference", "reference.exr",
-                           "--stats", "s.json"}),
-              0);
-    const auto stats = jsonOf("s.json");
-    EXPECT_EQ(stats["stopped_by"], "target_error");
-    EXPECT_LT(stats["error"]["relmse"], 0.033); // the reference has an error of its own
-    EXPECT_LT(stats["spp_done"], 400);
+    ASSERT_EQ(
+        render({"--width", "48", "--height", "48", "--spp", "2048", "--seed", "1", "-o", "reference.exr"}).exitCode, 0);
+    const auto few = stated({"--spp", "64", "--replicates", "4"});
+    EXPECT_NEAR(few["estimated_relmse"].get<double>() / few["error"]["relmse"].get<double>(), 1, 0.25);
+    const auto target = stated({"--spp", "4000", "--target-error", "0.03"});
+    EXPECT_EQ(target["stopped_by"], "target_error");
+    EXPECT_LT(target["error"]["relmse"], 0.033); // the reference has an error of its own
 }
 
 TEST_F(Render, ResumedRendersHaveTheBitsOfUninterruptedOnes) {
