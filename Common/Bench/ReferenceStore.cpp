@@ -68,7 +68,7 @@ double excess(const image::Reference& reference, std::span<const image::Image* c
     double variance = 0;
     for (const float value : reference.variance.data) variance += value;
     variance /= static_cast<double>(reference.variance.data.size());
-    const double relative = image::estimatedRelMse(reference.mean, reference.variance);
+    const double relative = image::referenceRelMse(reference.mean, reference.variance);
     double most = 0;
     for (const image::Image* image : measured) {
         const image::ErrorFigures figures = image::compare(*image, reference.mean);

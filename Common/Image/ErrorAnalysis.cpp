@@ -102,7 +102,7 @@ ErrorAnalysis analyseError(const Image& image, const Reference& reference) {
     result.referenceMse = all.referenceMse;
     result.mseError = all.mseError;
     result.upTo1 = meanSquaresUpTo1(image, reference);
-    result.referenceRelmse = estimatedRelMse(reference.mean, reference.variance);
+    result.referenceRelmse = referenceRelMse(reference.mean, reference.variance);
     result.rmse = std::sqrt(std::max(result.mse, 0.0));
     result.relmse = figures.relmse - result.referenceRelmse;
     result.mae = figures.mae;

@@ -58,6 +58,10 @@ std::uint64_t Film::minSamples() const {
     return tileCount() == 0 ? 0 : least;
 }
 
+std::uint32_t Film::minReplicateSamples() const {
+    return samples_.empty() ? 0 : *std::min_element(samples_.begin(), samples_.end());
+}
+
 std::uint64_t Film::totalSamples() const {
     std::uint64_t total = 0;
     for (std::uint32_t tile = 0; tile < tileCount(); ++tile) {

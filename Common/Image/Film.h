@@ -52,6 +52,8 @@ class Film {
     std::uint64_t samples(std::uint32_t tile) const;
     // Least over all tiles: what a statistic may call "done".
     std::uint64_t minSamples() const;
+    // Least over all tiles and replicates.
+    std::uint32_t minReplicateSamples() const;
     // Sum over all pixels of the image and all replicates.
     std::uint64_t totalSamples() const;
 
@@ -80,11 +82,10 @@ class Film {
     // Mean radiance: sum over all replicates / true count; pixels without samples are black.
     Image resolve() const;
     // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for
-    // every sampler; with one it is taken across blocks, as if these were independent, which is only an upper bound for
-    // stratified samplers (errorIsUpperBound()). Where fewer than two replicates or blocks have samples it is 0.
-    // Requires secondMoments or replicates >= 2.
+    // every sampler; with one it is taken across blocks, as if these were independent: unbiased for independent samples,
+    // too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than two replicates or blocks
+    // have samples it is 0. Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
-    bool errorIsUpperBound() const { return desc_.replicates < 2; }
     Image sampleCounts() const; // one channel
 
     // Raw state for checkpoints, little-endian: written and read back bit for bit. readState throws InputError, naming

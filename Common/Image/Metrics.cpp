@@ -12,8 +12,6 @@ namespace rt::image {
 
 namespace {
 
-constexpr double kRelativeFloor = 0.01; // of relMSE's denominator
-
 std::string sizeOf(const Image& image) {
     return std::to_string(image.width) + "x" + std::to_string(image.height) + " pixels with " +
            std::to_string(image.channels) + " channel(s)";
@@ -90,11 +88,11 @@ Image heatMap(const Image& image, const Image& reference) {
     return colourise(error, image.width, image.height);
 }
 
-double estimatedRelMse(const Image& mean, const Image& variance) {
+double referenceRelMse(const Image& reference, const Image& variance) {
     double sum = 0;
-    for (std::size_t i = 0; i < mean.data.size(); ++i)
-        sum += variance.data[i] / (square(mean.data[i]) + kRelativeFloor);
-    return sum / static_cast<double>(mean.data.size());
+    for (std::size_t i = 0; i < reference.data.size(); ++i)
+        sum += variance.data[i] / (square(reference.data[i]) + kRelativeFloor);
+    return sum / static_cast<double>(reference.data.size());
 }
 
 std::array<double, 3> channelMeans(const Image& image) {

@@ -102,6 +102,7 @@ TEST_F(Render, StatisticsAreThoseOfTheContract) {
                             "standard_error",
                             "nonfinite_samples",
                             "estimated_relmse",
+                            "estimated_relmse_interval",
                             "error_is",
                             "memory",
                             "outputs"})
@@ -173,8 +174,26 @@ TEST_F(Render, TargetError) {
     ASSERT_EQ(render({"--spp", "1000000", "--target-error", "0.05", "--stats", "s.json"}).exitCode, 0);
     const auto stats = jsonOf("s.json");
     EXPECT_EQ(stats["stopped_by"], "target_error");
-    EXPECT_LT(stats["estimated_relmse"], 0.05);
+    EXPECT_LT(stats["estimated_relmse_interval"][1], 0.05);
     EXPECT_GE(stats["settings"]["replicates"], 4);
+}
+
+// The noise of 64 samples, much of it fireflies of the glass sphere, was once stated as 0.6 of what it is, and so ended a render
+// with a target of 0.03 at an error of 0.05.
+TEST_F(Render, StatedErrorsCountFireflies) {
+    const auto stated = [this](Arguments more) {
+        more.insert(more.begin(), {"-q", "--headless", "--no-config", "--scene", "cornell-box-lights", "--width", "48",
+                                   "--seed", "9", "--stats", "s.json", "--reference", "reference.exr"});
+        EXPECT_EQ(cpu(more).exitCode, 0);
+        return jsonOf("s.json");
+    };
+    ASSERT_EQ(
+        render({"--width", "48", "--height", "48", "--spp", "2048", "--seed", "1", "-o", "reference.exr"}).exitCode, 0);
+    const auto few = stated({"--spp", "64", "--replicates", "4"});
+    EXPECT_NEAR(few["estimated_relmse"].get<double>() / few["error"]["relmse"].get<double>(), 1, 0.25);
+    const auto target = stated({"--spp", "4000", "--target-error", "0.03"});
+    EXPECT_EQ(target["stopped_by"], "target_error");
+    EXPECT_LT(target["error"]["relmse"], 0.033); // the reference has an error of its own
 }
 
 TEST_F(Render, ResumedRendersHaveTheBitsOfUninterruptedOnes) {

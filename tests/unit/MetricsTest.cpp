@@ -87,7 +87,7 @@ TEST(Metrics, HeatMapIsNotDimmedByAFirefly) {
 TEST(Metrics, EstimatesFromVariances) {
     const Image mean = makeImage(2, 1, {1, 0, 2, 0.1f, 3, 0});
     const Image variance = makeImage(2, 1, {0.5f, 0.01f, 0, 0.02f, 1, 0.03f});
-    EXPECT_NEAR(estimatedRelMse(mean, variance), (0.5 / 1.01 + 1 + 0 + 1 + 1 / 9.01 + 3) / 6, 1e-6);
+    EXPECT_NEAR(referenceRelMse(mean, variance), (0.5 / 1.01 + 1 + 0 + 1 + 1 / 9.01 + 3) / 6, 1e-6);
     EXPECT_NEAR(channelMeans(mean)[1], 1.5, 1e-12);
     // Standard error of the mean of two pixels: sqrt(v1 + v2) / 2.
     EXPECT_NEAR(standardErrors(variance)[0], std::sqrt(0.52) / 2, 1e-7);

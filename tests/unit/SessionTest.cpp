@@ -166,16 +166,22 @@ TEST_F(SessionTest, StatisticsHaveEveryKeyOfTheContract) {
         EXPECT_NEAR(stats["mean_radiance"][c].get<double>(), 0.5, 4 * sigma);
         EXPECT_NEAR(stats["standard_error"][c].get<double>(), sigma, 0.2 * sigma);
     }
-    EXPECT_NEAR(stats["estimated_relmse"].get<double>(), 1.0 / 768 / 0.26, 0.2 / 768 / 0.26);
+    const double relmse = stats["estimated_relmse"];
+    EXPECT_NEAR(relmse, 1.0 / 768 / 0.26, 0.2 / 768 / 0.26);
+    EXPECT_GT(stats["estimated_relmse_interval"][0].get<double>(), 0.7 * relmse);
+    EXPECT_LT(stats["estimated_relmse_interval"][0].get<double>(), 0.95 * relmse);
+    EXPECT_GT(stats["estimated_relmse_interval"][1].get<double>(), 1.05 * relmse);
 }
 
 TEST_F(SessionTest, WhatIsUnknownIsNull) {
     run({"--spp", "16", "--stats", path("stats.json")});
     EXPECT_TRUE(statistics()["standard_error"].is_null());
     EXPECT_TRUE(statistics()["estimated_relmse"].is_null());
-    EXPECT_EQ(statistics()["error_is"], "upper_bound");
+    EXPECT_TRUE(statistics()["estimated_relmse_interval"].is_null());
+    EXPECT_TRUE(statistics()["error_is"].is_null());
     run({"--spp", "17", "--stats", path("stats.json")});
     EXPECT_GT(statistics()["estimated_relmse"].get<double>(), 0.0);
+    EXPECT_EQ(statistics()["error_is"], "blocks");
 }
 
 TEST_F(SessionTest, StatisticsGoToStandardOutput) {
@@ -216,11 +222,11 @@ TEST_F(SessionTest, TargetError) {
     run({"--spp", "1000000", "--target-error", "0.005", "--stats", path("stats.json")});
     const Json stats = statistics();
     EXPECT_EQ(stats["stopped_by"], "target_error");
-    EXPECT_LT(stats["estimated_relmse"].get<double>(), 0.005);
+    EXPECT_LT(stats["estimated_relmse_interval"][1].get<double>(), 0.005);
     EXPECT_EQ(stats["error_is"], "replicates");
     EXPECT_EQ(stats["settings"]["replicates"], 4);
-    // 1/12 / n / (1/4 + 0.01) = 0.005 at n = 64.
-    EXPECT_NEAR(stats["spp_done"].get<double>(), 64, 16);
+    // 1/12 / n / (1/4 + 0.01) = 0.005 at n = 64; the interval ends 16 % higher, and the second look comes 10 % later.
+    EXPECT_NEAR(stats["spp_done"].get<double>(), 80, 14);
 }
 
 TEST_F(SessionTest, InterruptionKeepsWhatThereIs) {

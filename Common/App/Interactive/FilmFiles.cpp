@@ -83,8 +83,10 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
         record.raysPerSecond = rays / film.seconds();
     }
     record.hasReference = !reference.curve().empty();
-    record.relmse =
-        record.hasReference ? reference.curve().back().relmse : estimate(film.engine().film()).relmse.value_or(0);
+    if (record.hasReference)
+        record.relmse = reference.curve().back().relmse;
+    else if (const auto estimated = estimate(film.engine().film()).relmse)
+        record.relmse = estimated->value;
     for (const ErrorPoint& point : reference.curve()) record.curve.push_back({point.seconds, point.relmse});
     return record;
 }

@@ -112,7 +112,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     if (!reference.curve().empty())
         relmse = reference.curve().back().relmse;
     else if (film.status().finished)
-        relmse = estimate(engine.film()).relmse;
+        if (const auto estimated = estimate(engine.film()).relmse) relmse = estimated->value;
     const EngineReport report = engine.report();
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);

@@ -139,7 +139,7 @@ void addOutput(FlagSet& flags, Options& options) {
 void addDuration(FlagSet& flags, Options& options) {
     flags.group("Duration");
     flags.addSeconds("--time-limit", options.timeLimit, "stop after so long, or at --spp");
-    flags.add("--target-error", "E", "stop when the estimated relMSE is below, or at --spp; implies --replicates 4",
+    flags.add("--target-error", "E", "stop when the estimated relMSE is surely below (95 %), or at --spp; implies --replicates 4",
               [&options](const std::string& flag, const std::string& text) {
                   options.targetError =
                       parseReal(flag, text, 1e-30, 1e30, "a relative squared error from 1e-30 to 1e30");

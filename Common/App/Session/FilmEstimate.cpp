@@ -5,7 +5,7 @@
 namespace rt::app {
 
 bool hasVariance(const image::Film& film) {
-    if (film.desc().replicates >= 2) return film.minSamples() >= 2;
+    if (film.desc().replicates >= 2) return film.minReplicateSamples() >= 1;
     return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
 }
 
@@ -16,7 +16,7 @@ FilmEstimate estimate(const image::Film& film) {
     if (!hasVariance(film)) return result;
     const image::Image variance = film.varianceOfMean();
     result.standardError = image::standardErrors(variance);
-    result.relmse = image::estimatedRelMse(mean, variance);
+    result.relmse = image::estimateRelMse(mean, variance);
     return result;
 }
 

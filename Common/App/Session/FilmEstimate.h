@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "Common/Image/ErrorEstimate.h"
 #include "Common/Image/Film.h"
 
 namespace rt::app {
@@ -11,9 +12,9 @@ namespace rt::app {
 struct FilmEstimate {
     std::array<double, 3> meanRadiance{};
     std::optional<std::array<double, 3>> standardError; // of meanRadiance
-    std::optional<double> relmse;                       // estimatedRelMse() of Metrics.h
+    std::optional<image::RelMseEstimate> relmse;
 };
-// Whether a variance can be told: it needs two replicates with samples, or two blocks of one.
+// Whether a variance can be told: it needs samples in two replicates or more, and then in each, or two blocks of one.
 bool hasVariance(const image::Film& film);
 
 FilmEstimate estimate(const image::Film& film);

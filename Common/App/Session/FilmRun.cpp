@@ -12,7 +12,8 @@ namespace rt::app {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kCheckGrowth = 1.1; // samples between two looks at the error
+constexpr double kCheckGrowth = 1.1;       // samples between two looks at the error
+constexpr std::uint32_t kLeastSamples = 4; // of each replicate, before a look says anything
 
 } // namespace
 
@@ -30,6 +31,7 @@ void FilmRun::limit(RunLimits limits) {
     limit_ = elapsed_ + limits_.seconds.value_or(kNever);
     nextSave_ = elapsed_ + limits_.saveEvery.value_or(kNever);
     nextCheck_ = 0;
+    wasBelowTarget_ = false;
 }
 
 std::optional<StopReason> FilmRun::slice(double seconds, const std::atomic<bool>& cancel) {
@@ -53,13 +55,16 @@ std::optional<StopReason> FilmRun::slice(double seconds, const std::atomic<bool>
     return std::nullopt;
 }
 
-// Looks only when there are 10 % more samples than the last time, so that looking costs little and chance gets few
-// opportunities.
+// Two looks one after the other must agree. Looks only when there are 10 % more samples than the last time, so that looking
+// costs little and chance gets few opportunities.
 bool FilmRun::reachesTargetError() {
     if (!limits_.targetError || static_cast<double>(status_.samplesDone) < nextCheck_) return false;
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
-    const auto relmse = estimate(engine_->film()).relmse;
-    return relmse && *relmse < *limits_.targetError;
+    const image::Film& film = engine_->film();
+    if (film.minReplicateSamples() < kLeastSamples) return false;
+    const auto relmse = estimate(film).relmse;
+    const bool isBelow = relmse && relmse->high() < *limits_.targetError;
+    return std::exchange(wasBelowTarget_, isBelow) && isBelow;
 }
 
 StopReason FilmRun::untilStopped(const std::atomic<bool>& cancel) {

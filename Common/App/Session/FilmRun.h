@@ -22,7 +22,7 @@ inline constexpr Named<StopReason> kStopReasons[] = {{"spp", StopReason::Spp},
 // What a run heeds besides its samples. Time is that of its slices, with the error estimates and checkpoints between them.
 struct RunLimits {
     std::optional<double> seconds{};     // from now on
-    std::optional<double> targetError{}; // estimated relMSE
+    std::optional<double> targetError{}; // the estimated relMSE's confidence interval lies below it
     std::optional<double> saveEvery{};   // seconds between two checkpoints
     std::function<void()> save{};        // writes one
 };
@@ -69,6 +69,7 @@ class FilmRun {
     RunLimits limits_;
     double limit_ = 0, nextSave_ = 0; // in elapsed seconds
     double nextCheck_ = 0;            // of the error, in samples
+    bool wasBelowTarget_ = false;     // at the last one
 };
 
 } // namespace rt::app

@@ -96,8 +96,12 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     json["mean_radiance"] = estimated.meanRadiance;
     json["standard_error"] = orNull(estimated.standardError);
     json["nonfinite_samples"] = report.nonfiniteSamples;
-    json["estimated_relmse"] = orNull(estimated.relmse);
-    json["error_is"] = film.errorIsUpperBound() ? "upper_bound" : "replicates";
+    json["estimated_relmse"] = json["estimated_relmse_interval"] = json["error_is"] = nullptr;
+    if (const auto& relmse = estimated.relmse) {
+        json["estimated_relmse"] = relmse->value;
+        json["estimated_relmse_interval"] = {relmse->low(), relmse->high()};
+        json["error_is"] = film.desc().replicates > 1 ? "replicates" : "blocks";
+    }
     if (error) json["error"] = errorJson(*error);
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;

@@ -62,7 +62,9 @@ void drawRow(const RunRecord& r) {
     cell(std::to_string(r.spp));
     cell(shortDuration(r.renderSeconds));
     cell((r.hasReference || r.relmse <= 0 ? "" : "~") + scientific(r.relmse));
-    tooltip(r.hasReference ? "Against a reference" : "The film's own estimate: an upper bound for Sobol and strata");
+    tooltip(r.hasReference ? "Against a reference"
+                           : "The film's own estimate, from how its samples differ; with one replicate of Sobol or "
+                             "strata it is too high by factors");
     cell(r.efficiency() > 0 ? withPrefix(r.efficiency()) : "-");
     cell(withPrefix(r.samplesPerSecond));
     cell(withPrefix(r.raysPerSecond));

@@ -1,0 +1,122 @@
+#include "Common/Image/ErrorEstimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "Common/Image/Metrics.h"
+
+namespace rt::image {
+namespace {
+
+constexpr std::size_t kReach = 2; // pixels to each side of the one in the middle of a window
+constexpr double kNormal95 = 1.959964;
+constexpr double kSystematic = 0.05; // of the value
+
+// Sums over the pixels of a window, of one channel.
+struct Window {
+    double means = 0;
+    double squares = 0; // of the means
+    double variances = 0;
+    double pixels = 0;
+};
+
+// What a value adds to relMSE, by the formulas of the header.
+double relativeError(double mean, double variance, const Window& window) {
+    if (!(variance > 0)) return 0;
+    const double n = window.pixels, others = std::max(n - 1, 1.0);
+    const double spread = (window.squares - window.means * window.means / n) / others;
+    const double signal = std::max(spread - window.variances / n, 0.0);
+    const double trust = n > 1 ? signal / (signal + variance) : 1;
+    const double around = (window.means - mean) / others;
+    const double ownSquare = std::max(mean * mean - variance, variance);
+    const double aroundSquare = around * around + variance / (n * n);
+    const double expectedSquare = trust * trust * ownSquare + (1 - trust) * (1 - trust) * aroundSquare +
+                                  2 * trust * (1 - trust) * std::sqrt(ownSquare * aroundSquare);
+    return variance / (expectedSquare + kRelativeFloor);
+}
+
+// The pixels from 0 to size - 1 that a window around `at` covers.
+struct Span {
+    std::size_t first, last;
+    Span(std::size_t at, std::size_t size)
+        : first(at < kReach ? 0 : at - kReach), last(std::min(at + kReach, size - 1)) {}
+    double count() const { return static_cast<double>(last - first + 1); }
+};
+
+// The windows around the values of one row of pixels. Every row is summed anew: what is added and subtracted again
+// would leave the rounding error of a firefly in all rows below it.
+class RowOfWindows {
+  public:
+    RowOfWindows(const Image& mean, const Image& variance)
+        : mean_(mean),
+          variance_(variance),
+          values_(std::size_t{mean.width} * mean.channels),
+          margin_(kReach * mean.channels),
+          means_(values_ + 2 * margin_),
+          squares_(means_.size()),
+          variances_(means_.size()) {}
+
+    void moveTo(std::uint32_t row) {
+        for (std::vector<double>* sums : {&means_, &squares_, &variances_}) std::fill(sums->begin(), sums->end(), 0.0);
+        rows_ = Span(row, mean_.height);
+        for (std::size_t y = rows_.first; y <= rows_.last; ++y) {
+            const float* const means = &mean_.data[y * values_];
+            const float* const variances = &variance_.data[y * values_];
+            for (std::size_t i = 0; i < values_; ++i) {
+                const double mean = means[i];
+                means_[margin_ + i] += mean;
+                squares_[margin_ + i] += mean * mean;
+                variances_[margin_ + i] += variances[i];
+            }
+        }
+    }
+
+    // Around the row's pixel x.
+    Window window(std::size_t x, std::size_t channel) const {
+        const std::size_t left = x * mean_.channels + channel; // the margin shifts it from the middle
+        const auto across = [&](const std::vector<double>& sums) {
+            double sum = 0;
+            for (std::size_t i = 0; i <= 2 * kReach; ++i) sum += sums[left + i * mean_.channels];
+            return sum;
+        };
+        return {across(means_), across(squares_), across(variances_), rows_.count() * Span(x, mean_.width).count()};
+    }
+
+  private:
+    const Image& mean_;
+    const Image& variance_;
+    std::size_t values_; // of a row
+    std::size_t margin_; // empty values at either end of the sums
+    Span rows_{0, 1};
+    std::vector<double> means_, squares_, variances_; // over the rows of the windows, as in Window
+};
+
+} // namespace
+
+double RelMseEstimate::low() const {
+    return std::max(value - kNormal95 * standardError, 0.0);
+}
+
+double RelMseEstimate::high() const {
+    return value + kNormal95 * standardError;
+}
+
+RelMseEstimate estimateRelMse(const Image& mean, const Image& variance) {
+    RowOfWindows row(mean, variance);
+    double sum = 0, squares = 0;
+    for (std::uint32_t y = 0; y < mean.height; ++y) {
+        row.moveTo(y);
+        for (std::uint32_t x = 0; x < mean.width; ++x) {
+            double pixel = 0;
+            for (std::uint32_t c = 0; c < mean.channels; ++c)
+                pixel += relativeError(mean.pixel(x, y)[c], variance.pixel(x, y)[c], row.window(x, c));
+            sum += pixel;
+            squares += pixel * pixel;
+        }
+    }
+    const auto values = static_cast<double>(mean.data.size());
+    return {sum / values, std::hypot(std::sqrt(squares), kSystematic * sum) / values};
+}
+
+} // namespace rt::image
