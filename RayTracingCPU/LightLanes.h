@@ -119,7 +119,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         const uint regime = sphereLightRegime(0u, kShapeAuto, light, center - position, normal);
         const SphereCone cone = makeSphereCone(center - position, light.radius);
         const bool isCap = regime == kRegimeWholeCap;
-        const ConeSample inCap = sampleWholeCap(cone, light.radius, normal, u);
+        const ConeSample inCap = sampleVisibleCap(cone, light.radius, normal, u);
         ConeSample c = sampleSphereCone(cone, light.radius, u);
         c.direction = either(isCap, inCap.direction, c.direction);
         c.distance = isCap ? inCap.distance : c.distance;

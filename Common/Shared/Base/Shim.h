@@ -50,7 +50,6 @@
 #define RT_LARGE_LOCAL(T, x) T x;
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
-#define RT_PROJECTED // see Features.h; C++ compilers drop what a kernel does not use
 
 RT_SHARED_BEGIN
 

@@ -2,11 +2,7 @@
 #ifndef RT_SHARED_SPHERE_LIGHT_H
 #define RT_SHARED_SPHERE_LIGHT_H
 #include "Common/Shared/Light/LightSample.h"
-#include "Common/Shared/Light/Projected/ProjectedQuery.h"
-#include "Common/Shared/Light/Projected/WholeCap.h"
-#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
-#include "Common/Shared/Light/Projected/ProjectedSphere.h"
-#endif
+#include "Common/Shared/Light/Projected/ProjectedLights.h"
 
 RT_SHARED_BEGIN
 
@@ -29,16 +25,6 @@ RT_FN uint sphereLightRegime(uint features, uint method, RT_IN(Light) light, vec
     return d2 <= r2 ? kRegimeInside : regime;
 }
 
-RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
-    CapQuery query;
-    query.toCenter = toCenter;
-    query.radius = light.radius;
-    query.normal = normal;
-    query.given = given;
-    query.use = use;
-    return query;
-}
-
 // The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
 // guarantees that, far from it the other is finer.
 RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
@@ -48,25 +34,18 @@ RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal,
 RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
                                         vec2 u) {
     LightSample s = noLightSample();
-#ifdef RT_PROJECTED
-    CapSample d = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
+    ProjectedDirection d = sampleProjectedSphere(toCenter, light.radius, normal, u);
     if (!(d.density > 0.0f)) return s;
-    s.wi = d.direction;
-    s.distance = d.distance;
-    s.normal = d.normal;
+    s.wi = d.place.direction;
+    s.distance = d.place.distance;
+    s.normal = d.place.normal;
     s.point = pointOnSphere(length(toCenter), center, light.radius, s.normal, position + s.wi * s.distance);
     s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
-#endif
     return s;
 }
 
 RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
-#ifdef RT_PROJECTED
-    float density = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDensity, wi)).density;
-    return density * max(dot(normal, wi), 0.0f);
-#else
-    return 0.0f;
-#endif
+    return projectedSphereDensity(toCenter, light.radius, normal, wi) * max(dot(normal, wi), 0.0f);
 }
 
 // The sample of a direction in the cone of a sphere that is seen from outside.
@@ -93,8 +72,8 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
         SphereCone cone = makeSphereCone(toCenter, radius);
         if (regime == kRegimeWholeCap) {
-            ConeSample c = sampleWholeCap(cone, radius, normal, u);
-            s = sampleOfCone(cone, c, wholeCapPdf(cone, normal, c.direction), center, radius, position);
+            ConeSample c = sampleVisibleCap(cone, radius, normal, u);
+            s = sampleOfCone(cone, c, visibleCapPdf(cone, normal, c.direction), center, radius, position);
         } else {
             s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
         }
@@ -129,7 +108,7 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
     if (has(features, kFeatureProjected) && regime == kRegimeProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);
     if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
-    if (regime == kRegimeWholeCap) return wholeCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
+    if (regime == kRegimeWholeCap) return visibleCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
     if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
 }
