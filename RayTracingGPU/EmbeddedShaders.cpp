@@ -6,21 +6,16 @@ using std::uint32_t; // the generated headers say uint32_t
 
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
-#include <Cost.Projected.Time.comp.h>
-#include <Cost.Projected.comp.h>
 #include <Cost.Time.comp.h>
 #include <Cost.Time.rgen.h>
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
 #include <FilmResolve.comp.h>
-#include <PathTrace.Projected.comp.h>
 #include <PathTrace.comp.h>
 #include <Preview.comp.h>
 #include <Preview.frag.h>
 #include <Preview.vert.h>
-#include <ProjectedPolygon.rcall.h>
-#include <ProjectedSphere.rcall.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
 #include <RayTracing.Quad.rchit.h>
@@ -36,18 +31,12 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
         case Shader::PathCompute:
             return PathTrace_comp;
-        case Shader::ProjectedPathCompute:
-            return PathTrace_Projected_comp;
         case Shader::AovCompute:
             return Aov_comp;
         case Shader::CostCompute:
             return Cost_comp;
-        case Shader::ProjectedCostCompute:
-            return Cost_Projected_comp;
         case Shader::TimeCompute:
             return Cost_Time_comp;
-        case Shader::ProjectedTimeCompute:
-            return Cost_Projected_Time_comp;
         case Shader::RayGeneration:
             return RayTracing_rgen;
         case Shader::AovGeneration:
@@ -66,10 +55,6 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return RayTracing_Procedural_rchit;
         case Shader::SphereIntersection:
             return RayTracing_Procedural_rint;
-        case Shader::ProjectedPolygon:
-            return ProjectedPolygon_rcall;
-        case Shader::ProjectedSphere:
-            return ProjectedSphere_rcall;
         case Shader::FilmReduce:
             return FilmReduce_comp;
         case Shader::FilmResolve:

@@ -7,12 +7,9 @@ namespace rt::gpu {
 
 enum class Shader {
     PathCompute,
-    ProjectedPathCompute,
     AovCompute,
     CostCompute,
-    ProjectedCostCompute,
     TimeCompute,
-    ProjectedTimeCompute,
     RayGeneration,
     AovGeneration,
     CostGeneration,
@@ -22,8 +19,6 @@ enum class Shader {
     QuadHit,
     SphereHit,
     SphereIntersection,
-    ProjectedPolygon,
-    ProjectedSphere,
     FilmReduce,
     FilmResolve,
     PreviewVertex,

@@ -273,7 +273,7 @@ TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     EXPECT_LT(variance(overhead, kShapeAuto), 1.01 * variance(overhead, kShapeSolidAngle));
 }
 
-// Where the way of sampling a rectangle changes, by columns or by solid angle, equal numbers lead to much the same point: points
+// Where the way of sampling a rectangle changes, as a strip or by solid angle, equal numbers lead to much the same point: points
 // that are stratified within a pixel stay so. Both ways round, and seen from either side of the middle.
 TEST(Lights, EqualNumbersLeadToNeighboursWhereTheMethodChanges) {
     const auto rectangle = [](bool swapped, double shift, double distance) {

@@ -22,12 +22,13 @@ struct ProjectedOutline {
     vec3 plane;   // unit normal of the light
     float height; // of the receiver above the light's plane
     bool triangle;
-    bool central;                    // the zenith is on the light, perhaps as a vertex, which is then left out
-    uint vertices;                   // 0: nothing is visible
-    vec2 uv[kOutlineVertices];       // if central in the sense of growing azimuths
+    bool central;              // the zenith is on the light, perhaps as a vertex, which is then left out
+    uint vertices;             // 0: nothing is visible
+    vec2 uv[kOutlineVertices]; // if central in the sense of growing azimuths
     uint sectors;
-    uvec4 sector[kOutlineSectors];   // vertices at which it begins and ends, and with which the edges that bound it begin: one
-                                     // in the order of uv, and another one against it, if the zenith does not bound them
+    uvec4 sector
+        [kOutlineSectors]; // vertices at which it begins and ends, and with which the edges that bound it begin: one
+                           // in the order of uv, and another one against it, if the zenith does not bound them
 };
 
 RT_FN float cross2(vec2 a, vec2 b) {
@@ -199,7 +200,7 @@ struct OutlineSlice {
     vec2 uvSpan; // to the upper end
     vec2 p;      // horizontal distance and height of the lower end
     vec2 span;   // to the upper end
-    float rise;  // difference of the squared sines of both ends' elevations: twice the projected solid angle per azimuth
+    float rise; // difference of the squared sines of both ends' elevations: twice the projected solid angle per azimuth
 };
 
 RT_FN OutlineSector outlineSector(RT_IN(ProjectedOutline) outline, uint i) {

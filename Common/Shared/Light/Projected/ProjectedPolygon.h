@@ -22,17 +22,19 @@ struct ProjectedPolygon {
 
 // Sines and cosines of the elevations of both ends of a slice, and differences that may be far smaller.
 struct SliceElevations {
-    vec2 low;     // (cosine, sine)
+    vec2 low; // (cosine, sine)
     vec2 high;
     vec2 closing; // (low.x - high.x, high.y - low.y), none negative
 };
 
 RT_FN SliceElevations sliceElevations(RT_IN(OutlineSlice) slice) {
     SliceElevations e;
-    vec2 q = slice.p + slice.span;
+    vec2 q = max(slice.p + slice.span, vec2(0.0f));
     e.low = slice.p * (1.0f / max(length(slice.p), 1.0e-37f));
     e.high = q * (1.0f / max(length(q), 1.0e-37f));
-    e.closing = vec2(slice.rise / max(e.low.x + e.high.x, 1.0e-18f), slice.rise / max(e.low.y + e.high.y, 1.0e-18f));
+    // A sum is never smaller than a difference, hence than the root of their product, but for rounding.
+    vec2 sum = max(e.low + e.high, vec2(sqrt(slice.rise) + 1.0e-37f));
+    e.closing = slice.rise / sum;
     return e;
 }
 
@@ -106,29 +108,50 @@ RT_FN vec2 turnBy(float angle) {
     return sinCos2Pi(min(angle * (0.5f * kInvPi), 1.0f));
 }
 
+RT_FN void measureCentralSectors(RT_INOUT(ProjectedPolygon) polygon) {
+    for (uint i = 0u; i < polygon.outline.sectors; i++) {
+        uvec4 vertex = polygon.outline.sector[i];
+        vec2 arc = edgeArc(outlinePoint(polygon.outline, polygon.outline.uv[vertex.x]),
+                           outlinePoint(polygon.outline, polygon.outline.uv[vertex.y]));
+        polygon.mass[i] = 0.5f * arc.x * arc.y;
+        polygon.total += polygon.mass[i];
+    }
+}
+
+RT_FN void measureSectors(RT_INOUT(ProjectedPolygon) polygon) {
+    OutlineSector sector;
+    SliceElevations start;
+    vec2 turn = vec2(0.0f, 1.0f);
+    for (uint i = 0u; i <= polygon.outline.sectors; i++) {
+        // A sector ends with the first slice of the next one, which is exact also where an edge lies in it.
+        vec2 at = turn;
+        if (i < polygon.outline.sectors) {
+            sector = outlineSector(polygon.outline, i);
+            at = vec2(0.0f, 1.0f);
+        }
+        SliceElevations slice = sliceElevations(outlineSlice(polygon.outline, sector, at));
+        if (i > 0u) {
+            polygon.mass[i - 1u] = massBetween(start, slice, turn);
+            polygon.total += polygon.mass[i - 1u];
+        }
+        start = slice;
+        turn = turnBy(sector.angle);
+    }
+}
+
+// `corner` relative to the receiver, edges of the light (a triangle is half of the parallelogram), unit normals of the
+// light's plane and of the receiver.
 RT_FN ProjectedPolygon makeProjectedPolygon(vec3 corner, vec3 edgeU, vec3 edgeV, vec3 plane, bool triangle,
                                             vec3 normal) {
     ProjectedPolygon polygon;
     polygon.outline = makeProjectedOutline(corner, edgeU, edgeV, plane, triangle, normal);
     polygon.total = 0.0f;
-    SliceElevations start;
-    for (uint i = 0u; i < polygon.outline.sectors; i++) {
-        if (polygon.outline.central) {
-            uvec4 vertex = polygon.outline.sector[i];
-            vec2 arc = edgeArc(outlinePoint(polygon.outline, polygon.outline.uv[vertex.x]),
-                               outlinePoint(polygon.outline, polygon.outline.uv[vertex.y]));
-            polygon.mass[i] = 0.5f * arc.x * arc.y;
-        } else {
-            OutlineSector sector = outlineSector(polygon.outline, i);
-            if (i == 0u) start = sliceElevations(outlineSlice(polygon.outline, sector, vec2(0.0f, 1.0f)));
-            vec2 turn = turnBy(sector.angle);
-            SliceElevations end = sliceElevations(outlineSlice(polygon.outline, sector, turn));
-            polygon.mass[i] = massBetween(start, end, turn);
-            start = end;
-        }
-        polygon.total += polygon.mass[i];
+    if (polygon.outline.central) {
+        measureCentralSectors(polygon);
+    } else if (polygon.outline.sectors > 0u) {
+        measureSectors(polygon);
     }
-    if (!(polygon.total > 1.0e-30f)) polygon.total = 0.0f;
+    if (!(polygon.total > 1.0e-30f)) polygon.total = 0.0f; // so that densities stay finite
     return polygon;
 }
 
