@@ -7,13 +7,19 @@ namespace rt::gpu {
 
 enum class Shader {
     PathCompute,
+    ProjectedPathCompute, // with the code of lights by projected solid angle, as have others named so
     AovCompute,
     CostCompute,
+    ProjectedCostCompute,
     TimeCompute,
+    ProjectedTimeCompute,
     RayGeneration,
+    ProjectedRayGeneration,
     AovGeneration,
     CostGeneration,
+    ProjectedCostGeneration,
     TimeGeneration,
+    ProjectedTimeGeneration,
     Miss,
     TriangleHit,
     QuadHit,

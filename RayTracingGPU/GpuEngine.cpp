@@ -154,7 +154,9 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (!kernel_ || kernelKey_ != key) {
         const Clock::time_point start = Clock::now();
         kernel_ = nullptr;
-        kernel_ = makeKernel(key, Shader::PathCompute, Shader::RayGeneration);
+        const bool projected = shared::has(features_, shared::kFeatureProjected);
+        kernel_ = makeKernel(key, projected ? Shader::ProjectedPathCompute : Shader::PathCompute,
+                             projected ? Shader::ProjectedRayGeneration : Shader::RayGeneration);
         kernelKey_ = key;
         cache_.save();
         report_.pipelineSeconds = secondsSince(start);
@@ -373,9 +375,13 @@ app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32
 
 image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
     if (!knowsCost(cost)) return {};
-    const bool time = cost == app::Cost::Time;
-    const auto kernel = makeKernel(kernelKey_, time ? Shader::TimeCompute : Shader::CostCompute,
-                                   time ? Shader::TimeGeneration : Shader::CostGeneration);
+    constexpr Shader kCompute[2][2] = {{Shader::CostCompute, Shader::ProjectedCostCompute},
+                                       {Shader::TimeCompute, Shader::ProjectedTimeCompute}};
+    constexpr Shader kGeneration[2][2] = {{Shader::CostGeneration, Shader::ProjectedCostGeneration},
+                                          {Shader::TimeGeneration, Shader::ProjectedTimeGeneration}};
+    const int time = cost == app::Cost::Time ? 1 : 0;
+    const int projected = shared::has(features_, shared::kFeatureProjected) ? 1 : 0;
+    const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time][projected]);
     cache_.save();
     return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth,
                           std::max(samples, 1u));

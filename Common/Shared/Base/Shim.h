@@ -47,6 +47,7 @@
 #define RT_LARGE_VARIABLE(T, x)
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
+#define RT_PROJECTED // see ProjectedLights.h; C++ compilers drop what a kernel does not use
 
 RT_SHARED_BEGIN
 
