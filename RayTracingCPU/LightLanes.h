@@ -1,9 +1,8 @@
 // Next-event estimation for all lanes: the choice by contribution from a short table, samples of quads and spheres, and their weights.
 // The numbers are those of one path alone, bit for bit.
 #pragma once
-#include "RayTracingCPU/SceneAccess.h"
-
 #include "RayTracingCPU/Lanes.h"
+#include "RayTracingCPU/SceneAccess.h"
 
 namespace rt::cpu {
 namespace {
@@ -90,7 +89,7 @@ RT_CALL void sampleQuads(PathLanes& lanes) {
         s = completeSample(0u, light, normal, s);
         s.pdf = isLit(light, position) ? s.pdf : 0.0f;
         set(lanes.samples, i, s);
-        const uint apart = view.regime != kRegimeSolidAngle ? 1u : 0u;
+        const uint apart = view.strategy != kStrategySolidAngle ? 1u : 0u;
         lanes.sampled.at[i] = lanes.lights.kind.at[i] == kLightQuad ? apart : 0u;
     }
 }
@@ -116,10 +115,10 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         const vec3 normal = get(lanes.vertices.shading, i);
         const vec2 u = sampleNumbers(lanes, i);
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
-        const uint regime = sphereLightRegime(0u, kShapeAuto, light, center - position, normal);
+        const uint strategy = sphereLightStrategy(0u, kShapeAuto, light, center - position, normal);
         const SphereCone cone = makeSphereCone(center - position, light.radius);
-        const bool isCap = regime == kRegimeWholeCap;
-        const ConeSample inCap = sampleWholeCap(cone, light.radius, normal, u);
+        const bool isCap = strategy == kStrategyVisibleCap;
+        const ConeSample inCap = sampleVisibleCap(cone, light.radius, normal, u);
         ConeSample c = sampleSphereCone(cone, light.radius, u);
         c.direction = either(isCap, inCap.direction, c.direction);
         c.distance = isCap ? inCap.distance : c.distance;
@@ -129,7 +128,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         s = completeSample(0u, light, normal, s);
         const bool isSphere = lanes.lights.kind.at[i] == kLightSphere;
         set(lanes.samples, i, eitherSample(isSphere, s, get(lanes.samples, i)));
-        const uint outside = regime != kRegimeInside ? 1u : 0u;
+        const uint outside = strategy != kStrategyInside ? 1u : 0u;
         const uint before = lanes.sampled.at[i];
         lanes.sampled.at[i] = isSphere ? outside : before;
     }

@@ -7,7 +7,9 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
 #include <Cost.Projected.Time.comp.h>
+#include <Cost.Projected.Time.rgen.h>
 #include <Cost.Projected.comp.h>
+#include <Cost.Projected.rgen.h>
 #include <Cost.Time.comp.h>
 #include <Cost.Time.rgen.h>
 #include <Cost.comp.h>
@@ -19,10 +21,9 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Preview.comp.h>
 #include <Preview.frag.h>
 #include <Preview.vert.h>
-#include <ProjectedPolygon.rcall.h>
-#include <ProjectedSphere.rcall.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
+#include <RayTracing.Projected.rgen.h>
 #include <RayTracing.Quad.rchit.h>
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>
@@ -50,12 +51,18 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return Cost_Projected_Time_comp;
         case Shader::RayGeneration:
             return RayTracing_rgen;
+        case Shader::ProjectedRayGeneration:
+            return RayTracing_Projected_rgen;
         case Shader::AovGeneration:
             return Aov_rgen;
         case Shader::CostGeneration:
             return Cost_rgen;
+        case Shader::ProjectedCostGeneration:
+            return Cost_Projected_rgen;
         case Shader::TimeGeneration:
             return Cost_Time_rgen;
+        case Shader::ProjectedTimeGeneration:
+            return Cost_Projected_Time_rgen;
         case Shader::Miss:
             return RayTracing_rmiss;
         case Shader::TriangleHit:
@@ -66,10 +73,6 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return RayTracing_Procedural_rchit;
         case Shader::SphereIntersection:
             return RayTracing_Procedural_rint;
-        case Shader::ProjectedPolygon:
-            return ProjectedPolygon_rcall;
-        case Shader::ProjectedSphere:
-            return ProjectedSphere_rcall;
         case Shader::FilmReduce:
             return FilmReduce_comp;
         case Shader::FilmResolve:

@@ -155,8 +155,8 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         const Clock::time_point start = Clock::now();
         kernel_ = nullptr;
         const bool projected = shared::has(features_, shared::kFeatureProjected);
-        kernel_ =
-            makeKernel(key, projected ? Shader::ProjectedPathCompute : Shader::PathCompute, Shader::RayGeneration);
+        kernel_ = makeKernel(key, projected ? Shader::ProjectedPathCompute : Shader::PathCompute,
+                             projected ? Shader::ProjectedRayGeneration : Shader::RayGeneration);
         kernelKey_ = key;
         cache_.save();
         report_.pipelineSeconds = secondsSince(start);
@@ -377,10 +377,11 @@ image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
     if (!knowsCost(cost)) return {};
     constexpr Shader kCompute[2][2] = {{Shader::CostCompute, Shader::ProjectedCostCompute},
                                        {Shader::TimeCompute, Shader::ProjectedTimeCompute}};
-    constexpr Shader kGeneration[2] = {Shader::CostGeneration, Shader::TimeGeneration};
+    constexpr Shader kGeneration[2][2] = {{Shader::CostGeneration, Shader::ProjectedCostGeneration},
+                                          {Shader::TimeGeneration, Shader::ProjectedTimeGeneration}};
     const int time = cost == app::Cost::Time ? 1 : 0;
     const int projected = shared::has(features_, shared::kFeatureProjected) ? 1 : 0;
-    const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time]);
+    const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time][projected]);
     cache_.save();
     return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth,
                           std::max(samples, 1u));

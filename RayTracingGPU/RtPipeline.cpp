@@ -66,30 +66,6 @@ class GroupList {
     std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups_;
 };
 
-// The samplers by projected solid angle are callable shaders: their code is as long as all the rest, and compilers would copy
-// it into ray generation several times.
-void addCallables(GroupList& list, const PipelineDecisions& decisions, ShaderGroups& groups, std::string& name) {
-    const auto isProjected = [&](std::uint32_t feature, std::uint32_t method) {
-        return shared::has(decisions.features, shared::kFeatureProjected) && shared::has(decisions.features, feature) &&
-               method == shared::kShapeProjected;
-    };
-    const bool sphere = isProjected(shared::kFeatureSphereLights, decisions.sphereLight);
-    const bool polygon = isProjected(shared::kFeatureQuadLights, decisions.quadLight) ||
-                         isProjected(shared::kFeatureTriangleLights, decisions.triangleLight);
-    if (!sphere && !polygon) return;
-    groups.callable.resize(shared::kCallableRecords);
-    if (polygon) {
-        groups.callable[shared::kCallableProjectedPolygon] =
-            list.addGeneral(VK_SHADER_STAGE_CALLABLE_BIT_KHR, Shader::ProjectedPolygon);
-        name += "+projected-polygons";
-    }
-    if (sphere) {
-        groups.callable[shared::kCallableProjectedSphere] =
-            list.addGeneral(VK_SHADER_STAGE_CALLABLE_BIT_KHR, Shader::ProjectedSphere);
-        name += "+projected-spheres";
-    }
-}
-
 ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shader rayGeneration, std::string& name) {
     const std::uint32_t features = decisions.features;
     ShaderGroups groups;
@@ -109,7 +85,6 @@ ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shad
         groups.hit[shared::kHitRecordSphere] = list.addProcedural(Shader::SphereHit, Shader::SphereIntersection);
         name += "+spheres";
     }
-    if (rayGeneration != Shader::AovGeneration) addCallables(list, decisions, groups, name); // that samples no lights
     groups.count = static_cast<std::uint32_t>(list.groups().size());
     return groups;
 }

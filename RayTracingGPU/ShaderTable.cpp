@@ -24,10 +24,8 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     // A single miss record serves both kinds of rays: that nothing was hit means the same to both.
     const VkDeviceSize rayGenerationSize = roundUp(stride, base);
     const VkDeviceSize missSize = roundUp(stride, base);
-    const VkDeviceSize hitSize = roundUp(stride * groups.hit.size(), base);
     const VkDeviceSize hitStart = rayGenerationSize + missSize;
-    const VkDeviceSize callableStart = hitStart + hitSize;
-    const VkDeviceSize size = callableStart + stride * groups.callable.size();
+    const VkDeviceSize size = hitStart + stride * groups.hit.size();
 
     std::vector<std::byte> handles(handleSize * groups.count);
     vulkan::check(context.rayTracing().getGroupHandles(context.device(), pipeline, 0, groups.count, handles.size(),
@@ -40,7 +38,6 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     place(0, groups.rayGeneration);
     place(rayGenerationSize, groups.miss);
     for (std::size_t i = 0; i < groups.hit.size(); ++i) place(hitStart + i * stride, groups.hit[i]);
-    for (std::size_t i = 0; i < groups.callable.size(); ++i) place(callableStart + i * stride, groups.callable[i]);
 
     buffer_ = vulkan::Buffer(context, size + base, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR, vulkan::Memory::Device,
                              "the shader binding table");
@@ -49,11 +46,11 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     rayGeneration_ = {start, rayGenerationSize, rayGenerationSize};
     miss_ = {start + rayGenerationSize, stride, stride};
     hit_ = {start + hitStart, stride, stride * groups.hit.size()};
-    if (!groups.callable.empty()) callable_ = {start + callableStart, stride, stride * groups.callable.size()};
 }
 
 void ShaderTable::trace(VkCommandBuffer commands, std::uint32_t invocations) const {
-    cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &callable_, invocations, 1, 1);
+    const VkStridedDeviceAddressRegionKHR noCallables{};
+    cmdTraceRays_(commands, &rayGeneration_, &miss_, &hit_, &noCallables, invocations, 1, 1);
 }
 
 } // namespace rt::gpu

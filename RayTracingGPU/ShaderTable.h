@@ -13,7 +13,6 @@ struct ShaderGroups {
     std::uint32_t rayGeneration = 0;
     std::uint32_t miss = 0;
     std::vector<std::optional<std::uint32_t>> hit;
-    std::vector<std::optional<std::uint32_t>> callable;
     std::uint32_t count = 0; // of groups
 };
 
@@ -30,7 +29,6 @@ class ShaderTable {
     VkStridedDeviceAddressRegionKHR rayGeneration_{};
     VkStridedDeviceAddressRegionKHR miss_{};
     VkStridedDeviceAddressRegionKHR hit_{};
-    VkStridedDeviceAddressRegionKHR callable_{};
 };
 
 } // namespace rt::gpu

@@ -1,8 +1,5 @@
 // Traces rays through the acceleration structure. Of a ray generation shader.
-#define RT_PROJECTED
-#define RT_PROJECTED_CALLS
 #include "RayTracing.glsl"
-#include "ProjectedCalls.glsl"
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT topLevel;
 
@@ -27,21 +24,4 @@ Hit traceRay(Ray ray, bool anyHit, float tMax) {
     hit.u = hitPayload.uv.x;
     hit.v = hitPayload.uv.y;
     return hit;
-}
-
-// ---- lights by projected solid angle, by callable shaders: see Lights.h ----
-
-layout(location = 0) callableDataEXT FanCall fanCall;
-layout(location = 1) callableDataEXT CapCall capCall;
-
-FanSample useProjectedPolygon(FanQuery query) {
-    fanCall.query = query;
-    executeCallableEXT(kCallableProjectedPolygon, 0);
-    return fanCall.result;
-}
-
-CapSample useProjectedSphere(CapQuery query) {
-    capCall.query = query;
-    executeCallableEXT(kCallableProjectedSphere, 1);
-    return capCall.result;
 }

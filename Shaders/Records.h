@@ -223,10 +223,6 @@ const uint kHitRecordQuad = 1u;
 const uint kHitRecordSphere = 2u;
 const uint kHitRecords = 3u;
 
-const uint kCallableProjectedPolygon = 0u;
-const uint kCallableProjectedSphere = 1u;
-const uint kCallableRecords = 2u;
-
 // ---- rays ------------------------------------------------------------------------------------------------------------
 
 // An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin. That is

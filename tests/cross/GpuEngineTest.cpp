@@ -278,27 +278,6 @@ TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
     EXPECT_EQ(kernel("next-week-quads", settings), way + "+triangles+quads+spheres");
 }
 
-// Callable shaders as well: those of the shapes that are sampled so, in scenes with lights of that shape.
-TEST_P(GpuEngineTest, OnlyCallableGroupsThatLightsNeed) {
-    const auto kernel = [](app::ShapeSampling sphere, app::ShapeSampling quad) {
-        app::RenderSettings settings = settingsFor(1);
-        settings.sphereLight = sphere;
-        settings.quadLight = quad;
-        Render render(settings);
-        const Film& film = render.finish();
-        EXPECT_EQ(film.samples(0), 1u);
-        const image::Image albedo = render.engine->renderAovs({true, false, false}, 1).albedo; // has none
-        EXPECT_GT(albedo.pixel(kSide / 2, kSide / 2)[0], 0.0f);
-        const std::string& name = render.engine->report().kernel;
-        return name.substr(std::min(name.find("+projected"), name.size()));
-    };
-    using app::ShapeSampling;
-    const bool pipeline = GetParam() == app::GpuEngineKind::Pipeline;
-    EXPECT_EQ(kernel(ShapeSampling::Auto, ShapeSampling::Auto), "");
-    EXPECT_EQ(kernel(ShapeSampling::Auto, ShapeSampling::Projected), pipeline ? "+projected-polygons" : "");
-    EXPECT_EQ(kernel(ShapeSampling::Projected, ShapeSampling::Auto), pipeline ? "+projected-spheres" : "");
-}
-
 TEST_P(GpuEngineTest, FirstHitFeatures) {
     Render render(settingsFor(1));
     const app::AovImages images = render.engine->renderAovs({true, true, true}, 4);

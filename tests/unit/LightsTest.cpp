@@ -90,7 +90,8 @@ TEST_P(LightCase, IrradianceIsAnalyticForEveryMethod) {
     for (const uint method : kMethods) {
         if (method == kShapeArea && areaIsHopeless) continue;
         const Mean mean = irradianceEstimates(light, method, 1, 1 << 16);
-        EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kUp)))) << name << ", method " << method;
+        const double rounding = name == "triangle sliver" ? 3e-5 : 1e-5; // a thousandth as wide as it is long
+        EXPECT_TRUE(agrees(mean, irradiance(light, dvec3(kUp)), rounding)) << name << ", method " << method;
     }
 }
 
@@ -273,7 +274,7 @@ TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     EXPECT_LT(variance(overhead, kShapeAuto), 1.01 * variance(overhead, kShapeSolidAngle));
 }
 
-// Where the way of sampling a rectangle changes, by columns or by solid angle, equal numbers lead to much the same point: points
+// Where the way of sampling a rectangle changes, as a strip or by solid angle, equal numbers lead to much the same point: points
 // that are stratified within a pixel stay so. Both ways round, and seen from either side of the middle.
 TEST(Lights, EqualNumbersLeadToNeighboursWhereTheMethodChanges) {
     const auto rectangle = [](bool swapped, double shift, double distance) {
@@ -350,14 +351,15 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
     EXPECT_EQ(moved.pdf, still.pdf);
 }
 
-// On an unoccluded diffuse surface a light sampled by projected solid angle has no variance but what the fit leaves.
+// On an unoccluded diffuse surface a light sampled by projected solid angle has no variance; that of a sphere cut by the horizon
+// is what the fit leaves.
 TEST_P(LightCase, ProjectedHasNoVariance) {
     const auto& [name, light, areaIsHopeless] = GetParam();
     if (light.kind == kLightEllipsoid) return; // sampled by the cone
     const double extent = light.kind == kLightSphere ? double(light.radius) : double(glm::length(light.edgeU));
     if (extent < 2e-3 * glm::length(dvec3(light.position))) return; // sampled otherwise
     const Mean mean = irradianceEstimates(light, kShapeProjected, 12, 1 << 15);
-    EXPECT_LE(mean.relativeVariance(), name == "triangle sliver" ? 1e-2 : 1e-3) << name;
+    EXPECT_LE(mean.relativeVariance(), light.kind == kLightSphere ? 1e-3 : 1e-10) << name;
 }
 
 // Relative variances of single samples of the irradiance, to 10 %.

@@ -29,15 +29,22 @@ inline double rectangleSolidAngle(double x0, double x1, double y0, double y1, do
     return std::abs(term(x1, y1) - term(x0, y1) - term(x1, y0) + term(x0, y0));
 }
 
-// Irradiance at the origin with normal n under a polygon of radiance 1, clipped to the horizon (Lambert 1760).
-inline double polygonIrradiance(const std::vector<dvec3>& polygon, const dvec3& n) {
-    std::vector<dvec3> clipped;
+// The part of a polygon on the side of a plane through the origin on which `inside` is.
+inline std::vector<dvec3> cutByPlane(const std::vector<dvec3>& polygon, dvec3 across, const dvec3& inside) {
+    if (glm::dot(across, inside) < 0) across = -across;
+    std::vector<dvec3> part;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
         const dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        const double da = glm::dot(a, n), db = glm::dot(b, n);
-        if (da >= 0) clipped.push_back(a);
-        if ((da >= 0) != (db >= 0)) clipped.push_back(a + (b - a) * (da / (da - db)));
+        const double da = glm::dot(a, across), db = glm::dot(b, across);
+        if (da >= 0) part.push_back(a);
+        if ((da >= 0) != (db >= 0)) part.push_back(a + (b - a) * (da / (da - db)));
     }
+    return part;
+}
+
+// Irradiance at the origin with normal n under a polygon of radiance 1, clipped to the horizon (Lambert 1760).
+inline double polygonIrradiance(const std::vector<dvec3>& polygon, const dvec3& n) {
+    const std::vector<dvec3> clipped = cutByPlane(polygon, n, n);
     double sum = 0;
     for (std::size_t i = 0; i < clipped.size(); ++i) {
         const dvec3 a = glm::normalize(clipped[i]), b = glm::normalize(clipped[(i + 1) % clipped.size()]);

@@ -3,8 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/Shared/Light/Projected/ProjectedPolygon.h"
-#include "Common/Shared/Light/Projected/ProjectedSphere.h"
+#include "Common/Shared/Light/Projected/ProjectedLights.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
 
@@ -106,32 +105,15 @@ TEST(ProjectedCap, WeightedCountsAreTheMeasure) {
 struct Flat {
     vec3 corner, edgeU, edgeV, plane, normal;
     bool triangle;
-    ProjectedFan fan() const { return makeProjectedFan(corner, edgeU, edgeV, plane, triangle, normal); }
-    double irradiance() const {
+    ProjectedPolygon polygon() const { return makeProjectedPolygon(corner, edgeU, edgeV, plane, triangle, normal); }
+    std::vector<dvec3> vertices() const {
         const dvec3 c(corner), u(edgeU), v(edgeV);
-        return test::polygonIrradiance(
-            triangle ? std::vector{c, c + u, c + v} : std::vector{c, c + u, c + u + v, c + v}, dvec3(normal));
+        return triangle ? std::vector{c, c + u, c + v} : std::vector{c, c + u, c + u + v, c + v};
     }
+    double irradiance() const { return test::polygonIrradiance(vertices(), dvec3(normal)); }
+    dvec3 point(const glm::dvec2& uv) const { return dvec3(corner) + dvec3(edgeU) * uv.x + dvec3(edgeV) * uv.y; }
     vec3 towards(vec2 uv) const { return normalize(corner + edgeU * uv.x + edgeV * uv.y); }
 };
-
-FanSample draw(const ProjectedFan& fan, vec2 u) {
-    FanQuery query{};
-    query.use = kProjectedDraw;
-    query.given = vec3(u, 0);
-    query.normal = vec3(0, 0, 1); // of no account
-    FanPick pick;
-    return useProjectedFan(pick, fan, query);
-}
-
-float density(const ProjectedFan& fan, vec3 wi, vec3 normal) {
-    FanQuery query{};
-    query.use = kProjectedDensity;
-    query.given = wi;
-    query.normal = normal;
-    FanPick pick;
-    return useProjectedFan(pick, fan, query).density;
-}
 
 Flat flat(const dvec3& corner, const dvec3& u, const dvec3& v, bool triangle, const dvec3& normal) {
     return {vec3(corner), vec3(u), vec3(v), vec3(glm::normalize(glm::cross(dvec3(vec3(u)), dvec3(vec3(v))))),
@@ -145,7 +127,7 @@ Flat randomFlat(Uniforms& uniform, double size, double thin, bool triangle) {
     return flat(direction(uniform) - 0.5 * (u + v), u, v, triangle, n);
 }
 
-class ProjectedFanOfSize : public testing::TestWithParam<double> {
+class ProjectedPolygonOfSize : public testing::TestWithParam<double> {
   protected:
     // A part above the horizon of which rounding leaves little.
     static bool isMarginal(double irradiance) {
@@ -153,41 +135,41 @@ class ProjectedFanOfSize : public testing::TestWithParam<double> {
     }
 };
 
-void expectMeanIsTheIrradiance(const Flat& f, double rounding, Uniforms& uniform) {
-    const ProjectedFan fan = f.fan();
-    Mean mean;
-    double lost = 0;
-    for (int i = 0; i < 1 << 12; ++i) {
-        const FanSample s = draw(fan, uniform.pair());
-        ASSERT_TRUE(isFinite(s.density) && s.density >= 0 && isFinite(s.uv.x) && isFinite(s.uv.y));
-        ASSERT_TRUE(s.uv.x >= 0 && s.uv.y >= 0 && s.uv.x <= 1 && s.uv.y <= 1);
-        mean.add(s.density > 0 ? 1 / double(s.density) : 0);
-        if (s.density > 0) lost += dot(f.towards(s.uv), f.normal) < -1e-6f;
-    }
-    // Weights far from 1 are rare, so their spread is not known from few samples: allow for 1e-3.
-    const double exact = f.irradiance();
-    EXPECT_NEAR(mean.mean() / exact, 1, 1e-3 + 5 * mean.standardError() / exact + rounding);
-    EXPECT_EQ(lost, 0);
+// Rounding is that of single precision; of slivers and lights seen edge-on it costs digits, in few directions many.
+void expectQuantiles(std::vector<double> errors, double ninetyNinePercent, double all) {
+    ASSERT_GT(errors.size(), 20u);
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LE(errors[errors.size() * 99 / 100], ninetyNinePercent);
+    EXPECT_LE(errors.back(), all);
 }
 
-TEST_P(ProjectedFanOfSize, MeanIsTheIrradiance) {
-    Uniforms uniform(3);
-    for (int k = 0; k < 400; ++k) {
-        const Flat f = randomFlat(uniform, GetParam(), 0.1, k % 2 == 0);
-        if (isMarginal(f.irradiance())) continue;
-        SCOPED_TRACE(k);
-        // The height above the light's plane is known to 1e-7 of the distance.
-        expectMeanIsTheIrradiance(f, 1e-7 / GetParam() + 3e-7 / double(f.fan().height), uniform);
-        ASSERT_FALSE(HasFatalFailure());
+double errorOfTotal(const Flat& f, Uniforms& uniform) {
+    const ProjectedPolygon polygon = f.polygon();
+    for (int i = 0; i < 1 << 8; ++i) {
+        const vec2 uv = sampleProjectedPolygon(polygon, uniform.pair());
+        EXPECT_TRUE(uv.x >= 0 && uv.y >= 0 && uv.x <= 1 && uv.y <= 1);
+        EXPECT_GE(dot(f.towards(uv), f.normal), -1e-6f);
     }
+    return std::abs(double(polygon.total) / f.irradiance() - 1);
+}
+
+// Every weight is the total, so that this is the estimator's bias as well.
+TEST_P(ProjectedPolygonOfSize, TotalIsTheIrradiance) {
+    Uniforms uniform(3);
+    std::vector<double> errors;
+    for (int k = 0; k < 1500; ++k) {
+        const Flat f = randomFlat(uniform, GetParam(), k % 3 == 0 ? 1e-3 : 0.1, k % 2 == 0);
+        if (!isMarginal(f.irradiance())) errors.push_back(errorOfTotal(f, uniform));
+    }
+    expectQuantiles(errors, 1e-4 + 2e-7 / GetParam(), 3e-3);
 }
 
 // Upright, and nearly in a plane with the receiver's normal.
-TEST_P(ProjectedFanOfSize, MeanIsTheIrradianceOfLightsSeenEdgeOn) {
+TEST_P(ProjectedPolygonOfSize, TotalIsTheIrradianceOfLightsSeenEdgeOn) {
     Uniforms uniform(5);
-    int lights = 0;
-    for (const double height : {1e-2, 3e-3, 1e-3, 3e-4}) {
-        for (int k = 0; k < 20; ++k) {
+    for (const double height : {1e-2, 1e-3}) {
+        std::vector<double> errors;
+        for (int k = 0; k < 200; ++k) {
             const double s = GetParam();
             const dvec3 n = direction(uniform), side = glm::normalize(glm::cross(n, direction(uniform)));
             const dvec3 away = glm::cross(side, n);
@@ -198,40 +180,36 @@ TEST_P(ProjectedFanOfSize, MeanIsTheIrradianceOfLightsSeenEdgeOn) {
             const dvec3 u = edge(), v = edge();
             const Flat f = flat(away + uniform.between(0.1, 1) * n + height * side, u, v, k % 2 == 0, n);
             if (isMarginal(f.irradiance()) || glm::length(glm::cross(u, v)) < 0.01 * s * s) continue;
-            SCOPED_TRACE(std::to_string(height) + ", " + std::to_string(k));
-            expectMeanIsTheIrradiance(f, 1e-6 / height, uniform);
-            ASSERT_FALSE(HasFatalFailure());
-            ++lights;
+            errors.push_back(errorOfTotal(f, uniform));
         }
+        expectQuantiles(errors, 1e-5 / height, 3e-5 / height);
     }
-    EXPECT_GT(lights, 20);
 }
 
-// Of every light, slivers, grazing ones and those around the zenith included.
-TEST_P(ProjectedFanOfSize, VarianceIsAtMostAThousandth) {
+// A sample stands at the place in the azimuth cdf that its number names: what lies before its slice, by Lambert's formula in double
+// precision, is that share of the whole.
+TEST_P(ProjectedPolygonOfSize, NumbersAreSharesOfTheAzimuthCdf) {
     Uniforms uniform(7);
-    int lights = 0;
+    std::vector<double> errors;
     for (int k = 0; k < 1200; ++k) {
         const Flat f = randomFlat(uniform, GetParam(), k % 3 == 0 ? 1e-3 : 0.1, k % 2 == 0);
-        if (isMarginal(f.irradiance())) continue;
-        const ProjectedFan fan = f.fan();
-        // Densities depend on the first number alone. Its strata are as good as many more random numbers.
-        Mean mean;
-        for (int i = 0; i < 1 << 12; ++i) {
-            const float u = (static_cast<float>(i) + uniform()) * 0x1p-12f;
-            const FanSample s = draw(fan, vec2(u, uniform()));
-            mean.add(s.density > 0 ? 1 / double(s.density) : 0);
+        const ProjectedPolygon polygon = f.polygon();
+        if (isMarginal(f.irradiance()) || polygon.outline.central) continue;
+        const dvec3 n(f.normal), first = f.point(polygon.outline.uv[polygon.outline.sector[0].x]);
+        for (int i = 0; i < 16; ++i) {
+            const vec2 u = uniform.pair();
+            const dvec3 across = glm::cross(n, f.point(sampleProjectedPolygon(polygon, u)));
+            const double before = test::polygonIrradiance(test::cutByPlane(f.vertices(), across, first), n);
+            errors.push_back(std::abs(before / f.irradiance() - double(u.x)));
         }
-        EXPECT_LE(mean.relativeVariance(), 1e-3) << k;
-        ++lights;
     }
-    EXPECT_GT(lights, 500);
+    expectQuantiles(errors, 3e-5 + 1e-7 / GetParam(), 5e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, ProjectedFanOfSize, testing::Values(1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0));
+INSTANTIATE_TEST_SUITE_P(Sizes, ProjectedPolygonOfSize, testing::Values(1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0));
 
-// Cells of equal area on the light, their exact measure by Lambert's formula; samples thinned by their weights.
-TEST(ProjectedFan, WeightedCountsAreTheMeasure) {
+// Cells of equal area on the light and their exact measure by Lambert's formula.
+TEST(ProjectedPolygon, CountsAreTheMeasure) {
     Uniforms uniform(4);
     const dvec3 up(0, 0, 1);
     const std::vector<Flat> cases = {
@@ -259,14 +237,13 @@ TEST(ProjectedFan, WeightedCountsAreTheMeasure) {
                 if (f.triangle && i + j == kCells - 1) corners.erase(corners.begin() + 2);
                 cell = test::polygonIrradiance(corners, dvec3(f.normal));
             }
-        const ProjectedFan fan = f.fan();
+        const ProjectedPolygon polygon = f.polygon();
+        EXPECT_NEAR(double(polygon.total) / f.irradiance(), 1, 1e-6) << k;
         std::vector<std::uint64_t> counts(exact.size());
-        for (int i = 0; i < 1 << 17; ++i) {
-            const FanSample s = draw(fan, uniform.pair());
-            ASSERT_GT(s.density, 0.0f) << k;
-            if (uniform.between(0, 1.5) >= 1 / (double(s.density) * f.irradiance())) continue;
-            int a = std::min(static_cast<int>(s.uv.x * kCells), kCells - 1);
-            const int b = std::min(static_cast<int>(s.uv.y * kCells), kCells - 1);
+        for (int i = 0; i < 1 << 18; ++i) {
+            const vec2 uv = sampleProjectedPolygon(polygon, uniform.pair());
+            int a = std::min(static_cast<int>(uv.x * kCells), kCells - 1);
+            const int b = std::min(static_cast<int>(uv.y * kCells), kCells - 1);
             if (f.triangle && a + b >= kCells) a = kCells - 1 - b;
             ++counts[static_cast<std::size_t>(a * kCells + b)];
         }
@@ -275,13 +252,13 @@ TEST(ProjectedFan, WeightedCountsAreTheMeasure) {
 }
 
 // Strata stay strata: the mean of a smooth function over a jittered grid has a far smaller error than at random.
-TEST(ProjectedFan, KeepsStrata) {
+TEST(ProjectedPolygon, KeepsStrata) {
     Uniforms uniform(5);
     const Flat f = flat({0.5, -1, -0.3}, {0, 2, 0.3}, {0.4, 0, 2}, false, {0, 0, 1});
-    const ProjectedFan fan = f.fan();
+    const ProjectedPolygon polygon = f.polygon();
     const auto value = [&](vec2 u) {
-        const FanSample s = draw(fan, u);
-        return (double(s.uv.x) * 0.7 + double(s.uv.y) * double(s.uv.y)) / double(s.density);
+        const vec2 uv = sampleProjectedPolygon(polygon, u);
+        return double(uv.x) * 0.7 + double(uv.y) * double(uv.y);
     };
     Mean random, strata;
     constexpr int kSide = 16;
@@ -298,7 +275,7 @@ TEST(ProjectedFan, KeepsStrata) {
 }
 
 // Twelve decades of size and of distance, from the light's plane, its corners and far from the origin.
-TEST(ProjectedFan, StaysFiniteUnderStress) {
+TEST(ProjectedPolygon, StaysFiniteUnderStress) {
     Uniforms uniform(6);
     const float last = 0x0.ffffffp0f;
     for (int k = 0; k < 20000; ++k) {
@@ -311,14 +288,13 @@ TEST(ProjectedFan, StaysFiniteUnderStress) {
         if (k % 16 == 1) corner = u * 0.1 + v; // in the light's plane
         if (k % 16 == 2) corner = n * size;    // a vertex at the zenith
         const Flat f = flat(corner, u, v, k % 2 == 0, n);
-        const ProjectedFan fan = f.fan();
+        const ProjectedPolygon polygon = f.polygon();
+        ASSERT_TRUE(isFinite(polygon.total) && polygon.total >= 0 && polygon.total < 1.001f * kPi) << k;
+        if (polygon.total == 0) continue;
+        ASSERT_TRUE(isFinite(1 / polygon.total)) << k;
         for (const vec2 w : {uniform.pair(), vec2(0), vec2(last), vec2(0, last), vec2(last, 0)}) {
-            const FanSample s = draw(fan, w);
-            ASSERT_TRUE(isFinite(s.density) && s.density >= 0) << k;
-            ASSERT_TRUE(s.uv.x >= 0 && s.uv.x <= 1 && s.uv.y >= 0 && s.uv.y <= 1) << k;
-            if (s.density == 0) continue;
-            const float again = density(fan, f.towards(s.uv), f.normal);
-            ASSERT_TRUE(isFinite(again) && again >= 0) << k;
+            const vec2 uv = sampleProjectedPolygon(polygon, w);
+            ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1) << k;
         }
     }
 }

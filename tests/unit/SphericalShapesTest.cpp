@@ -321,18 +321,18 @@ TEST(SphericalRectangle, FacesOfACube) {
     EXPECT_EQ(seen(1, 2, 1, 2, 0).solidAngle, 0.0f);
 }
 
-// ---- columns --------------------------------------------------------------------------------------------------------
+// ---- strips ---------------------------------------------------------------------------------------------------------
 
-struct ColumnsCase {
+struct StripCase {
     double start, distance; // in units of the edge
 };
 
-class ColumnsOf : public testing::TestWithParam<ColumnsCase> {};
+class StripOf : public testing::TestWithParam<StripCase> {};
 
-TEST_P(ColumnsOf, DensityIsThatOfTheSamples) {
+TEST_P(StripOf, DensityIsThatOfTheSamples) {
     const auto [start, distance] = GetParam();
     const vec3 middle(float(3 * start), 0, float(3 * distance));
-    const Columns c = makeColumns(middle, vec3(3, 0, 0), 0);
+    const Strip c = makeStrip(middle, vec3(3, 0, 0), 0);
     const double d = double(c.d);
     const auto rest = [d](double p) {
         return p > 0 ? d / (p * p + d + p * std::sqrt(p * p + d)) : 1 - p / std::sqrt(p * p + d);
@@ -348,11 +348,11 @@ TEST_P(ColumnsOf, DensityIsThatOfTheSamples) {
     Mean inverse;
     double worst = 0;
     for (int i = 0; i < 1 << 18; ++i) {
-        const ColumnSample x = sampleColumns(c, uniform());
+        const StripSample x = sampleStrip(c, uniform());
         ASSERT_TRUE(x.a >= 0 && x.a <= 1 && x.pdf > 0) << x.a << ' ' << x.pdf;
         ++counts[std::min(static_cast<int>(x.a * cells), cells - 1)];
         inverse.add(1 / double(x.pdf));
-        worst = std::max(worst, std::abs(columnsPdf(c, c.start + x.a) / double(x.pdf) - 1));
+        worst = std::max(worst, std::abs(stripPdf(c, c.start + x.a) / double(x.pdf) - 1));
     }
     EXPECT_GT(chiSquareP(counts, weights), kSignificance);
     if (distance > 0.02) {
@@ -361,11 +361,11 @@ TEST_P(ColumnsOf, DensityIsThatOfTheSamples) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Positions, ColumnsOf,
-                         testing::Values(ColumnsCase{-0.5, 1}, ColumnsCase{0, 0.3}, ColumnsCase{-1, 0.3},
-                                         ColumnsCase{-0.3, 0.05}, ColumnsCase{0.3, 0.01}, ColumnsCase{-1.3, 0.01},
-                                         ColumnsCase{5, 0.1}, ColumnsCase{-6, 3}, ColumnsCase{2, 1e-3},
-                                         ColumnsCase{-0.5, 10}),
+INSTANTIATE_TEST_SUITE_P(Positions, StripOf,
+                         testing::Values(StripCase{-0.5, 1}, StripCase{0, 0.3}, StripCase{-1, 0.3},
+                                         StripCase{-0.3, 0.05}, StripCase{0.3, 0.01}, StripCase{-1.3, 0.01},
+                                         StripCase{5, 0.1}, StripCase{-6, 3}, StripCase{2, 1e-3},
+                                         StripCase{-0.5, 10}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 // ---- area -----------------------------------------------------------------------------------------------------------

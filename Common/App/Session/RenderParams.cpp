@@ -84,10 +84,10 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
 std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features) {
     std::string text;
     const auto describe = [&](std::uint32_t feature, ShapeSampling method, const char* shape, const char* solidAngle,
-                              const char* regimes) {
+                              const char* strategies) {
         if (!shared::has(features, feature)) return;
         const char* used = method == ShapeSampling::Area        ? "area"
-                           : method == ShapeSampling::Auto      ? regimes
+                           : method == ShapeSampling::Auto      ? strategies
                            : method == ShapeSampling::Projected ? "projected (of surfaces, unless tiny)"
                                                                 : solidAngle;
         text += (text.empty() ? "" : ", ") + std::string(shape) + ": " + used;
@@ -96,7 +96,7 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
     describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone",
              "auto (projected above the horizon, else cone)");
     describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
-             "auto (area when far, columns when thin, else solid-angle by the cosine)");
+             "auto (area when far, strip when thin, else solid-angle by the cosine)");
     describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",
              "auto (area when far, else solid-angle)");
     const bool isProjected = settings.sphereLight == ShapeSampling::Projected; // there are no projected ellipsoids

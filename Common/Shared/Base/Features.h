@@ -38,15 +38,6 @@ const uint kFeatureBits = 31u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
-// Whether lights can be sampled by projected solid angle at all. Their samplers are as long as all other light sampling, and
-// drivers take seconds over code that a specialization constant leaves unused, so a shader that can need them says so:
-// RT_PROJECTED. One that says RT_PROJECTED_CALLS as well has useProjectedPolygon() and useProjectedSphere() call other shaders.
-#ifdef RT_PROJECTED
-const bool kProjectedCompiled = true;
-#else
-const bool kProjectedCompiled = false;
-#endif
-
 RT_FN bool has(uint features, uint bits) {
     return (features & bits) != 0u;
 }

@@ -51,6 +51,12 @@ RT_FN float luminance(vec3 rgb) {
 
 // ---- standard domains -----------------------------------------------------------------------------------------------
 
+// Where in an interval, [0,1], the integral of the linear function from a at 0 to b at 1 reaches `part`.
+RT_FN float invertLinear(float a, float b, float part) {
+    float root = sqrt(max(a * a + 2.0f * (b - a) * part, 0.0f));
+    return min(2.0f * part / max(a + root, 1.0e-37f), 1.0f);
+}
+
 // Uniform on the unit disk, as (x, y, r) with |r| the radius: the concentric map (Shirley & Chiu 1997), which keeps
 // neighbours neighbours. Grid points are moved to the middle of their cells, so the centre and the rim are never hit.
 RT_FN vec3 sampleDiskRadius(vec2 u) {

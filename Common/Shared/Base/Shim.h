@@ -6,10 +6,10 @@
 //   RT_CALL          the same for a function that is worth a call: never inlined in C++.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
-//   RT_LARGE_IN(T, x), RT_LARGE_INOUT(T, x), RT_LARGE(x)
-//                    the same for x, the first of several parameters, too large to be copied, and the argument. In GLSL,
-//                    where parameters are copies and compilers inline every call, there is none: functions use the one
-//                    variable x of the invocation. RT_LARGE_VARIABLE(T, x) declares it, RT_LARGE_LOCAL(T, x) one in C++.
+//   RT_LARGE_INOUT(T, x)
+//                    RT_INOUT for x, the first of several parameters, too large to be copied. In GLSL, where parameters are
+//                    copies and compilers inline every call, there is none: functions use the one variable x of the
+//                    invocation, which RT_LARGE_VARIABLE(T, x) declares.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
 #define RT_SHARED_SHIM_H
@@ -43,14 +43,11 @@
 #define RT_IN(T) const T&
 #define RT_INOUT(T) T&
 #define RT_OUT(T) T&
-#define RT_LARGE_IN(T, x) const T &x,
 #define RT_LARGE_INOUT(T, x) T &x,
-#define RT_LARGE(x) x,
 #define RT_LARGE_VARIABLE(T, x)
-#define RT_LARGE_LOCAL(T, x) T x;
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
-#define RT_PROJECTED // see Features.h; C++ compilers drop what a kernel does not use
+#define RT_PROJECTED // see ProjectedLights.h; C++ compilers drop what a kernel does not use
 
 RT_SHARED_BEGIN
 
@@ -125,11 +122,8 @@ RT_SHARED_END
 #define RT_IN(T) T
 #define RT_INOUT(T) inout T
 #define RT_OUT(T) out T
-#define RT_LARGE_IN(T, x)
 #define RT_LARGE_INOUT(T, x)
-#define RT_LARGE(x)
 #define RT_LARGE_VARIABLE(T, x) T x;
-#define RT_LARGE_LOCAL(T, x)
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
 

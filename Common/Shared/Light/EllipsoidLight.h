@@ -12,9 +12,9 @@ RT_FN Ellipsoid ellipsoidOf(RT_IN(Light) light) {
 }
 
 // `center`: from the shading point, in the sphere's own space.
-RT_FN uint ellipsoidLightRegime(RT_IN(RenderParams) params, vec3 center) {
-    if (dot(center, center) <= 1.0f) return kRegimeInside;
-    return params.sphereLight == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+RT_FN uint ellipsoidLightStrategy(RT_IN(RenderParams) params, vec3 center) {
+    if (dot(center, center) <= 1.0f) return kStrategyInside;
+    return params.sphereLight == kShapeArea ? kStrategyArea : kStrategySolidAngle;
 }
 
 // As sampleLight and lightPdf (Lights.h), whose parameters these are.
@@ -24,8 +24,8 @@ RT_CALL LightSample sampleEllipsoidLight(RT_IN(RenderParams) params, RT_IN(Light
     Ellipsoid e = ellipsoidOf(light);
     vec3 toCenter = light.position - position;
     vec3 center = toSphere(e, toCenter);
-    uint regime = ellipsoidLightRegime(params, center);
-    if (regime == kRegimeInside) {
+    uint strategy = ellipsoidLightStrategy(params, center);
+    if (strategy == kStrategyInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
         EllipsoidHit hit = meetEllipsoid(e, center, s.wi);
@@ -35,7 +35,7 @@ RT_CALL LightSample sampleEllipsoidLight(RT_IN(RenderParams) params, RT_IN(Light
         s.pdf = light.sides == kSidesBoth ? w.w : 0.0f;
         return s;
     }
-    bool byArea = regime == kRegimeArea;
+    bool byArea = strategy == kStrategyArea;
     EllipsoidCone cone = makeEllipsoidCone(e, center);
     EllipsoidConeSample drawn = sampleEllipsoidCone(cone, u);
     vec3 onSphere = byArea ? sampleSphere(u) : drawn.onSphere;
@@ -55,11 +55,11 @@ RT_CALL float ellipsoidLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, 
                                 float distance, vec3 lightNormal) {
     Ellipsoid e = ellipsoidOf(light);
     vec3 center = toSphere(e, light.position - position);
-    uint regime = ellipsoidLightRegime(params, center);
+    uint strategy = ellipsoidLightStrategy(params, center);
     // Samples lie on the near side, from inside on the far one.
-    if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
-    if (regime == kRegimeInside) return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
-    if (regime == kRegimeArea) return ellipsoidAreaPdf(e, lightNormal, wi, distance);
+    if ((dot(lightNormal, wi) > 0.0f) != (strategy == kStrategyInside)) return 0.0f;
+    if (strategy == kStrategyInside) return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
+    if (strategy == kStrategyArea) return ellipsoidAreaPdf(e, lightNormal, wi, distance);
     return ellipsoidConePdf(e, makeEllipsoidCone(e, center), wi);
 }
 

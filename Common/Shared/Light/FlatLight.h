@@ -2,10 +2,7 @@
 #ifndef RT_SHARED_FLAT_LIGHT_H
 #define RT_SHARED_FLAT_LIGHT_H
 #include "Common/Shared/Light/LightSample.h"
-#include "Common/Shared/Light/Projected/ProjectedQuery.h"
-#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
-#include "Common/Shared/Light/Projected/ProjectedPolygon.h"
-#endif
+#include "Common/Shared/Light/Projected/ProjectedLights.h"
 
 RT_SHARED_BEGIN
 
@@ -51,38 +48,18 @@ RT_FN void projectToLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 corn
     s.uv = edgeCoordinates(light, s.wi * s.distance - corner);
 }
 
-RT_FN FanQuery fanQuery(RT_IN(Light) light, vec3 corner, vec3 normal, uint use, vec3 given) {
-    FanQuery query;
-    query.corner = corner;
-    query.edgeU = light.edgeU;
-    query.edgeV = light.edgeV;
-    query.plane = light.normal;
-    query.normal = normal;
-    query.given = given;
-    query.kind = light.kind;
-    query.use = use;
-    return query;
-}
-
 RT_FN LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
     LightSample s = noLightSample();
-#ifdef RT_PROJECTED
-    FanSample drawn = useProjectedPolygon(fanQuery(light, corner, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
-    if (!(drawn.density > 0.0f)) return s;
-    s.uv = drawn.uv;
+    vec3 drawn = sampleProjectedFlat(light, corner, normal, u);
+    if (!(drawn.z > 0.0f)) return s;
+    s.uv = vec2(drawn.x, drawn.y);
     placeOnLight(s, light, position);
-    s.pdf = drawn.density * max(dot(normal, s.wi), 0.0f);
-#endif
+    s.pdf = drawn.z * max(dot(normal, s.wi), 0.0f);
     return s;
 }
 
 RT_FN float flatProjectedPdf(RT_IN(Light) light, vec3 corner, vec3 normal, vec3 wi) {
-#ifdef RT_PROJECTED
-    float density = useProjectedPolygon(fanQuery(light, corner, normal, kProjectedDensity, wi)).density;
-    return density * max(dot(normal, wi), 0.0f);
-#else
-    return 0.0f;
-#endif
+    return projectedFlatDensity(light, corner, normal) * max(dot(normal, wi), 0.0f);
 }
 
 RT_SHARED_END

@@ -31,13 +31,13 @@ RT_FN LightSample noLightSample() {
     return s;
 }
 
-// How a light's shape is sampled from a shading point.
-const uint kRegimeSolidAngle = 0u; // uniform in solid angle, or a quad: weighted by the cosines at its corners
-const uint kRegimeArea = 1u;       // uniform in area
-const uint kRegimeColumns = 2u;    // a thin quad: by solid angle along the long edge, uniform across
-const uint kRegimeInside = 3u;     // the point is inside a sphere or an ellipsoid, which fills all directions
-const uint kRegimeProjected = 4u;  // a sphere: uniform in projected solid angle; flat lights: isFlatProjected()
-const uint kRegimeWholeCap = 5u;   // the same for a sphere wholly above the horizon
+// Strategies by which a light's shape is sampled from a shading point.
+const uint kStrategySolidAngle = 0u; // uniform in solid angle, or a quad: weighted by the cosines at its corners
+const uint kStrategyArea = 1u;       // uniform in area
+const uint kStrategyStrip = 2u;      // a thin quad as a line light: by solid angle along the long edge, uniform across
+const uint kStrategyInside = 3u;     // the point is inside a sphere or an ellipsoid, which fills all directions
+const uint kStrategyProjected = 4u;  // a sphere: uniform in projected solid angle; flat lights: isFlatProjected()
+const uint kStrategyVisibleCap = 5u; // a sphere wholly above the horizon: uniform in projected solid angle
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;
@@ -51,7 +51,7 @@ const float kTinyExtent = 1.0e-3f;
 
 // Whether a shape that is to be sampled by `method` gets its projected sampler, if it is not too small for that.
 RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
-    return kProjectedCompiled && has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
+    return has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
 }
 
 // Uniform over all directions for a point in a medium, by the cosine for a point on a surface.

@@ -50,16 +50,16 @@ RT_FN Light partOfQuad(RT_IN(Light) light, RT_IN(QuadPart) part) {
     return quad;
 }
 
-// A quad light from a point, with what its regime depends on.
+// A quad light from a point, with what its strategy depends on.
 struct QuadView {
     vec3 corner; // relative to the point
-    uint regime;
+    uint strategy;
     float weighting; // of solid angle by the cosines at the corners, 0 to 1
     bool swapped;    // edgeV is the long edge
-    Columns columns; // of a rectangle, under the automatic method
+    Strip strip;     // of a rectangle, under the automatic method
 };
 
-// Automatic: a rectangle at twice its short edge or farther is sampled by columns, a nearer one more and more with regard to the
+// Automatic: a rectangle at twice its short edge or farther is sampled as a strip, a nearer one more and more with regard to the
 // cosine. Without a branch but for the method, for loops over lights.
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
@@ -67,7 +67,7 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
     q.swapped = false;
     if (method != kShapeAuto) {
         bool area = method == kShapeArea || wantsProjected(features, method, normal);
-        q.regime = area ? kRegimeArea : kRegimeSolidAngle;
+        q.strategy = area ? kStrategyArea : kStrategySolidAngle;
         q.weighting = 0.0f;
         return q;
     }
@@ -76,16 +76,16 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
     q.swapped = v2 > u2;
     vec3 longEdge = either(q.swapped, light.edgeV, light.edgeU);
     vec3 shortEdge = either(q.swapped, light.edgeU, light.edgeV);
-    q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
-    float shortEdges2 = columnsDistance2(q.columns) / (min(u2, v2) * q.columns.inverse);
+    q.strip = makeStrip(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
+    float shortEdges2 = stripDistance2(q.strip) / (min(u2, v2) * q.strip.inverse);
     // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.
     float near = clamp((4.0f - shortEdges2) * (1.0f / 3.0f), 0.0f, 1.0f);
     bool rectangle = isRectangle(light);
     q.weighting = rectangle && isSurface(normal) ? near : 0.0f;
-    uint apart = isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV) ? kRegimeArea
-                                                                                                : kRegimeSolidAngle;
-    bool byColumns = rectangle && shortEdges2 > 4.0f && apart != kRegimeArea;
-    q.regime = byColumns ? kRegimeColumns : apart;
+    uint apart = isFar(q.corner + (light.edgeU + light.edgeV) * 0.5f, light.edgeU, light.edgeV) ? kStrategyArea
+                                                                                                : kStrategySolidAngle;
+    bool asStrip = rectangle && shortEdges2 > 4.0f && apart != kStrategyArea;
+    q.strategy = asStrip ? kStrategyStrip : apart;
     return q;
 }
 
@@ -171,13 +171,13 @@ RT_FN float quadSolidAnglePdf(RT_IN(Light) light, vec3 position, vec3 normal, fl
     return pdf;
 }
 
-// The sample where the regime is by area or by columns.
+// The sample where the strategy is by area or as a strip.
 RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3 position, vec2 u) {
     LightSample s = noLightSample();
     s.uv = u;
     float density = 1.0f;
-    if (view.regime == kRegimeColumns) {
-        ColumnSample c = sampleColumns(view.columns, view.swapped ? u.y : u.x);
+    if (view.strategy == kStrategyStrip) {
+        StripSample c = sampleStrip(view.strip, view.swapped ? u.y : u.x);
         density = c.pdf;
         s.uv = vec2(view.swapped ? u.x : c.a, view.swapped ? c.a : u.y);
     }
@@ -189,7 +189,7 @@ RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3
 RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    if (view.regime == kRegimeSolidAngle) {
+    if (view.strategy == kStrategySolidAngle) {
         QuadPart part = partAboveHorizon(light, view.corner, normal);
         LightSample s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
         s.uv = part.from + s.uv * part.size;
@@ -201,15 +201,15 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
 RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    if (view.regime == kRegimeSolidAngle) {
+    if (view.strategy == kStrategySolidAngle) {
         Light quad = partOfQuad(light, partAboveHorizon(light, view.corner, normal));
         float pdf = quadSolidAnglePdf(quad, position, normal, view.weighting, wi * distance);
         if (pdf > 0.0f) return pdf;
     }
     float density = 1.0f;
-    if (view.regime == kRegimeColumns) {
+    if (view.strategy == kStrategyStrip) {
         float along = dot(wi, view.swapped ? light.edgeV : light.edgeU);
-        density = columnsPdf(view.columns, along * distance * view.columns.inverse);
+        density = stripPdf(view.strip, along * distance * view.strip.inverse);
     }
     return density * areaPdf(light.area, distance, dot(light.normal, wi));
 }

@@ -2,11 +2,7 @@
 #ifndef RT_SHARED_SPHERE_LIGHT_H
 #define RT_SHARED_SPHERE_LIGHT_H
 #include "Common/Shared/Light/LightSample.h"
-#include "Common/Shared/Light/Projected/ProjectedQuery.h"
-#include "Common/Shared/Light/Projected/WholeCap.h"
-#if defined(RT_PROJECTED) && !defined(RT_PROJECTED_CALLS) // else the includer has the functions
-#include "Common/Shared/Light/Projected/ProjectedSphere.h"
-#endif
+#include "Common/Shared/Light/Projected/ProjectedLights.h"
 
 RT_SHARED_BEGIN
 
@@ -14,29 +10,19 @@ RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
     return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
 }
 
-RT_FN uint sphereLightRegime(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
+RT_FN uint sphereLightStrategy(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
     float d2 = dot(toCenter, toCenter);
     float r2 = light.radius * light.radius;
-    uint regime = method == kShapeArea ? kRegimeArea : kRegimeSolidAngle;
+    uint strategy = method == kShapeArea ? kStrategyArea : kStrategySolidAngle;
     if (method == kShapeAuto) {
         uint above =
-            dot(normal, toCenter) >= light.radius ? kRegimeWholeCap : kRegimeSolidAngle; // a medium's normal is 0
-        regime = r2 >= kLeastCapSine2 * d2 ? above : kRegimeSolidAngle;
+            dot(normal, toCenter) >= light.radius ? kStrategyVisibleCap : kStrategySolidAngle; // a medium's normal is 0
+        strategy = r2 >= kLeastCapSine2 * d2 ? above : kStrategySolidAngle;
     }
     if (wantsProjected(features, method, normal)) {
-        regime = r2 >= kTinyExtent * kTinyExtent * d2 ? kRegimeProjected : kRegimeSolidAngle;
+        strategy = r2 >= kTinyExtent * kTinyExtent * d2 ? kStrategyProjected : kStrategySolidAngle;
     }
-    return d2 <= r2 ? kRegimeInside : regime;
-}
-
-RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use, vec3 given) {
-    CapQuery query;
-    query.toCenter = toCenter;
-    query.radius = light.radius;
-    query.normal = normal;
-    query.given = given;
-    query.use = use;
-    return query;
+    return d2 <= r2 ? kStrategyInside : strategy;
 }
 
 // The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
@@ -48,25 +34,18 @@ RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal,
 RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
                                         vec2 u) {
     LightSample s = noLightSample();
-#ifdef RT_PROJECTED
-    CapSample d = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDraw, vec3(u.x, u.y, 0.0f)));
+    ProjectedDirection d = sampleProjectedSphere(toCenter, light.radius, normal, u);
     if (!(d.density > 0.0f)) return s;
-    s.wi = d.direction;
-    s.distance = d.distance;
-    s.normal = d.normal;
+    s.wi = d.place.direction;
+    s.distance = d.place.distance;
+    s.normal = d.place.normal;
     s.point = pointOnSphere(length(toCenter), center, light.radius, s.normal, position + s.wi * s.distance);
     s.pdf = d.density * max(dot(normal, s.wi), 0.0f);
-#endif
     return s;
 }
 
 RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, vec3 wi) {
-#ifdef RT_PROJECTED
-    float density = useProjectedSphere(capQuery(light, toCenter, normal, kProjectedDensity, wi)).density;
-    return density * max(dot(normal, wi), 0.0f);
-#else
-    return 0.0f;
-#endif
+    return projectedSphereDensity(toCenter, light.radius, normal, wi) * max(dot(normal, wi), 0.0f);
 }
 
 // The sample of a direction in the cone of a sphere that is seen from outside.
@@ -87,18 +66,18 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     vec3 center = sphereLightCenter(features, light, time);
     vec3 toCenter = center - position;
     float radius = light.radius;
-    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
-    if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
+    uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
+    if (has(features, kFeatureProjected) && strategy == kStrategyProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
-    } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
+    } else if (strategy == kStrategySolidAngle || strategy == kStrategyVisibleCap) {
         SphereCone cone = makeSphereCone(toCenter, radius);
-        if (regime == kRegimeWholeCap) {
-            ConeSample c = sampleWholeCap(cone, radius, normal, u);
-            s = sampleOfCone(cone, c, wholeCapPdf(cone, normal, c.direction), center, radius, position);
+        if (strategy == kStrategyVisibleCap) {
+            ConeSample c = sampleVisibleCap(cone, radius, normal, u);
+            s = sampleOfCone(cone, c, visibleCapPdf(cone, normal, c.direction), center, radius, position);
         } else {
             s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
         }
-    } else if (regime == kRegimeInside) {
+    } else if (strategy == kStrategyInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
         float along = dot(toCenter, s.wi);
@@ -123,14 +102,14 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
 RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
-    uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
+    uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
     // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
-    if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
-    if (has(features, kFeatureProjected) && regime == kRegimeProjected)
+    if ((dot(lightNormal, wi) > 0.0f) != (strategy == kStrategyInside)) return 0.0f;
+    if (has(features, kFeatureProjected) && strategy == kStrategyProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);
-    if (regime == kRegimeSolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
-    if (regime == kRegimeWholeCap) return wholeCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
-    if (regime == kRegimeArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
+    if (strategy == kStrategySolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
+    if (strategy == kStrategyVisibleCap) return visibleCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
+    if (strategy == kStrategyArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
 }
 

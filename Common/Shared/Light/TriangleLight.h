@@ -6,11 +6,11 @@
 
 RT_SHARED_BEGIN
 
-RT_FN uint triangleLightRegime(uint features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
+RT_FN uint triangleLightStrategy(uint features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
     bool area = method == kShapeArea || wantsProjected(features, method, normal);
     if (method == kShapeAuto)
         area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
-    return area ? kRegimeArea : kRegimeSolidAngle;
+    return area ? kStrategyArea : kStrategySolidAngle;
 }
 
 RT_FN SphericalTriangle triangleShape(RT_IN(Light) light, vec3 corner) {
@@ -22,8 +22,8 @@ RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params,
                                       vec3 normal, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
-    uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
-    if (regime == kRegimeSolidAngle) {
+    uint strategy = triangleLightStrategy(features, params.triangleLight, light, corner, normal);
+    if (strategy == kStrategySolidAngle) {
         SphericalTriangle t = triangleShape(light, corner);
         if (t.solidAngle >= kTinySolidAngle) {
             s.wi = sampleSphericalTriangle(t, u);
@@ -41,8 +41,8 @@ RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params,
 RT_FN float triangleLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                              vec3 wi, float distance) {
     vec3 corner = light.position - position;
-    uint regime = triangleLightRegime(features, params.triangleLight, light, corner, normal);
-    if (regime == kRegimeSolidAngle) {
+    uint strategy = triangleLightStrategy(features, params.triangleLight, light, corner, normal);
+    if (strategy == kStrategySolidAngle) {
         float solidAngle = triangleShape(light, corner).solidAngle;
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }

@@ -312,10 +312,10 @@ RT_FN vec2 wideRectangleNumbers(RT_IN(SphericalRectangle) r, vec2 position) {
 
 // ---- thin rectangle -------------------------------------------------------------------------------------------------
 
-// Importance of positions along the long edge of a thin rectangle. A line at distance sqrt(d) is seen at
+// A thin rectangle as a line light along its long edge. A line at distance sqrt(d) is seen at
 // d / (p^2 + d)^(3/2) per unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge.
 // That is only nearly uniform in solid angle, but the density is exactly that of the samples.
-struct Columns {
+struct Strip {
     float start; // p of the edge's beginning; its end is at start + 1
     float d;
     // 1 - p / sqrt(p^2 + d) at the beginning and the end, p counted towards the side where most of the edge is
@@ -325,13 +325,13 @@ struct Columns {
     float inverse; // 1 / length^2 of the edge
 };
 
-struct ColumnSample {
+struct StripSample {
     float a;   // along the edge, [0,1]
     float pdf; // over [0,1]
 };
 
 // 1 - p / sqrt(p^2 + d) without cancellation.
-RT_FN float columnRest(float p, float d) {
+RT_FN float stripRest(float p, float d) {
     float r2 = p * p + d;
     float pr = p * sqrt(r2);
     return (p > 0.0f ? d : r2 - pr) / (p > 0.0f ? r2 + pr : r2);
@@ -339,35 +339,35 @@ RT_FN float columnRest(float p, float d) {
 
 // `middle`: from the point to the middle of the short edge at the beginning; `edge` the long edge; `width2` the short
 // one squared.
-RT_FN Columns makeColumns(vec3 middle, vec3 edge, float width2) {
-    Columns c;
+RT_FN Strip makeStrip(vec3 middle, vec3 edge, float width2) {
+    Strip c;
     c.inverse = 1.0f / dot(edge, edge);
     c.start = dot(middle, edge) * c.inverse;
     vec3 across = middle - edge * c.start;
     c.d = (dot(across, across) + width2 * (1.0f / 12.0f)) * c.inverse; // mean over the width
     c.mirror = signOf(c.start + 0.5f);
-    c.rest0 = columnRest(c.mirror * c.start, c.d);
-    c.rest1 = columnRest(c.mirror * (c.start + 1.0f), c.d);
+    c.rest0 = stripRest(c.mirror * c.start, c.d);
+    c.rest1 = stripRest(c.mirror * (c.start + 1.0f), c.d);
     return c;
 }
 
 // Distance squared from the point to the segment, in units of its length.
-RT_FN float columnsDistance2(RT_IN(Columns) c) {
+RT_FN float stripDistance2(RT_IN(Strip) c) {
     return c.d + square(max(max(c.start, -1.0f - c.start), 0.0f));
 }
 
-RT_FN ColumnSample sampleColumns(RT_IN(Columns) c, float u) {
+RT_FN StripSample sampleStrip(RT_IN(Strip) c, float u) {
     float rest = mix(c.rest0, c.rest1, u);
     float cosine2 = rest * (2.0f - rest);
     float r = sqrt(c.d / max(cosine2, 1.0e-37f));
-    ColumnSample s;
+    StripSample s;
     s.a = clamp((1.0f - rest) * r * c.mirror - c.start, 0.0f, 1.0f);
     s.pdf = cosine2 / (r * abs(c.rest0 - c.rest1));
     return s;
 }
 
 // The same density at the coordinate p.
-RT_FN float columnsPdf(RT_IN(Columns) c, float p) {
+RT_FN float stripPdf(RT_IN(Strip) c, float p) {
     float r2 = p * p + c.d;
     return c.d / (r2 * sqrt(r2) * abs(c.rest0 - c.rest1));
 }

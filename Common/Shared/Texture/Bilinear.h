@@ -3,7 +3,7 @@
 // are known: none negative, not all 0.
 #ifndef RT_SHARED_BILINEAR_H
 #define RT_SHARED_BILINEAR_H
-#include "Common/Shared/Light/Projected/PiecewiseFit.h"
+#include "Common/Shared/Base/Sampling.h"
 
 RT_SHARED_BEGIN
 

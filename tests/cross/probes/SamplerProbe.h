@@ -105,7 +105,7 @@ RT_FN Light probeCaseLight(uint family, uint which) {
 RT_FN uint probeShape(uint family, uint which) {
     if (isProbeProjected(family)) return kShapeProjected;
     if (which == 0u) return kShapeArea;
-    bool automatic = which == 3u || (which == 1u && family == kLightQuad); // columns; weighted by the cosine
+    bool automatic = which == 3u || (which == 1u && family == kLightQuad); // as a strip; weighted by the cosine
     return automatic ? kShapeAuto : kShapeSolidAngle;
 }
 

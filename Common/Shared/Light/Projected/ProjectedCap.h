@@ -1,14 +1,9 @@
-// A sphere by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an unoccluded diffuse
-// receiver then sees no variance. What is below its horizon is cut off.
-//
-// Seen from the tangent plane the cap of directions to a sphere is an ellipse (all of it above the horizon), an ellipse
+// Spheres by projected solid angle. What is below the receiver's horizon is cut off. Seen from the tangent plane the cap of directions to a sphere is an ellipse (all of it above the horizon), an ellipse
 // and a lune between it and the unit circle (its middle above), or a lune alone (its middle below). Urena & Georgiev,
 // "Stratified Sampling of Projected Spherical Caps", 2018, cut them into slices parallel to the symmetry axis; so do we,
 // at y = sine * sin(psi), with widths that need no difference of nearly equal numbers.
-#ifndef RT_SHARED_PROJECTED_SPHERE_H
-#define RT_SHARED_PROJECTED_SPHERE_H
-#include "Common/Shared/Light/Projected/PiecewiseFit.h"
-#include "Common/Shared/Light/Projected/ProjectedQuery.h"
+#ifndef RT_SHARED_PROJECTED_CAP_H
+#define RT_SHARED_PROJECTED_CAP_H
 #include "Common/Shared/Shape/SphericalShapes.h"
 
 RT_SHARED_BEGIN
@@ -115,6 +110,11 @@ struct ProjectedDirection {
 
 RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radius, vec2 u) {
     ProjectedDirection result;
+    result.density = 0.0f;
+    if (cap.kind == kCapHidden) {
+        result.place = placeOnSphere(cap.cone, radius, vec3(0.0f), 0.0f);
+        return result;
+    }
     float s = cap.cone.sine;
     float c = cap.cone.cosine;
     float y = 0.0f;
@@ -168,27 +168,6 @@ RT_FN float projectedCapDensity(RT_IN(ProjectedCap) cap, vec3 wi) {
     float sinPsi = min(abs(dot(cap.side, wi)) / cap.cone.sine, 1.0f);
     float cosPsi = sqrt((1.0f - sinPsi) * (1.0f + sinPsi));
     return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap, sinPsi, cosPsi), cosPsi);
-}
-
-// Draws or states a density, see ProjectedQuery.h.
-RT_CALL CapSample useProjectedSphere(RT_IN(CapQuery) query) {
-    CapSample result;
-    result.direction = query.normal;
-    result.distance = 0.0f;
-    result.normal = query.normal;
-    result.density = 0.0f;
-    ProjectedCap cap = makeProjectedCap(makeSphereCone(query.toCenter, query.radius), query.normal);
-    if (cap.kind == kCapHidden) return result;
-    if (query.use == kProjectedDensity) {
-        result.density = projectedCapDensity(cap, query.given);
-        return result;
-    }
-    ProjectedDirection d = sampleProjectedCap(cap, query.radius, vec2(query.given));
-    result.direction = d.place.direction;
-    result.distance = d.place.distance;
-    result.normal = d.place.normal;
-    result.density = d.density;
-    return result;
 }
 
 RT_SHARED_END
