@@ -258,9 +258,9 @@ TEST_P(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
     }
 }
 
-// ---- what a scene does not need --------------------------------------------------------------------------------------
+// ---- what a scene does not need: ShaderGroupsTest.cpp counts it, and reports name it ----------------------------------
 
-TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
+TEST_P(GpuEngineTest, KernelsAreNamedByTheirFeatures) {
     const auto kernel = [](const char* id, const app::RenderSettings& settings) {
         const auto scene = app::compile(app::loadScene(id), true);
         const auto engine = gpu::makeGpuEngine(device(), testedEngine());
