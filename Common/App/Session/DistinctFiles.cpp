@@ -30,7 +30,9 @@ std::vector<NamedFile> writtenFiles(const Options& options) {
 }
 
 std::vector<NamedFile> readFiles(const Options& options) {
-    std::vector<NamedFile> files = {{"--scene", options.scene}}; // of a built-in one there is no file
+    std::vector<NamedFile> files;
+    std::error_code ignored;
+    if (fs::exists(options.scene, ignored)) files.push_back({"--scene", options.scene}); // no built-in one
     if (!options.reference.empty()) files.push_back({"--reference", options.reference});
     if (!options.resume.empty()) files.push_back({"--resume", options.resume});
     return files;
