@@ -1,5 +1,7 @@
 #include "Common/App/Interactive/FilmFiles.h"
 
+#include <exception>
+
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/Core/Error.h"
@@ -33,7 +35,7 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
             statistics.window = state.windowFigures();
             writeText(options.stats, statistics.toJson(options, *scene.scene, film.engine().report(), kept));
         }
-    } catch (const Error& error) {
+    } catch (const std::exception& error) { // of an engine or a file, or want of memory
         outputs.failures.emplace_back(error.what());
     }
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
