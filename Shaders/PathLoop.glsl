@@ -46,7 +46,7 @@ bool takeWork(inout Work work) {
 }
 
 PathState beginPath(RenderParams params, Work work) {
-    return startPath(kFeatures, params, constants.camera, work.smp, work.pixel, randomPair(work.smp, kPairPixel));
+    return startPath(cameraRay(kFeatures, params, constants.camera, work.pixel, cameraSamples(kFeatures, work.smp)));
 }
 
 // Goes on with the path of this number that the launch before left. False: there is none.
@@ -130,8 +130,7 @@ void tracePaths(uint invocation) {
             if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
             direct.distance = 0.0f;
         } else {
-            goesOn = pathVertex(kFeatures, scene, params, work.smp, vertexNumbers(work.smp, path.vertex), hit, path,
-                                direct);
+            goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
         }
         begins = !goesOn && !(direct.distance > 0.0f);
         if (begins) {

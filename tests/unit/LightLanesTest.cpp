@@ -221,8 +221,8 @@ TEST(LightLanes, NumbersAreThoseOfTheVertices) {
         }
         drawNumbers<kFeatures | kFeatureManyLights>(turn.flights, 0xffffu, turn.lanes.vertices);
         for (uint i = 0; i < kLanes; ++i) {
-            const VertexNumbers expected = vertexNumbers(turn.flights[i].smp, turn.lanes.vertices.index.at[i]);
-            const VertexNumbers numbers = get(turn.lanes.vertices, i).numbers;
+            const VertexSamples expected = vertexSamples(turn.flights[i].smp, turn.lanes.vertices.index.at[i]);
+            const VertexSamples numbers = get(turn.lanes.vertices, i).numbers;
             EXPECT_EQ(numbers.light, expected.light);
             EXPECT_EQ(numbers.bsdf, expected.bsdf);
             EXPECT_EQ(numbers.choice, expected.choice);

@@ -99,7 +99,7 @@ RT_FN float uintBitsToFloat(uint x) {
     return std::bit_cast<float>(x);
 }
 // Exchanges a and b where `is` holds. As bits, since a comparison would become a branch that no processor predicts.
-RT_FN void exchangeIf(bool is, float& a, float& b) {
+RT_FN void conditionalSwap(bool is, float& a, float& b) {
     const uint bits = (floatBitsToUint(a) ^ floatBitsToUint(b)) & (0u - uint(is));
     a = uintBitsToFloat(floatBitsToUint(a) ^ bits);
     b = uintBitsToFloat(floatBitsToUint(b) ^ bits);
@@ -133,7 +133,7 @@ RT_SHARED_END
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
 
-void exchangeIf(bool is, inout float a, inout float b) {
+void conditionalSwap(bool is, inout float a, inout float b) {
     float first = is ? b : a;
     b = is ? a : b;
     a = first;

@@ -41,7 +41,6 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     return choice;
 }
 
-#ifndef RT_PICKS_CONTRIBUTIONS
 // The share u of the way along the contributions of `count` lights, at least one.
 RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
     LightWeights weights;
@@ -61,7 +60,6 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
     pick.beyond = sums.weight[pick.light] - place;
     return pick;
 }
-#endif
 
 RT_FN LightChoice noLightChoice() {
     LightChoice choice;
@@ -81,9 +79,17 @@ RT_FN LightChoice choiceOf(RT_IN(LightPick) pick) {
     return choice;
 }
 
-// In proportion to the contributions of a short table.
+// Both numbers of the sample were used up by the descent.
+RT_FN LightChoice choiceOf(RT_IN(TreeChoice) drawn) {
+    LightChoice choice;
+    choice.light = drawn.light;
+    choice.probability = drawn.probability;
+    choice.u = 0.0f;
+    return choice;
+}
+
+// In proportion to the contributions of a short table, not empty.
 RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
-    if (count == 0u) return noLightChoice();
     LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
     context.total = pick.total;
     return choiceOf(pick);
@@ -93,16 +99,13 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
 // lightProbability needs.
 RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
     context.total = 0.0f;
-    if (count > 0u && context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
-    if (count > 0u && context.policy == kSelectUniform) return chooseUniformly(count, u.x);
+    if (count == 0u) return noLightChoice();
+    if (context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
+    if (context.policy == kSelectUniform) return chooseUniformly(count, u.x);
     if (!usesLightTree(features, count)) return chooseByContribution(scene, count, u.x, context);
     TreeChoice drawn = chooseFromTree(scene, u, context.position, context.normal);
     context.total = drawn.total;
-    LightChoice choice;
-    choice.light = drawn.light;
-    choice.probability = drawn.probability;
-    choice.u = 0.0f;
-    return choice;
+    return choiceOf(drawn);
 }
 
 // Probability with which chooseLight picks `light` in this context.

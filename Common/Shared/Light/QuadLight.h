@@ -74,8 +74,8 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
     float u2 = dot(light.edgeU, light.edgeU);
     float v2 = dot(light.edgeV, light.edgeV);
     q.swapped = v2 > u2;
-    vec3 longEdge = either(q.swapped, light.edgeV, light.edgeU);
-    vec3 shortEdge = either(q.swapped, light.edgeU, light.edgeV);
+    vec3 longEdge = select(q.swapped, light.edgeV, light.edgeU);
+    vec3 shortEdge = select(q.swapped, light.edgeU, light.edgeV);
     q.columns = makeColumns(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
     float shortEdges2 = columnsDistance2(q.columns) / (min(u2, v2) * q.columns.inverse);
     // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.

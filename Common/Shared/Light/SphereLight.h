@@ -42,7 +42,7 @@ RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use
 // The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
 // guarantees that, far from it the other is finer.
 RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
-    return either(toCenter < 2.0f * radius, onRay, center + normal * radius);
+    return select(toCenter < 2.0f * radius, onRay, center + normal * radius);
 }
 
 RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
