@@ -60,18 +60,23 @@ RT_FN void set(Vec3Lanes& lanes, uint i, vec3 v) {
 
 // ---- records --------------------------------------------------------------------------------------------------------
 
-// Pointers to all fields of a record that is kept in lanes: FieldsOf<Record> is derived from FieldList of them.
+// Pointers to fields of a record.
 template <auto... kFields>
 struct FieldList {};
 
+// All fields of a record: those that are kept in lanes, and those that are not since nobody reads them there.
+template <class Kept, class Omitted = FieldList<>>
+struct Fields {};
+
+// Derived from the Fields of a record.
 template <class Record>
 struct FieldsOf;
 
-template <auto... kFields>
+template <class Kept, class Omitted>
 struct ListedLanes;
 
-template <auto... kFields>
-ListedLanes<kFields...> lanesOfList(FieldList<kFields...>);
+template <class Kept, class Omitted>
+ListedLanes<Kept, Omitted> lanesOfList(Fields<Kept, Omitted>);
 
 // What sixteen values of a type are kept in.
 template <class T>
@@ -109,11 +114,13 @@ struct FieldLanes {
     typename LanesOf<FieldType<kField>>::type lanes;
 };
 
-template <auto kFirst, auto... kFields>
-struct ListedLanes<kFirst, kFields...> : FieldLanes<kFirst>, FieldLanes<kFields>... {
+template <auto kFirst, auto... kFields, auto... kOmitted>
+struct ListedLanes<FieldList<kFirst, kFields...>, FieldList<kOmitted...>> : FieldLanes<kFirst>, FieldLanes<kFields>... {
     using Record = decltype(recordType(kFirst));
-    static_assert((sizeof(FieldType<kFirst>) + ... + sizeof(FieldType<kFields>)) == sizeof(Record),
-                  "FieldsOf<Record> must list every field of the record once");
+    static_assert(sizeof(FieldType<kFirst>) + (sizeof(FieldType<kFields>) + ... + 0u) +
+                          (sizeof(FieldType<kOmitted>) + ... + 0u) ==
+                      sizeof(Record),
+                  "FieldsOf<Record> must list every field of the record, kept or omitted, once");
 };
 
 // Sixteen records.
@@ -127,16 +134,17 @@ RT_FN auto& lanesOf(Lanes& lanes) {
     return static_cast<Field&>(lanes).lanes;
 }
 
-// The record in a lane; compilers read no more of it than is used.
-template <auto... kFields>
-RT_FN auto get(const ListedLanes<kFields...>& lanes, uint i) {
-    typename ListedLanes<kFields...>::Record record;
+// The record in a lane, zero where a field is omitted; compilers read no more of it than is used.
+template <auto... kFields, class Omitted>
+RT_FN auto get(const ListedLanes<FieldList<kFields...>, Omitted>& lanes, uint i) {
+    typename ListedLanes<FieldList<kFields...>, Omitted>::Record record{};
     ((record.*kFields = get(lanesOf<kFields>(lanes), i)), ...);
     return record;
 }
 
-template <auto... kFields>
-RT_FN void set(ListedLanes<kFields...>& lanes, uint i, const typename ListedLanes<kFields...>::Record& record) {
+template <auto... kFields, class Omitted>
+RT_FN void set(ListedLanes<FieldList<kFields...>, Omitted>& lanes, uint i,
+               const typename ListedLanes<FieldList<kFields...>, Omitted>::Record& record) {
     (set(lanesOf<kFields>(lanes), i, record.*kFields), ...);
 }
 

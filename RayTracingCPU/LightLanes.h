@@ -2,6 +2,7 @@
 // one path alone (DirectLight.h), bit for bit. Included by one translation unit per instruction set; all it defines has
 // internal linkage.
 #pragma once
+#include "Common/Accel/Simd/Simd.h"
 #include "RayTracingCPU/PathLanes.h"
 
 namespace rt::cpu {
@@ -54,19 +55,21 @@ RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
         addRows(weights + first, sums + first, total);
     }
     FloatLanes targets;
-    UintLanes picked; // the first light whose sum is beyond the target
-    for (uint i = 0u; i < kLanes; ++i) {
-        targets.at[i] = lanes.selection.x.at[i] * total.at[i];
-        picked.at[i] = count - 1u;
-    }
-    for (uint k = count - 1u; k-- > 0u;) {
-        for (uint i = 0u; i < kLanes; ++i) picked.at[i] = targets.at[i] < sums[k].at[i] ? k : picked.at[i];
+    for (uint i = 0u; i < kLanes; ++i) targets.at[i] = lanes.selection.x.at[i] * total.at[i];
+    FloatLanes picked; // the first light whose sum is beyond the target
+    for (uint i = 0u; i < kLanes; i += 8u) {
+        const accel::Float8 target = accel::load(targets.at + i);
+        accel::Float8 light = accel::broadcast(float(count - 1u));
+        for (uint k = count - 1u; k-- > 0u;) {
+            light = accel::select(target < accel::load(sums[k].at + i), accel::broadcast(float(k)), light);
+        }
+        accel::store(picked.at + i, light);
     }
     const float* weight = weights[0].at;
     const float* sum = sums[0].at;
     for (uint i = 0u; i < kLanes; ++i) {
         LightPick pick;
-        pick.light = picked.at[i];
+        pick.light = uint(picked.at[i]);
         pick.weight = weight[pick.light * kLanes + i];
         pick.beyond = sum[pick.light * kLanes + i] - targets.at[i];
         pick.total = total.at[i];
@@ -130,21 +133,15 @@ RT_FN void chooseLights(const CpuScene& scene, const RenderParams& params, uint 
 
 // ---- sampling it ----------------------------------------------------------------------------------------------------
 
-template <uint kFeatures>
-RT_FN vec2 positionSample(const CpuScene& scene, const PathLanes& lanes, uint i) {
-    return positionSample(kFeatures, scene.globals, get(lanes.choices, i), get(lanes.u, i));
-}
-
 // Samples of quads under the automatic method, unless they are near.
-template <uint kFeatures>
-RT_CALL void sampleQuads(const CpuScene& scene, PathLanes& lanes) {
+RT_CALL void sampleQuads(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         Light light = get(lanes.lights, i);
         const uint isQuad = light.kind == kLightQuad ? 1u : 0u;
         light.kind = kLightQuad;
         const Vertex v = get(lanes.vertices, i);
         const QuadView view = viewQuad(0u, kShapeAuto, light, v.origin, v.shading);
-        LightSample s = sampleQuadApart(view, light, v.origin, positionSample<kFeatures>(scene, lanes, i));
+        LightSample s = sampleQuadApart(view, light, v.origin, get(lanes.position, i));
         s = completeSample(0u, light, v.shading, s);
         s.pdf = isLit(light, v.origin) ? s.pdf : 0.0f;
         set(lanes.lightSamples, i, s);
@@ -166,13 +163,13 @@ RT_FN LightSample selectSample(bool first, LightSample a, LightSample b) {
 
 // Samples of spheres under the automatic method, from outside.
 template <uint kFeatures>
-RT_CALL void sampleSpheres(const CpuScene& scene, PathLanes& lanes) {
+RT_CALL void sampleSpheres(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         Light light = get(lanes.lights, i);
         const bool isSphere = light.kind == kLightSphere;
         light.kind = kLightSphere;
         const Vertex v = get(lanes.vertices, i);
-        const vec2 u = positionSample<kFeatures>(scene, lanes, i);
+        const vec2 u = get(lanes.position, i);
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
         const uint regime = sphereLightRegime(0u, kShapeAuto, light, center - v.origin, v.shading);
         const SphereCone cone = makeSphereCone(center - v.origin, light.radius);
@@ -208,13 +205,16 @@ RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {
 template <uint kFeatures>
 RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& params, uint lit, PathLanes& lanes) {
     const UintLanes& chosen = lanesOf<&LightChoice::light>(lanes.choices);
+    for (uint i = 0u; i < kLanes; ++i) {
+        set(lanes.position, i, positionSample(kFeatures, scene.globals, get(lanes.choices, i), get(lanes.u, i)));
+    }
     eachLane(lit, [&](uint i) {
         lanes.isSampled.at[i] = 0u;
         if (chosen.at[i] != kNone) set(lanes.lights, i, scene.lights[chosen.at[i]]);
     });
-    if (has(kFeatures, kFeatureQuadLights) && params.quadLight == kShapeAuto) sampleQuads<kFeatures>(scene, lanes);
+    if (has(kFeatures, kFeatureQuadLights) && params.quadLight == kShapeAuto) sampleQuads(lanes);
     if (has(kFeatures, kFeatureSphereLights) && params.sphereLight == kShapeAuto) {
-        sampleSpheres<kFeatures>(scene, lanes);
+        sampleSpheres<kFeatures & kFeatureMotion>(lanes);
     }
     eachLane(lit, [&](uint i) {
         if (chosen.at[i] == kNone) {
@@ -224,7 +224,7 @@ RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& param
         const Light& light = scene.lights[chosen.at[i]];
         if (lanes.isSampled.at[i] == 0u) {
             const Vertex v = get(lanes.vertices, i);
-            const vec2 u = positionSample<kFeatures>(scene, lanes, i);
+            const vec2 u = get(lanes.position, i);
             set(lanes.lightSamples, i, sampleChosenLight(kFeatures, scene, params, light, v, lanes.time.at[i], u));
         } else if (has(kFeatures, kTexturedFeatures) && light.material != kNone) {
             LightSample sampled = get(lanes.lightSamples, i);

@@ -9,47 +9,52 @@
 RT_SHARED_BEGIN
 
 template <>
-struct FieldsOf<Ray> : FieldList<&Ray::origin, &Ray::direction, &Ray::time> {};
+struct FieldsOf<Ray> : Fields<FieldList<&Ray::origin, &Ray::direction, &Ray::time>> {};
 
 template <>
-struct FieldsOf<Sampler> : FieldList<&Sampler::kind, &Sampler::key, &Sampler::index, &Sampler::base, &Sampler::strataX,
-                                     &Sampler::strataY> {};
+struct FieldsOf<Sampler> : Fields<FieldList<&Sampler::kind, &Sampler::key, &Sampler::index, &Sampler::base,
+                                            &Sampler::strataX, &Sampler::strataY>> {};
 
 template <>
-struct FieldsOf<CameraSamples> : FieldList<&CameraSamples::pixel, &CameraSamples::lens, &CameraSamples::time> {};
+struct FieldsOf<CameraSamples>
+    : Fields<FieldList<&CameraSamples::pixel, &CameraSamples::lens, &CameraSamples::time>> {};
 
 template <>
-struct FieldsOf<VertexSamples>
-    : FieldList<&VertexSamples::light, &VertexSamples::bsdf, &VertexSamples::roulette, &VertexSamples::selection> {};
+struct FieldsOf<VertexSamples> : Fields<FieldList<&VertexSamples::light, &VertexSamples::bsdf, &VertexSamples::roulette,
+                                                  &VertexSamples::selection>> {};
 
 template <>
-struct FieldsOf<Hit> : FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v> {};
+struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
+
+// Omitted: what is read at arrival only, to find out how the vertex emits and which albedo it has.
+template <>
+struct FieldsOf<Material> : Fields<FieldList<&Material::kind, &Material::fuzz, &Material::ior>,
+                                   FieldList<&Material::albedo, &Material::texture, &Material::emission,
+                                             &Material::emissionTexture, &Material::emissionSides>> {};
 
 template <>
-struct FieldsOf<Material>
-    : FieldList<&Material::kind, &Material::albedo, &Material::texture, &Material::fuzz, &Material::ior,
-                &Material::emission, &Material::emissionTexture, &Material::emissionSides> {};
+struct FieldsOf<Vertex> : Fields<FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::material,
+                                           &Vertex::normal, &Vertex::shading, &Vertex::wo, &Vertex::albedo,
+                                           &Vertex::position, &Vertex::error, &Vertex::origin>> {};
 
 template <>
-struct FieldsOf<Vertex>
-    : FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::material, &Vertex::normal, &Vertex::shading,
-                &Vertex::wo, &Vertex::albedo, &Vertex::position, &Vertex::error, &Vertex::origin> {};
+struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoice::probability, &LightChoice::u>> {};
 
+// Omitted: what the choice of a light reads, and the texture of its emission.
 template <>
-struct FieldsOf<LightChoice> : FieldList<&LightChoice::light, &LightChoice::probability, &LightChoice::u> {};
-
-template <>
-struct FieldsOf<Light> : FieldList<&Light::kind, &Light::material, &Light::position, &Light::edgeU, &Light::edgeV,
-                                   &Light::normal, &Light::radius, &Light::area, &Light::emission, &Light::sides,
-                                   &Light::selection, &Light::cdf> {};
+struct FieldsOf<Light>
+    : Fields<FieldList<&Light::kind, &Light::position, &Light::edgeU, &Light::edgeV, &Light::normal, &Light::radius,
+                       &Light::area, &Light::emission, &Light::sides>,
+             FieldList<&Light::material, &Light::selection, &Light::cdf>> {};
 
 template <>
 struct FieldsOf<LightSample>
-    : FieldList<&LightSample::wi, &LightSample::distance, &LightSample::pdf, &LightSample::radiance,
-                &LightSample::point, &LightSample::error, &LightSample::normal, &LightSample::uv> {};
+    : Fields<FieldList<&LightSample::wi, &LightSample::distance, &LightSample::pdf, &LightSample::radiance,
+                       &LightSample::point, &LightSample::error, &LightSample::normal, &LightSample::uv>> {};
 
 template <>
-struct FieldsOf<DirectLight> : FieldList<&DirectLight::radiance, &DirectLight::direction, &DirectLight::distance> {};
+struct FieldsOf<DirectLight>
+    : Fields<FieldList<&DirectLight::radiance, &DirectLight::direction, &DirectLight::distance>> {};
 
 // One record, so that compilers see that its parts do not overlap. Lanes that are not in use are computed like the others, from
 // whatever they hold.
@@ -61,6 +66,7 @@ struct PathLanes {
     Vec3Lanes throughput;
     FloatLanes time;
     Vec2Lanes selection; // samples that choose a light
+    Vec2Lanes position;  // and that place a point on it
     RecordLanes<LightChoice> choices;
     FloatLanes total;          // of LightContext
     RecordLanes<Light> lights; // that were chosen
