@@ -12,24 +12,14 @@ using namespace rt::shared;
 
 // ---- choosing a light -----------------------------------------------------------------------------------------------
 
-// The sums of eight rows and `total`, in the order of accel::runningSums(); `total` becomes the last.
+// runningSums() of a group of rows, a row for each light; `total` becomes the last.
 RT_CALL void addRows(const FloatLanes* rows, FloatLanes* sums, FloatLanes& total) {
     for (uint i = 0u; i < kLanes; ++i) {
-        float r[8];
-        for (uint k = 0u; k < 8u; k += 4u) {
-            const float a1 = rows[k + 1].at[i];
-            const float a2 = rows[k + 2].at[i];
-            r[k] = rows[k].at[i];
-            r[k + 1] = a1 + r[k];
-            r[k + 2] = (a2 + a1) + r[k];
-            r[k + 3] = (rows[k + 3].at[i] + a2) + r[k + 1];
-        }
-        const float before = total.at[i];
-        for (uint k = 0u; k < 4u; ++k) {
-            sums[k].at[i] = r[k] + before;
-            sums[k + 4].at[i] = (r[k + 4] + r[3]) + before;
-        }
-        total.at[i] = sums[7].at[i];
+        GroupWeights group;
+        for (uint k = 0u; k < kSumGroup; ++k) group.at[k] = rows[k].at[i];
+        group = runningSums(group, total.at[i]);
+        for (uint k = 0u; k < kSumGroup; ++k) sums[k].at[i] = group.at[k];
+        total.at[i] = group.at[kSumGroup - 1u];
     }
 }
 
@@ -41,8 +31,8 @@ RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
     FloatLanes weights[kContributionLights]; // a row for each light
     FloatLanes sums[kContributionLights];
     FloatLanes total{};
-    for (uint first = 0u; first < count; first += 8u) {
-        for (uint k = first; k < first + 8u; ++k) {
+    for (uint first = 0u; first < count; first += kSumGroup) {
+        for (uint k = first; k < first + kSumGroup; ++k) {
             if (k < count) {
                 const LightBound bound = scene.lightBounds[k];
                 for (uint i = 0u; i < kLanes; ++i) {
@@ -172,15 +162,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         const vec2 u = get(lanes.position, i);
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
         const uint regime = sphereLightRegime(0u, kShapeAuto, light, center - v.origin, v.shading);
-        const SphereCone cone = makeSphereCone(center - v.origin, light.radius);
-        const bool isCap = regime == kRegimeWholeCap;
-        const ConeSample inCap = sampleWholeCap(cone, light.radius, v.shading, u);
-        ConeSample c = sampleSphereCone(cone, light.radius, u);
-        c.direction = select(isCap, inCap.direction, c.direction);
-        c.distance = isCap ? inCap.distance : c.distance;
-        c.normal = select(isCap, inCap.normal, c.normal);
-        const float pdf = isCap ? wholeCapPdf(cone, v.shading, c.direction) : sphereConePdf(cone);
-        LightSample s = sampleOfCone(cone, c, pdf, center, light.radius, v.origin);
+        LightSample s = sampleSphereCone(light, regime == kRegimeWholeCap, center, v.origin, v.shading, u);
         s = completeSample(0u, light, v.shading, s);
         set(lanes.lightSamples, i, selectSample(isSphere, s, get(lanes.lightSamples, i)));
         const uint outside = regime != kRegimeInside ? 1u : 0u;

@@ -41,23 +41,54 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     return choice;
 }
 
-// The share u of the way along the contributions of `count` lights, at least one.
+const uint kSumGroup = 8u; // divides kContributionLights
+
+struct GroupWeights {
+    float at[kSumGroup];
+};
+
+// Element k: the sum of `before` and the weights 0 to k of a group, by chains of few additions.
+RT_FN GroupWeights runningSums(RT_IN(GroupWeights) weights, float before) {
+    GroupWeights sums;
+    for (uint k = 0u; k < kSumGroup; k += 4u) {
+        sums.at[k] = weights.at[k];
+        sums.at[k + 1u] = weights.at[k + 1u] + weights.at[k];
+        sums.at[k + 2u] = (weights.at[k + 2u] + weights.at[k + 1u]) + weights.at[k];
+        sums.at[k + 3u] = (weights.at[k + 3u] + weights.at[k + 2u]) + sums.at[k + 1u];
+    }
+    float lowerHalf = sums.at[3];
+    for (uint k = 0u; k < 4u; k++) {
+        sums.at[k] = sums.at[k] + before;
+        sums.at[k + 4u] = (sums.at[k + 4u] + lowerHalf) + before;
+    }
+    return sums;
+}
+
+// The light at the share u of the way along the contributions of `count` lights, at least one.
 RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
     LightWeights weights;
     LightWeights sums;
     LightPick pick;
     pick.total = 0.0f;
-    for (uint i = 0u; i < count; i++) {
-        weights.weight[i] = lightContribution(loadLightBound(scene, i), position, normal);
-        pick.total += weights.weight[i];
-        sums.weight[i] = pick.total;
+    for (uint first = 0u; first < count; first += kSumGroup) {
+        GroupWeights group;
+        for (uint k = 0u; k < kSumGroup; k++) {
+            group.at[k] = 0.0f;
+            if (first + k < count) {
+                group.at[k] = lightContribution(loadLightBound(scene, first + k), position, normal);
+            }
+            weights.weight[first + k] = group.at[k];
+        }
+        group = runningSums(group, pick.total);
+        for (uint k = 0u; k < kSumGroup; k++) sums.weight[first + k] = group.at[k];
+        pick.total = group.at[kSumGroup - 1u];
     }
-    float place = u * pick.total;
-    uint passed = 0u;
-    for (uint i = 0u; i < count; i++) passed += sums.weight[i] <= place ? 1u : 0u;
-    pick.light = min(passed, count - 1u);
+    // The first light whose sum is beyond the target.
+    float target = u * pick.total;
+    pick.light = count - 1u;
+    for (uint i = count - 1u; i > 0u; i--) pick.light = target < sums.weight[i - 1u] ? i - 1u : pick.light;
     pick.weight = weights.weight[pick.light];
-    pick.beyond = sums.weight[pick.light] - place;
+    pick.beyond = sums.weight[pick.light] - target;
     return pick;
 }
 

@@ -69,14 +69,24 @@ RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, v
 #endif
 }
 
-// The sample of a direction in the cone of a sphere that is seen from outside.
-RT_FN LightSample sampleOfCone(RT_IN(SphereCone) cone, RT_IN(ConeSample) c, float pdf, vec3 center, float radius,
-                               vec3 position) {
+// A sphere from outside: in its cone of directions, or in the ellipse that the cone is as seen along the normal (isCap), for
+// kRegimeWholeCap. Without a branch that keeps loops over lights from becoming vectors.
+RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, vec3 position, vec3 normal, vec2 u) {
+    SphereCone cone = makeSphereCone(center - position, light.radius);
+    ConeSample c;
+    float pdf;
+    if (isCap) {
+        c = sampleWholeCap(cone, light.radius, normal, u);
+        pdf = wholeCapPdf(cone, normal, c.direction);
+    } else {
+        c = sampleSphereCone(cone, light.radius, u);
+        pdf = sphereConePdf(cone);
+    }
     LightSample s = noLightSample();
     s.wi = c.direction;
     s.distance = c.distance;
     s.normal = c.normal;
-    s.point = pointOnSphere(cone.distance, center, radius, c.normal, position + c.direction * c.distance);
+    s.point = pointOnSphere(cone.distance, center, light.radius, c.normal, position + c.direction * c.distance);
     s.pdf = pdf;
     return s;
 }
@@ -91,13 +101,7 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     if (has(features, kFeatureProjected) && regime == kRegimeProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
     } else if (regime == kRegimeSolidAngle || regime == kRegimeWholeCap) {
-        SphereCone cone = makeSphereCone(toCenter, radius);
-        if (regime == kRegimeWholeCap) {
-            ConeSample c = sampleWholeCap(cone, radius, normal, u);
-            s = sampleOfCone(cone, c, wholeCapPdf(cone, normal, c.direction), center, radius, position);
-        } else {
-            s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
-        }
+        s = sampleSphereCone(light, regime == kRegimeWholeCap, center, position, normal, u);
     } else if (regime == kRegimeInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
