@@ -347,19 +347,6 @@ TEST(Samplers, BlueNoiseGoesOnInRounds) {
     EXPECT_TRUE(agrees(mean, 0.5));
 }
 
-// The numbers that a vertex draws at once are those of its pairs.
-TEST(Samplers, VertexNumbersAreItsPairs) {
-    for (const uint kind : kKinds) {
-        for (uint i = 0; i < 1000; ++i) {
-            const Sampler s = makeSampler(paramsOf(kind), hash1(i), 0, i);
-            const VertexSamples numbers = vertexSamples(s, i % 7);
-            ASSERT_EQ(numbers.light, sample2D(s, vertexDimension(i % 7, kDimensionLight)));
-            ASSERT_EQ(numbers.bsdf, sample2D(s, vertexDimension(i % 7, kDimensionBsdf)));
-            ASSERT_EQ(numbers.choice, sample2D(s, vertexDimension(i % 7, kDimensionRoulette)));
-        }
-    }
-}
-
 // Vertices never share a dimension, with each other or with the camera.
 TEST(Samplers, DimensionsDoNotOverlap) {
     EXPECT_GE(vertexDimension(0, 0), kCameraDimensions);
