@@ -1,7 +1,7 @@
-// Values and records of sixteen paths, field by field: a path a lane. Loops over lanes that call what is in Common/Shared become
-// vectors of lanes, if nothing in there has a branch that a compiler could not turn into a mask. (Copied as a whole, a record would
-// be read in pieces larger than those in which it was written, and processors wait for that.) Included by one translation unit
-// per instruction set; everything here has internal linkage.
+// Values and records of sixteen paths, field by field: a path a lane. Loops over lanes that call what is in
+// Common/Shared become vectors of lanes, if nothing in there has a branch that a compiler could not turn into a mask.
+// (Copied as a whole, a record would be read in pieces larger than those in which it was written, and processors wait
+// for that.) Included by one translation unit per instruction set; everything here has internal linkage.
 #pragma once
 #include <cstddef>
 #include <type_traits>
@@ -12,7 +12,7 @@ RT_SHARED_BEGIN
 
 const uint kLanes = 16u;
 
-// ---- numbers and vectors --------------------------------------------------------------------------------------------
+// ---- scalars and vectors --------------------------------------------------------------------------------------------
 
 struct alignas(64) FloatLanes {
     float at[kLanes];

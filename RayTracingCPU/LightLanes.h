@@ -1,6 +1,6 @@
-// Light sampling for sixteen paths: the choice of a light, samples of quads and spheres, and their weights. The values are those of
-// one path alone (DirectLight.h), bit for bit. Included by one translation unit per instruction set; all it defines has
-// internal linkage.
+// Light sampling for sixteen paths: the choice of a light, samples of quads and spheres, and their weights. The values
+// are those of one path alone (DirectLight.h), bit for bit. Included by one translation unit per instruction set; all
+// it defines has internal linkage.
 #pragma once
 #include "Common/Accel/Simd/Simd.h"
 #include "RayTracingCPU/PathLanes.h"
@@ -68,8 +68,7 @@ RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
     }
 }
 
-// chooseFromTree() of shared::, level by level, so that of what a descent waits for in memory, each path's arrives during the
-// descents of the others.
+// chooseFromTree() of shared::, level by level: while one path waits for a node from memory, the others descend.
 RT_CALL void chooseFromTree(const CpuScene& scene, uint lit, PathLanes& lanes) {
     const Vec3Lanes& positions = lanesOf<&Vertex::origin>(lanes.vertices);
     const Vec3Lanes& normals = lanesOf<&Vertex::shading>(lanes.vertices);

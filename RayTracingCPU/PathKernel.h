@@ -1,5 +1,5 @@
-// The loops around paths on the CPU: tiles, pixels, samples; and the kernels. Included by one translation unit per instruction
-// set; all it defines has internal linkage.
+// The loops around paths on the CPU: tiles, pixels, samples; and the kernels. Included by one translation unit per
+// instruction set; all it defines has internal linkage.
 #pragma once
 #include "Common/Image/Film.h"
 #include "RayTracingCPU/PathPacket.h"
@@ -49,8 +49,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
-            const Ray ray =
-                cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
+            const Ray ray = cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
             const Hit hit = traceRay(scene, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);

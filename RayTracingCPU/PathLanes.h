@@ -1,10 +1,9 @@
-// What sixteen paths hold between the stages of an iteration. Included by one translation unit per instruction set; everything
-// here has internal linkage.
+// What sixteen paths hold between the stages of an iteration. Included by one translation unit per instruction set;
+// everything here has internal linkage.
 #pragma once
-#include "RayTracingCPU/SceneAccess.h"
-
 #include "Common/Shared/Path/PathStep.h"
 #include "RayTracingCPU/Lanes.h"
+#include "RayTracingCPU/SceneAccess.h"
 
 RT_SHARED_BEGIN
 
@@ -16,12 +15,14 @@ struct FieldsOf<Sampler> : Fields<FieldList<&Sampler::kind, &Sampler::key, &Samp
                                             &Sampler::strataX, &Sampler::strataY>> {};
 
 template <>
-struct FieldsOf<CameraSamples>
-    : Fields<FieldList<&CameraSamples::pixel, &CameraSamples::lens, &CameraSamples::time>> {};
+struct FieldsOf<CameraSamples> : Fields<FieldList<&CameraSamples::pixel, &CameraSamples::lens, &CameraSamples::time>> {
+};
 
 template <>
-struct FieldsOf<VertexSamples> : Fields<FieldList<&VertexSamples::light, &VertexSamples::bsdf, &VertexSamples::roulette,
-                                                  &VertexSamples::selection>> {};
+struct FieldsOf<VertexSamples>
+    : Fields<
+          FieldList<&VertexSamples::light, &VertexSamples::bsdf, &VertexSamples::roulette, &VertexSamples::selection>> {
+};
 
 template <>
 struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
@@ -42,10 +43,9 @@ struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoic
 
 // Omitted: what the choice of a light reads, and the texture of its emission.
 template <>
-struct FieldsOf<Light>
-    : Fields<FieldList<&Light::kind, &Light::position, &Light::edgeU, &Light::edgeV, &Light::normal, &Light::radius,
-                       &Light::area, &Light::emission, &Light::sides>,
-             FieldList<&Light::material, &Light::selection, &Light::cdf>> {};
+struct FieldsOf<Light> : Fields<FieldList<&Light::kind, &Light::position, &Light::edgeU, &Light::edgeV, &Light::normal,
+                                          &Light::radius, &Light::area, &Light::emission, &Light::sides>,
+                                FieldList<&Light::material, &Light::selection, &Light::cdf>> {};
 
 template <>
 struct FieldsOf<LightSample>
@@ -56,8 +56,8 @@ template <>
 struct FieldsOf<DirectLight>
     : Fields<FieldList<&DirectLight::radiance, &DirectLight::direction, &DirectLight::distance>> {};
 
-// One record, so that compilers see that its parts do not overlap. Lanes that are not in use are computed like the others, from
-// whatever they hold.
+// One record, so that compilers see that its parts do not overlap. Lanes that are not in use are computed like the
+// others, from whatever they hold.
 struct PathLanes {
     RecordLanes<Sampler> samplers;
     RecordLanes<Hit> hits; // of the paths' rays

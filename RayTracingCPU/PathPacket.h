@@ -1,7 +1,7 @@
-// Paths on the CPU: sixteen of a tile's make a packet and go from vertex to vertex together, and as soon as one ends the next takes
-// its slot. An iteration takes every path through the stages of PathStep.h, one stage after the other for all of them: what is
-// arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one translation unit per instruction
-// set; all it defines has internal linkage.
+// Paths on the CPU: sixteen of a tile's make a packet and go from vertex to vertex together, and as soon as one ends
+// the next takes its slot. An iteration takes every path through the stages of PathStep.h, one stage after the other
+// for all of them: what is arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one
+// translation unit per instruction set; all it defines has internal linkage.
 #pragma once
 #include "RayTracingCPU/LightLanes.h"
 #include "RayTracingCPU/TileSamples.h"
@@ -123,7 +123,8 @@ class PathPacket {
         if (usesMis(params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
     }
 
-    // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was sampled.
+    // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
+    // sampled.
     void goOnFrom(uint i, bool isLit) {
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;

@@ -1,5 +1,5 @@
-// Sample dimensions of sixteen samples at a time. Included by one translation unit per instruction set; all it defines has
-// internal linkage.
+// Sample dimensions of sixteen samples at a time. Included by one translation unit per instruction set; all it defines
+// has internal linkage.
 #pragma once
 #include "RayTracingCPU/PathLanes.h"
 

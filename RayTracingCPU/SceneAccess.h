@@ -1,5 +1,5 @@
-// What kernels do with a scene beyond Common/Shared/Base/SceneAccess.h: tracing, and fetching lights ahead of their use. Everything
-// here has internal linkage.
+// What kernels do with a scene beyond Common/Shared/Base/SceneAccess.h: tracing, and fetching lights ahead of their
+// use. Everything here has internal linkage.
 #pragma once
 #include "Common/Accel/Simd/Prefetch.h"
 #include "RayTracingCPU/KernelArgs.h"

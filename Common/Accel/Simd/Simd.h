@@ -1,5 +1,5 @@
-// Eight floats at a time, over whatever instruction set the translation unit is compiled for. (Sixteen lanes were measured
-// to lose: their divisions and their masks take longer than a second register of eight.)
+// Eight floats at a time, over whatever instruction set the translation unit is compiled for. (Sixteen lanes were
+// measured to lose: their divisions and their masks take longer than a second register of eight.)
 //
 //   Float8, Mask8       eight lanes; plain aggregates that live in registers
 //   load, broadcast     from aligned memory; one value in all lanes

@@ -8,8 +8,8 @@
 RT_SHARED_BEGIN
 
 // ---- dimensions -----------------------------------------------------------------------------------------------------
-// A sample dimension is a 2D point of the unit square. Dimensions of the camera come first, then kDimensionsPerVertex for each
-// vertex of the path.
+// A sample dimension is a 2D point of the unit square. Dimensions of the camera come first, then kDimensionsPerVertex
+// for each vertex of the path.
 const uint kDimensionPixel = 0u; // position in the pixel
 const uint kDimensionLens = 1u;  // position on the lens
 const uint kDimensionTime = 2u;  // x: time in the shutter interval
@@ -151,11 +151,11 @@ RT_FN uint spreadBits(uint x) {
     return (x | x << 1u) & 0x55555555u;
 }
 
-// kSamplerSobolBlue: all pixels share one sequence, in the order of a Z curve, and the scrambling of its index, which is
-// nested, shuffles quadrants at every level. What 2^k pixels of a square take together is stratified like the samples of
-// one, so errors of neighbours cancel, and errors turn into blue noise (Ahmed & Wonka, "Screen-Space Blue-Noise Diffusion of
-// Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020). A pixel takes 2^strataX samples in a row; those
-// beyond are of another, independent round.
+// kSamplerSobolBlue: all pixels share one sequence, in the order of a Z curve, and the scrambling of its index, which
+// is nested, shuffles quadrants at every level. What 2^k pixels of a square take together is stratified like the
+// samples of one, so errors of neighbours cancel, and errors turn into blue noise (Ahmed & Wonka, "Screen-Space
+// Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020). A pixel takes
+// 2^strataX samples in a row; those beyond are of another, independent round.
 RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate, uint index) {
     Sampler s;
     s.kind = params.samplerKind;
@@ -174,14 +174,14 @@ RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate
     return s;
 }
 
-// Words of a dimension of sample `index` in Sobol's sequence (Sampler::base + Sampler::index). Without a branch, for loops over
-// samples.
+// Words of a dimension of sample `index` in Sobol's sequence (Sampler::base + Sampler::index). Without a branch, for
+// loops over samples.
 RT_FN uvec2 sobolSample(uint key, uint index, uint dimension) {
     return sobolWords(index, hash3(uvec3(key, kSobolKey, dimension)));
 }
 
-// The two words of a dimension; each is uniform over all words, and the point is stratified over the samples of the pixel as
-// the kind of sampler says.
+// The two words of a dimension; each is uniform over all words, and the point is stratified over the samples of the
+// pixel as the kind of sampler says.
 RT_CALL uvec2 sampleWords(RT_IN(Sampler) s, uint dimension) {
     if (s.kind == kSamplerIndependent) {
         uvec3 h = hash3(uvec3(s.key, s.index, dimension));

@@ -110,7 +110,7 @@ RT_FN LightChoice choiceOf(RT_IN(LightPick) pick) {
     return choice;
 }
 
-// Both numbers of the sample were used up by the descent.
+// Of a light from the tree; the descent used up both coordinates of the sample.
 RT_FN LightChoice choiceOf(RT_IN(TreeChoice) drawn) {
     LightChoice choice;
     choice.light = drawn.light;
@@ -126,7 +126,7 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
     return choiceOf(pick);
 }
 
-// Chooses among the lights proper by u.x, or in a tree by both numbers, and completes `context` with what
+// Chooses among the lights proper by u.x, or in a tree by both coordinates, and completes `context` with what
 // lightProbability needs.
 RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
     context.total = 0.0f;

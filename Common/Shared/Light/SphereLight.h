@@ -39,8 +39,8 @@ RT_FN CapQuery capQuery(RT_IN(Light) light, vec3 toCenter, vec3 normal, uint use
     return query;
 }
 
-// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
-// guarantees that, far from it the other is finer.
+// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only
+// one form guarantees that, far from it the other is finer.
 RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
     return select(toCenter < 2.0f * radius, onRay, center + normal * radius);
 }
@@ -69,8 +69,8 @@ RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, v
 #endif
 }
 
-// A sphere from outside: in its cone of directions, or in the ellipse that the cone is as seen along the normal (isCap), for
-// kRegimeWholeCap. Without a branch that keeps loops over lights from becoming vectors.
+// A sphere from outside: in its cone of directions, or in the ellipse that the cone is as seen along the normal
+// (isCap), for kRegimeWholeCap. Without a branch that keeps loops over lights from becoming vectors.
 RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, vec3 position, vec3 normal, vec2 u) {
     SphereCone cone = makeSphereCone(center - position, light.radius);
     ConeSample c;
@@ -128,7 +128,8 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint regime = sphereLightRegime(features, params.sphereLight, light, toCenter, normal);
-    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
+    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be
+    // inside.
     if ((dot(lightNormal, wi) > 0.0f) != (regime == kRegimeInside)) return 0.0f;
     if (has(features, kFeatureProjected) && regime == kRegimeProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);

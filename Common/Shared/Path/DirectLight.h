@@ -1,4 +1,5 @@
-// Next-event estimation: a light that is chosen and sampled from a vertex, and the shadow ray that finds whether it arrives.
+// Next-event estimation: a light that is chosen and sampled from a vertex, and the shadow ray that finds whether it
+// arrives.
 #ifndef RT_SHARED_DIRECT_LIGHT_H
 #define RT_SHARED_DIRECT_LIGHT_H
 #include "Common/Shared/Medium/Media.h"
@@ -26,8 +27,8 @@ RT_FN bool usesNextEventEstimation(uint features, RT_IN(RenderParams) params, RT
     return has(features, kFeatureLights) && usesMis(params) && globals.lightCount > 0u && !isDeltaVertex(features, v);
 }
 
-// The sample that chooses the light: the one whose second coordinate also places the point on it, unless there are so many
-// lights that the choice would use up its bits.
+// The sample that chooses the light: the one whose second coordinate also places the point on it, unless there are so
+// many lights that the choice would use up its bits.
 RT_FN vec2 selectionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(VertexSamples) u) {
     return usesLightTree(features, globals.lightCount) ? u.selection : u.light;
 }
@@ -56,8 +57,8 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
     return sampled;
 }
 
-// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
-// the light's coordinates when the light is far from the shading point but not from the origin.
+// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound
+// made of the light's coordinates when the light is far from the shading point but not from the origin.
 const float kShadowMargin = 32.0f * kEpsilon;
 
 RT_FN DirectLight noDirectLight() {
@@ -68,8 +69,8 @@ RT_FN DirectLight noDirectLight() {
     return direct;
 }
 
-// The contribution of a light that was chosen with `probability` and sampled, to a path of this throughput that scatters at v,
-// weighed against the bsdf's density. Without a branch, for loops over samples.
+// The contribution of a light that was chosen with `probability` and sampled, to a path of this throughput that
+// scatters at v, weighed against the bsdf's density. Without a branch, for loops over samples.
 RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, RT_IN(LightSample) sampled,
                               RT_IN(Vertex) v, vec3 throughput) {
     vec4 f = evalScattering(features, v, sampled.wi);

@@ -18,8 +18,8 @@ RT_FN float targetShare(RT_IN(SceneGlobals) globals) {
     return float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
 }
 
-// The sample that chooses among the lights proper: of the mixture's the part that does not choose a target. (The light is
-// chosen even when a target is sampled, since the density of the direction sums over all of them.)
+// The sample that chooses among the lights proper: of the mixture's the part that does not choose a target. (The light
+// is chosen even when a target is sampled, since the density of the direction sums over all of them.)
 RT_FN vec2 lightSelectionSample(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                                 RT_IN(VertexSamples) u) {
     vec2 selection = selectionSample(features, globals, u);
@@ -80,8 +80,8 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(Render
     return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, position);
 }
 
-// Replaces b, the bsdf's sample, by that of the one-sample mixture: half from the lights, half from the bsdf. `light` was chosen
-// in this context by lightSelectionSample().
+// Replaces b, the bsdf's sample, by that of the one-sample mixture: half from the lights, half from the bsdf. `light`
+// was chosen in this context by lightSelectionSample().
 RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(LightChoice) light,
                                RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_IN(BsdfSample) b, float time,
                                RT_IN(LightContext) context) {

@@ -1,4 +1,5 @@
-// The sample dimensions that a path uses: of its camera ray, and of each vertex. Those that `features` do without are not drawn.
+// The sample dimensions that a path uses: of its camera ray, and of each vertex. Those that `features` do without are
+// not drawn.
 #ifndef RT_SHARED_PATH_SAMPLES_H
 #define RT_SHARED_PATH_SAMPLES_H
 #include "Common/Shared/Base/Features.h"

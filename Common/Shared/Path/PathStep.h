@@ -1,6 +1,7 @@
 // A path, vertex by vertex. Each vertex goes through these stages:
 //
-//   arrive                 collision in a medium, emission weighed against the light sampling of the vertex before, surface
+//   arrive                 collision in a medium, emission weighed against the light sampling of the vertex before,
+//                          surface
 //   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
 //   scatter                the bsdf's sample, or the mixture's in its place
@@ -11,8 +12,9 @@
 //               |\__ shadow ray to the chosen light      (mis)
 //               v    next ray, by the bsdf or to a light (mixture)
 //
-// The engines trace: the nearest hit of PathState::ray before a vertex is arrived at, and whether anything lies in the way of
-// the shadow ray that it leaves. stepPath() strings the stages together for one path; the CPU does so for a packet of paths.
+// The engines trace: the nearest hit of PathState::ray before a vertex is arrived at, and whether anything lies in the
+// way of the shadow ray that it leaves. stepPath() strings the stages together for one path; the CPU does so for a
+// packet of paths.
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
@@ -116,8 +118,8 @@ RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b
     return true;
 }
 
-// All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once `direct`,
-// which the caller sets to noDirectLight(), has been added if it arrives.
+// All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
+// `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
 RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                     RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     Vertex v;
