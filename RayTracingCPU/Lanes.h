@@ -100,26 +100,36 @@ struct LanesOf<vec3> {
     using type = Vec3Lanes;
 };
 
-template <class Record, class T>
-T fieldType(T Record::*);
-template <class Record, class T>
-Record recordType(T Record::*);
+template <class T, std::size_t kCount>
+struct ArrayLanes {
+    typename LanesOf<T>::type at[kCount];
+};
+template <class T, std::size_t kCount>
+struct LanesOf<T[kCount]> {
+    using type = ArrayLanes<T, kCount>;
+};
 
-template <auto kField>
-using FieldType = decltype(fieldType(kField));
+template <class Pointer>
+struct Member;
+template <class T, class Owner>
+struct Member<T Owner::*> {
+    using Type = T;
+    using Record = Owner;
+};
 
 // The lanes of one field.
 template <auto kField>
 struct FieldLanes {
-    typename LanesOf<FieldType<kField>>::type lanes;
+    typename LanesOf<typename Member<decltype(kField)>::Type>::type lanes;
 };
+
+template <auto... kFields>
+inline constexpr std::size_t kSizeOfFields = (sizeof(typename Member<decltype(kFields)>::Type) + ... + 0u);
 
 template <auto kFirst, auto... kFields, auto... kOmitted>
 struct ListedLanes<FieldList<kFirst, kFields...>, FieldList<kOmitted...>> : FieldLanes<kFirst>, FieldLanes<kFields>... {
-    using Record = decltype(recordType(kFirst));
-    static_assert(sizeof(FieldType<kFirst>) + (sizeof(FieldType<kFields>) + ... + 0u) +
-                          (sizeof(FieldType<kOmitted>) + ... + 0u) ==
-                      sizeof(Record),
+    using Record = typename Member<decltype(kFirst)>::Record;
+    static_assert(kSizeOfFields<kFirst, kFields..., kOmitted...> == sizeof(Record),
                   "FieldsOf<Record> must list every field of the record, kept or omitted, once");
 };
 
@@ -134,11 +144,24 @@ RT_FN auto& lanesOf(Lanes& lanes) {
     return static_cast<Field&>(lanes).lanes;
 }
 
+template <class T, class Lanes>
+RT_FN void read(const Lanes& lanes, uint i, T& field) {
+    field = get(lanes, i);
+}
+template <class T, std::size_t kCount>
+RT_FN void read(const ArrayLanes<T, kCount>& lanes, uint i, T (&field)[kCount]) {
+    for (std::size_t k = 0u; k < kCount; ++k) field[k] = get(lanes.at[k], i);
+}
+template <class T, std::size_t kCount>
+RT_FN void set(ArrayLanes<T, kCount>& lanes, uint i, const T (&field)[kCount]) {
+    for (std::size_t k = 0u; k < kCount; ++k) set(lanes.at[k], i, field[k]);
+}
+
 // The record in a lane, zero where a field is omitted; compilers read no more of it than is used.
 template <auto... kFields, class Omitted>
 RT_FN auto get(const ListedLanes<FieldList<kFields...>, Omitted>& lanes, uint i) {
     typename ListedLanes<FieldList<kFields...>, Omitted>::Record record{};
-    ((record.*kFields = get(lanesOf<kFields>(lanes), i)), ...);
+    (read(lanesOf<kFields>(lanes), i, record.*kFields), ...);
     return record;
 }
 

@@ -29,7 +29,7 @@ struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &H
 
 // Omitted: what is read at arrival only, to find out how the vertex emits and which albedo it has.
 template <>
-struct FieldsOf<Material> : Fields<FieldList<&Material::kind, &Material::fuzz, &Material::ior>,
+struct FieldsOf<Material> : Fields<FieldList<&Material::kind, &Material::parameter>,
                                    FieldList<&Material::albedo, &Material::texture, &Material::emission,
                                              &Material::emissionTexture, &Material::emissionSides>> {};
 

@@ -224,7 +224,7 @@ TEST(Lanes, RecordsComeBackAsTheyWere) {
         const Vertex v = get(lanes, i);
         EXPECT_EQ(v.index, vertices[i].index);
         EXPECT_EQ(v.material.kind, vertices[i].material.kind);
-        EXPECT_EQ(v.material.fuzz, vertices[i].material.fuzz);
+        EXPECT_EQ(v.material.parameter[kMetalFuzz], vertices[i].material.parameter[kMetalFuzz]);
         EXPECT_EQ(v.material.texture, 0u);
         EXPECT_TRUE(isSame(v.wo, vertices[i].wo));
         EXPECT_TRUE(isSame(v.origin, vertices[i].origin));
