@@ -68,16 +68,6 @@ std::array<float, 256> makeSrgbTable() {
     return table;
 }
 
-LightBoundsSoa makeLightBoundsSoa(const scene::CompiledScene& scene) {
-    LightBoundsSoa soa;
-    const std::size_t count = std::min<std::size_t>(scene.globals.lightCount, shared::kContributionLights);
-    for (std::size_t i = 0; i < shared::kContributionLights; ++i) {
-        soa.radius[i] = 1.0f; // keeps the arithmetic of padding finite
-        if (i < count) setBound(soa, i, scene.lightBounds[i]);
-    }
-    return soa;
-}
-
 // Descents through a large tree of lights jump about in it, and so does what they end at.
 template <class T>
 accel::LargeArray<T> copyToLargePages(const std::vector<T>& records) {
@@ -90,7 +80,6 @@ accel::LargeArray<T> copyToLargePages(const std::vector<T>& records) {
 struct PreparedScene {
     std::shared_ptr<const scene::CompiledScene> compiled;
     std::unique_ptr<const accel::CpuAccel> accel;
-    LightBoundsSoa lightBounds;
     accel::LargeArray<shared::LightNode> lightNodes;
     accel::LargeArray<shared::Light> lights; // if there are many
     std::array<float, 256> srgbToLinear = makeSrgbTable();
@@ -99,7 +88,7 @@ struct PreparedScene {
 
 CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     const scene::CompiledScene& s = *prepared.compiled;
-    CpuScene view{shared::viewOf(s, s.globals), prepared.accel->view(), {}, &prepared.lightBounds};
+    CpuScene view{shared::viewOf(s, s.globals), prepared.accel->view(), {}};
     view.tracer = accel::rayQuery(set)->tracer(view.accel.kinds);
     if (prepared.lights.size() > 0) view.lights = prepared.lights.data();
     view.lightNodes = prepared.lightNodes.data();
@@ -125,7 +114,6 @@ class CpuEngine final : public app::Engine {
         build.tree.threads = threads_;
         prepared->accel = accel::CpuAccel::build(input, build, cancel);
         if (!prepared->accel) return false;
-        prepared->lightBounds = makeLightBoundsSoa(s);
         if (!s.lightNodes.empty()) {
             prepared->lightNodes = copyToLargePages(s.lightNodes);
             prepared->lights = copyToLargePages(s.lights);

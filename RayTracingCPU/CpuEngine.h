@@ -17,8 +17,8 @@ struct CpuEngineOptions {
     InstructionSet instructionSet = bestInstructionSet();
 };
 
-// The same image bit for bit for any policy and number of threads. Throws UsageError where the processor is older than any
-// kernel.
+// The same image bit for bit for any policy and number of threads. Throws UsageError where the processor is older than
+// any kernel.
 std::unique_ptr<app::Engine> makeCpuEngine(const CpuEngineOptions& options);
 
 } // namespace rt::cpu

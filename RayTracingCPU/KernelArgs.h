@@ -9,37 +9,10 @@
 
 namespace rt::cpu {
 
-// Arrays of LightBound's fields, so that the weights of all lights are computed side by side; entries past the last light
-// have no intensity.
-struct LightBoundsSoa {
-    float centerX[shared::kContributionLights] = {};
-    float centerY[shared::kContributionLights] = {};
-    float centerZ[shared::kContributionLights] = {};
-    float radius[shared::kContributionLights] = {};
-    float axisX[shared::kContributionLights] = {};
-    float axisY[shared::kContributionLights] = {};
-    float axisZ[shared::kContributionLights] = {};
-    float twoSided[shared::kContributionLights] = {};
-    float intensity[shared::kContributionLights] = {};
-};
-
-RT_FN void setBound(LightBoundsSoa& bounds, std::size_t i, const shared::LightBound& bound) {
-    bounds.centerX[i] = bound.center.x;
-    bounds.centerY[i] = bound.center.y;
-    bounds.centerZ[i] = bound.center.z;
-    bounds.radius[i] = bound.radius;
-    bounds.axisX[i] = bound.axis.x;
-    bounds.axisY[i] = bound.axis.y;
-    bounds.axisZ[i] = bound.axis.z;
-    bounds.twoSided[i] = bound.twoSided;
-    bounds.intensity[i] = bound.intensity;
-}
-
 // The scene and its acceleration structure. Owned by the engine.
 struct CpuScene : shared::SceneView {
     accel::AccelView accel;
-    accel::Tracer tracer;                           // for the primitives in `accel`
-    const LightBoundsSoa* lightBoundsSoa = nullptr; // of a table that is chosen from light by light
+    accel::Tracer tracer; // for the primitives in `accel`
 };
 
 struct KernelCounters {

@@ -1,47 +1,40 @@
-// Next-event estimation for all lanes: the choice by contribution from a short table, samples of quads and spheres, and their weights.
-// The numbers are those of one path alone, bit for bit.
+// Light sampling for sixteen paths: the choice of a light, samples of quads and spheres, and their weights. The values
+// are those of one path alone (DirectLight.h), bit for bit. Included by one translation unit per instruction set; all
+// it defines has internal linkage.
 #pragma once
-#include "RayTracingCPU/Lanes.h"
-#include "RayTracingCPU/SceneAccess.h"
+#include "Common/Accel/Simd/Simd.h"
+#include "RayTracingCPU/PathLanes.h"
 
 namespace rt::cpu {
 namespace {
 
 using namespace rt::shared;
 
-// The sums of eight rows and `total`, in the order of accel::runningSums(); `total` becomes the last.
+// ---- choosing a light -----------------------------------------------------------------------------------------------
+
+// runningSums() of a group of rows, a row for each light; `total` becomes the last.
 RT_CALL void addRows(const FloatLanes* rows, FloatLanes* sums, FloatLanes& total) {
     for (uint i = 0u; i < kLanes; ++i) {
-        float r[8];
-        for (uint k = 0u; k < 8u; k += 4u) {
-            const float a1 = rows[k + 1].at[i];
-            const float a2 = rows[k + 2].at[i];
-            r[k] = rows[k].at[i];
-            r[k + 1] = a1 + r[k];
-            r[k + 2] = (a2 + a1) + r[k];
-            r[k + 3] = (rows[k + 3].at[i] + a2) + r[k + 1];
-        }
-        const float before = total.at[i];
-        for (uint k = 0u; k < 4u; ++k) {
-            sums[k].at[i] = r[k] + before;
-            sums[k + 4].at[i] = (r[k + 4] + r[3]) + before;
-        }
-        total.at[i] = sums[7].at[i];
+        GroupWeights group;
+        for (uint k = 0u; k < kSumGroup; ++k) group.at[k] = rows[k].at[i];
+        group = runningSums(group, total.at[i]);
+        for (uint k = 0u; k < kSumGroup; ++k) sums[k].at[i] = group.at[k];
+        total.at[i] = group.at[kSumGroup - 1u];
     }
 }
 
-// chooseByContribution(), by the first of the numbers for lights.
+// chooseByContribution() of shared::, light by light for all paths.
 RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
     const uint count = scene.globals.lightCount;
-    const Vec3Lanes& positions = lanes.vertices.origin;
-    const Vec3Lanes& normals = lanes.vertices.shading;
+    const Vec3Lanes& positions = lanesOf<&Vertex::origin>(lanes.vertices);
+    const Vec3Lanes& normals = lanesOf<&Vertex::shading>(lanes.vertices);
     FloatLanes weights[kContributionLights]; // a row for each light
     FloatLanes sums[kContributionLights];
     FloatLanes total{};
-    for (uint first = 0u; first < count; first += 8u) {
-        for (uint k = first; k < first + 8u; ++k) {
+    for (uint first = 0u; first < count; first += kSumGroup) {
+        for (uint k = first; k < first + kSumGroup; ++k) {
             if (k < count) {
-                const LightBound bound = lightBoundAt(*scene.lightBoundsSoa, k);
+                const LightBound bound = scene.lightBounds[k];
                 for (uint i = 0u; i < kLanes; ++i) {
                     weights[k].at[i] = lightContribution(bound, get(positions, i), get(normals, i));
                 }
@@ -51,14 +44,14 @@ RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
         }
         addRows(weights + first, sums + first, total);
     }
-    FloatLanes places;
-    for (uint i = 0u; i < kLanes; ++i) places.at[i] = lanes.vertices.light.x.at[i] * total.at[i];
-    FloatLanes picked; // the first light whose sum is beyond the place
+    FloatLanes targets;
+    for (uint i = 0u; i < kLanes; ++i) targets.at[i] = lanes.selection.x.at[i] * total.at[i];
+    FloatLanes picked; // the first light whose sum is beyond the target
     for (uint i = 0u; i < kLanes; i += 8u) {
-        const accel::Float8 place = accel::load(places.at + i);
+        const accel::Float8 target = accel::load(targets.at + i);
         accel::Float8 light = accel::broadcast(float(count - 1u));
         for (uint k = count - 1u; k-- > 0u;) {
-            light = accel::select(place < accel::load(sums[k].at + i), accel::broadcast(float(k)), light);
+            light = accel::select(target < accel::load(sums[k].at + i), accel::broadcast(float(k)), light);
         }
         accel::store(picked.at + i, light);
     }
@@ -68,41 +61,92 @@ RT_CALL void chooseByContribution(const CpuScene& scene, PathLanes& lanes) {
         LightPick pick;
         pick.light = uint(picked.at[i]);
         pick.weight = weight[pick.light * kLanes + i];
-        pick.beyond = sum[pick.light * kLanes + i] - places.at[i];
+        pick.beyond = sum[pick.light * kLanes + i] - targets.at[i];
         pick.total = total.at[i];
-        set(lanes.choices, i, choiceOf(pick), pick.total);
+        set(lanes.choices, i, choiceOf(pick));
+        lanes.total.at[i] = pick.total;
     }
 }
 
-RT_FN vec2 sampleNumbers(const PathLanes& lanes, uint i) {
-    return vec2(lanes.choices.u.at[i], lanes.vertices.light.y.at[i]);
+// chooseFromTree() of shared::, level by level: while one path waits for a node from memory, the others descend.
+RT_CALL void chooseFromTree(const CpuScene& scene, uint lit, PathLanes& lanes) {
+    const Vec3Lanes& positions = lanesOf<&Vertex::origin>(lanes.vertices);
+    const Vec3Lanes& normals = lanesOf<&Vertex::shading>(lanes.vertices);
+    TreeDescent descents[kLanes];
+    eachLane(lit, [&](uint i) { descents[i] = beginDescent(get(lanes.selection, i)); });
+    for (uint descending = lit; descending != 0u;) {
+        eachLane(descending, [&](uint i) {
+            TreeDescent& d = descents[i];
+            descend(scene, get(positions, i), get(normals, i), d);
+            if (d.child != kNone) prefetchLights(scene, d.child);
+            if (!isAtNode(d)) descending &= ~(1u << i);
+        });
+    }
+    eachLane(lit, [&](uint i) {
+        const TreeChoice drawn = endDescent(descents[i]);
+        set(lanes.choices, i, choiceOf(drawn));
+        lanes.total.at[i] = drawn.total;
+    });
 }
+
+// By power, or uniformly.
+RT_CALL void chooseOneByOne(const CpuScene& scene, uint policy, uint lit, PathLanes& lanes) {
+    const uint count = scene.globals.lightCount;
+    eachLane(lit, [&](uint i) {
+        const float u = lanes.selection.x.at[i];
+        set(lanes.choices, i, policy == kSelectPower ? chooseByPower(scene, count, u) : chooseUniformly(count, u));
+        lanes.total.at[i] = 0.0f;
+    });
+}
+
+// chooseLight() for the paths `lit`: lanes.choices, lanes.total.
+template <uint kFeatures>
+RT_FN void chooseLights(const CpuScene& scene, const RenderParams& params, uint lit, PathLanes& lanes) {
+    const uint count = scene.globals.lightCount;
+    for (uint i = 0u; i < kLanes; ++i) {
+        set(lanes.selection, i, lightSelectionSample(kFeatures, params, scene.globals, get(lanes.u, i)));
+    }
+    if (count == 0u) {
+        eachLane(lit, [&](uint i) {
+            set(lanes.choices, i, noLightChoice());
+            lanes.total.at[i] = 0.0f;
+        });
+    } else if (params.lightSelection != kSelectContribution) {
+        chooseOneByOne(scene, params.lightSelection, lit, lanes);
+    } else if (usesLightTree(kFeatures, count)) {
+        chooseFromTree(scene, lit, lanes);
+    } else {
+        chooseByContribution(scene, lanes);
+    }
+}
+
+// ---- sampling it ----------------------------------------------------------------------------------------------------
 
 // Samples of quads under the automatic method, unless they are near.
 RT_CALL void sampleQuads(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
-        const Light light = getAs(kLightQuad, lanes.lights, i);
-        const vec3 position = get(lanes.vertices.origin, i);
-        const vec3 normal = get(lanes.vertices.shading, i);
-        const QuadView view = viewQuad(0u, kShapeAuto, light, position, normal);
-        LightSample s = sampleQuadApart(view, light, position, sampleNumbers(lanes, i));
-        s = completeSample(0u, light, normal, s);
-        s.pdf = isLit(light, position) ? s.pdf : 0.0f;
-        set(lanes.samples, i, s);
-        const uint apart = view.strategy != kStrategySolidAngle ? 1u : 0u;
-        lanes.sampled.at[i] = lanes.lights.kind.at[i] == kLightQuad ? apart : 0u;
+        Light light = get(lanes.lights, i);
+        const uint isQuad = light.kind == kLightQuad ? 1u : 0u;
+        light.kind = kLightQuad;
+        const Vertex v = get(lanes.vertices, i);
+        const QuadView view = viewQuad(0u, kShapeAuto, light, v.origin, v.shading);
+        LightSample s = sampleQuadApart(view, light, v.origin, get(lanes.position, i));
+        s = completeSample(0u, light, v.shading, s);
+        s.pdf = isLit(light, v.origin) ? s.pdf : 0.0f;
+        set(lanes.lightSamples, i, s);
+        lanes.isSampled.at[i] = view.strategy != kStrategySolidAngle ? isQuad : 0u;
     }
 }
 
 // But for uv, which of a sphere follows from the normal.
-RT_FN LightSample eitherSample(bool first, LightSample a, LightSample b) {
-    b.wi = either(first, a.wi, b.wi);
+RT_FN LightSample selectSample(bool first, LightSample a, LightSample b) {
+    b.wi = select(first, a.wi, b.wi);
     b.distance = first ? a.distance : b.distance;
     b.pdf = first ? a.pdf : b.pdf;
-    b.radiance = either(first, a.radiance, b.radiance);
-    b.point = either(first, a.point, b.point);
-    b.error = either(first, a.error, b.error);
-    b.normal = either(first, a.normal, b.normal);
+    b.radiance = select(first, a.radiance, b.radiance);
+    b.point = select(first, a.point, b.point);
+    b.error = select(first, a.error, b.error);
+    b.normal = select(first, a.normal, b.normal);
     return b;
 }
 
@@ -110,37 +154,66 @@ RT_FN LightSample eitherSample(bool first, LightSample a, LightSample b) {
 template <uint kFeatures>
 RT_CALL void sampleSpheres(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
-        const Light light = getAs(kLightSphere, lanes.lights, i);
-        const vec3 position = get(lanes.vertices.origin, i);
-        const vec3 normal = get(lanes.vertices.shading, i);
-        const vec2 u = sampleNumbers(lanes, i);
+        Light light = get(lanes.lights, i);
+        const bool isSphere = light.kind == kLightSphere;
+        light.kind = kLightSphere;
+        const Vertex v = get(lanes.vertices, i);
+        const vec2 u = get(lanes.position, i);
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
-        const uint strategy = sphereLightStrategy(0u, kShapeAuto, light, center - position, normal);
-        const SphereCone cone = makeSphereCone(center - position, light.radius);
-        const bool isCap = strategy == kStrategyVisibleCap;
-        const ConeSample inCap = sampleVisibleCap(cone, light.radius, normal, u);
-        ConeSample c = sampleSphereCone(cone, light.radius, u);
-        c.direction = either(isCap, inCap.direction, c.direction);
-        c.distance = isCap ? inCap.distance : c.distance;
-        c.normal = either(isCap, inCap.normal, c.normal);
-        const float pdf = isCap ? wholeCapPdf(cone, normal, c.direction) : sphereConePdf(cone);
-        LightSample s = sampleOfCone(cone, c, pdf, center, light.radius, position);
-        s = completeSample(0u, light, normal, s);
-        const bool isSphere = lanes.lights.kind.at[i] == kLightSphere;
-        set(lanes.samples, i, eitherSample(isSphere, s, get(lanes.samples, i)));
+        const uint strategy = sphereLightStrategy(0u, kShapeAuto, light, center - v.origin, v.shading);
+        LightSample s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, v.origin, v.shading, u);
+        s = completeSample(0u, light, v.shading, s);
+        set(lanes.lightSamples, i, selectSample(isSphere, s, get(lanes.lightSamples, i)));
         const uint outside = strategy != kStrategyInside ? 1u : 0u;
-        const uint before = lanes.sampled.at[i];
-        lanes.sampled.at[i] = isSphere ? outside : before;
+        const uint before = lanes.isSampled.at[i];
+        lanes.isSampled.at[i] = isSphere ? outside : before;
     }
 }
+
+// ---- weighing it ----------------------------------------------------------------------------------------------------
 
 template <uint kFeatures>
 RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
-        const DirectLight direct = weighSample(kFeatures, params, lanes.choices.probability.at[i],
-                                               get(lanes.samples, i), get(lanes.vertices, i), get(lanes.throughput, i));
-        set(lanes.direct, i, direct);
+        const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
+        const LightSample sampled = get(lanes.lightSamples, i);
+        const Vertex v = get(lanes.vertices, i);
+        set(lanes.direct, i, weighSample(kFeatures, params, probability, sampled, v, get(lanes.throughput, i)));
     }
+}
+
+// sampleDirectLight() for the paths `lit`: lanes.direct.
+template <uint kFeatures>
+RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& params, uint lit, PathLanes& lanes) {
+    const UintLanes& chosen = lanesOf<&LightChoice::light>(lanes.choices);
+    for (uint i = 0u; i < kLanes; ++i) {
+        set(lanes.position, i, positionSample(kFeatures, scene.globals, get(lanes.choices, i), get(lanes.u, i)));
+    }
+    eachLane(lit, [&](uint i) {
+        lanes.isSampled.at[i] = 0u;
+        if (chosen.at[i] != kNone) set(lanes.lights, i, scene.lights[chosen.at[i]]);
+    });
+    if (has(kFeatures, kFeatureQuadLights) && params.quadLight == kShapeAuto) sampleQuads(lanes);
+    if (has(kFeatures, kFeatureSphereLights) && params.sphereLight == kShapeAuto) {
+        sampleSpheres<kFeatures & kFeatureMotion>(lanes);
+    }
+    eachLane(lit, [&](uint i) {
+        if (chosen.at[i] == kNone) {
+            lanesOf<&LightSample::pdf>(lanes.lightSamples).at[i] = 0.0f;
+            return;
+        }
+        const Light& light = scene.lights[chosen.at[i]];
+        if (lanes.isSampled.at[i] == 0u) {
+            const Vertex v = get(lanes.vertices, i);
+            const vec2 u = get(lanes.position, i);
+            set(lanes.lightSamples, i, sampleChosenLight(kFeatures, scene, params, light, v, lanes.time.at[i], u));
+        } else if (has(kFeatures, kTexturedFeatures) && light.material != kNone) {
+            LightSample sampled = get(lanes.lightSamples, i);
+            applyEmissionTexture(kFeatures, scene, light, sampled);
+            set(lanesOf<&LightSample::radiance>(lanes.lightSamples), i, sampled.radiance);
+        }
+    });
+    weighSamples<kFeatures>(params, lanes);
 }
 
 } // namespace

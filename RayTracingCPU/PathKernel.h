@@ -1,56 +1,13 @@
-// The loops around a path on the CPU: tiles, pixels, samples. Included by one translation unit per instruction set; all it
-// defines has internal linkage.
+// The loops around paths on the CPU: tiles, pixels, samples; and the kernels. Included by one translation unit per
+// instruction set; all it defines has internal linkage.
 #pragma once
-#include "RayTracingCPU/SceneAccess.h"
-
-#include "RayTracingCPU/NumberTable.h"
-#include "RayTracingCPU/PathRays.h"
-#include "RayTracingCPU/SideBySide.h"
+#include "Common/Image/Film.h"
+#include "RayTracingCPU/PathPacket.h"
 
 namespace rt::cpu {
 namespace {
 
-// ---- one path after the other ---------------------------------------------------------------------------------------
-
-// The radiances of a pixel's samples.
-template <std::uint32_t kFeatures>
-RT_CALL void tracePaths(const KernelContext& context, uvec2 pixel, Sampler smp, std::uint32_t count, vec3* radiances,
-                        KernelCounters& counters) {
-    const CpuScene& scene = *context.scene;
-    NumberTable numbers(smp, count, kFeatures);
-    for (std::uint32_t i = 0; i < count; ++i, ++smp.index) {
-        PathState path = startPath(kFeatures, context.params, context.camera, smp, pixel, numbers.pixelNumbers(smp));
-        Hit hit = traceRay(scene, path.ray);
-        for (;;) {
-            DirectLight direct = noDirectLight();
-            Vertex vertex;
-            const bool goesOn = pathVertex(vertex, kFeatures, scene, context.params, smp,
-                                           numbers.vertexNumbers(smp, path.vertex), hit, path, direct);
-            if (!goesOn) {
-                traceShadow<kFeatures>(scene, direct, path, counters);
-                break;
-            }
-            hit = traceOn<kFeatures>(scene, direct, path, counters);
-        }
-        counters.scattered += path.vertex - 1u;
-        radiances[i] = path.radiance;
-    }
-}
-
-// The radiances of a tile's samples, pixel by pixel. False: cancelled.
-template <std::uint32_t kFeatures>
-bool traceOneByOne(const KernelContext& context, const TileTask& task, vec3* radiances, KernelCounters& counters) {
-    for (std::uint32_t y = 0; y < task.height; ++y) {
-        for (std::uint32_t x = 0; x < task.width; ++x, radiances += task.count) {
-            if (task.cancel != nullptr && task.cancel->load(std::memory_order_relaxed)) return false;
-            const uvec2 pixel(task.x + x, task.y + y);
-            const std::uint32_t index = pixel.y * context.params.width + pixel.x;
-            const Sampler first = makeSampler(context.params, index, task.replicate, task.first);
-            tracePaths<kFeatures>(context, pixel, first, task.count, radiances, counters);
-        }
-    }
-    return true;
-}
+using namespace rt::shared;
 
 // ---- tiles ----------------------------------------------------------------------------------------------------------
 
@@ -76,10 +33,7 @@ void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& c
 template <std::uint32_t kFeatures>
 bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
     vec3 radiances[image::Film::kTilePixels * image::Film::kBlock];
-    const bool isLit = has(kFeatures, kFeatureLights) && context.scene->globals.lightCount > 0;
-    const bool isDone = isLit && usesMis(context.params)
-                            ? traceSideBySide<kFeatures>(context, task, radiances, counters)
-                            : traceOneByOne<kFeatures>(context, task, radiances, counters);
+    const bool isDone = PathPacket<kFeatures>(context, task, radiances, counters).trace();
     if (isDone) addRadiances(task, radiances, counters);
     return isDone;
 }
@@ -94,9 +48,8 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         std::uint32_t hits = 0;
         Sampler smp = makeSampler(context.params, task.y * context.params.width + x, 0u, 0u);
         for (; smp.index < task.count; ++smp.index) {
-            const Ray ray =
-                startPath(kFeatures, context.params, context.camera, smp, uvec2(x, task.y), randomPair(smp, kPairPixel))
-                    .ray;
+            const uvec2 pixel(x, task.y);
+            const Ray ray = cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
             const Hit hit = traceRay(scene, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);

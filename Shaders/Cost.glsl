@@ -20,8 +20,7 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
         if (checking) {
             direct.distance = 0.0f;
         } else {
-            goesOn = pathVertex(kFeatures, scene, params, samples.smp, vertexNumbers(samples.smp, path.vertex), hit, path,
-                                direct);
+            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, direct);
         }
     }
     return rays;

@@ -18,5 +18,5 @@ bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) 
 }
 
 PathState beginPath(RenderParams params, PixelSamples samples) {
-    return startPath(kFeatures, params, constants.camera, samples.smp, samples.pixel, randomPair(samples.smp, kPairPixel));
+    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, cameraSamples(kFeatures, samples.smp)));
 }

@@ -1,13 +1,14 @@
-// One ray of a path. The includer provides traceRay() and Common/Shared/PathStep.h.
+// One ray of a path. The includer provides traceRay() and Common/Shared/Path/PathStep.h.
 
-// Vulkan leaves undefined what becomes of rays that are not finite or that end before they begin; a device may never return.
+// Vulkan leaves undefined what becomes of rays that are not finite or that end before they begin; a device may never
+// return.
 bool isTraceable(Ray ray, float tMax) {
     float squared = dot(ray.direction, ray.direction); // 1 but for rounding
     return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
 }
 
-// What the path's next ray meets; when `checking`, whether the shadow ray of the vertex before meets anything. A ray that cannot
-// be traced is counted; it ends the path, or lets no light through.
+// What the path's next ray hits; when `checking`, whether the shadow ray of the vertex before hits anything. A ray that
+// cannot be traced is counted; it ends the path, or lets no light through.
 Hit traceStep(PathState path, DirectLight direct, bool checking, inout uint nonfinite) {
     Ray ray = path.ray;
     float tMax = kInfinity;

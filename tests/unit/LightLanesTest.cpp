@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "RayTracingCPU/SceneAccess.h"
-#include "RayTracingCPU/SideBySide.h"
+#include "RayTracingCPU/LightLanes.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
 
@@ -24,7 +23,6 @@ constexpr uint kFeatures = kFeatureQuads | kFeatureSpheres | kFeatureLambertian 
 struct LitScene {
     std::vector<Light> lights;
     std::vector<LightBound> bounds;
-    LightBoundsSoa soa;
     CpuScene scene;
 
     void add(const Light& light, float intensity) {
@@ -35,7 +33,6 @@ struct LitScene {
         bound.axis = isSphere ? vec3(0.0f) : light.normal;
         bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
         bound.intensity = intensity;
-        setBound(soa, lights.size(), bound);
         lights.push_back(light);
         bounds.push_back(bound);
     }
@@ -43,7 +40,6 @@ struct LitScene {
     const CpuScene& get() {
         scene.lights = lights.data();
         scene.lightBounds = bounds.data();
-        scene.lightBoundsSoa = &soa;
         scene.globals.lightCount = static_cast<uint>(lights.size());
         return scene;
     }
@@ -107,9 +103,6 @@ Vertex randomVertex(Uniforms& uniform) {
     v.error = vec3(1.0e-6f);
     v.origin = offsetOrigin(v.position, v.error, v.normal, v.normal);
     v.index = uniform.word() % 3;
-    v.numbers.light = uniform.pair();
-    v.numbers.bsdf = uniform.pair();
-    v.numbers.choice = uniform.pair();
     return v;
 }
 
@@ -121,28 +114,41 @@ bool isSame(vec3 a, vec3 b) {
     return isSame(a.x, b.x) && isSame(a.y, b.y) && isSame(a.z, b.z);
 }
 
-struct Turn {
-    Flight flights[kLanes]{};
-    PathLanes lanes{};
+// What an iteration of a packet has got to when it samples lights.
+struct Iteration {
+    PathState paths[kLanes];
     Vertex vertices[kLanes];
+    VertexSamples samples[kLanes];
+    PathLanes lanes{};
 };
 
-void fill(Turn& turn, uint policy, Uniforms& uniform) {
+void setLane(Iteration& it, uint i) {
+    set(it.lanes.vertices, i, it.vertices[i]);
+    set(it.lanes.u, i, it.samples[i]);
+    set(it.lanes.throughput, i, it.paths[i].throughput);
+    it.lanes.time.at[i] = it.paths[i].ray.time;
+}
+
+void fill(Iteration& it, uint policy, Uniforms& uniform) {
     for (uint i = 0; i < kLanes; ++i) {
-        turn.vertices[i] = randomVertex(uniform);
-        set(turn.lanes.vertices, i, turn.vertices[i]);
-        setNumbers(turn.lanes.vertices, i, turn.vertices[i].numbers);
-        PathState& path = turn.flights[i].path;
+        it.vertices[i] = randomVertex(uniform);
+        it.samples[i] = {};
+        it.samples[i].light = uniform.pair();
+        PathState& path = it.paths[i];
         path.throughput = vec3(0.5f, 0.25f, 1.0f);
         path.ray.time = static_cast<float>(uniform.between(0, 1));
-        path.last = lightContext(RenderParams{}, turn.vertices[i]);
+        path.last = lightContext(RenderParams{}, it.vertices[i]);
         path.last.policy = policy;
+        setLane(it, i);
     }
 }
 
-DirectLight oneByOne(const CpuScene& scene, const RenderParams& params, const Vertex& v, PathState& path) {
-    const LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, v.numbers.light, path.last);
-    return sampleDirectLight(kFeatures, scene, params, choice, v, path);
+// The stages of one path.
+DirectLight sampleAlone(const CpuScene& scene, const RenderParams& params, Iteration& it, uint i) {
+    const vec2 u = lightSelectionSample(kFeatures, params, scene.globals, it.samples[i]);
+    PathState& path = it.paths[i];
+    const LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, u, path.last);
+    return sampleDirectLight(kFeatures, scene, params, choice, it.vertices[i], it.samples[i], path);
 }
 
 struct Seen {
@@ -151,21 +157,20 @@ struct Seen {
     int others = 0;
 };
 
-void compareTurn(const CpuScene& scene, const RenderParams& params, uint lit, Turn& turn, Seen& seen) {
-    std::vector<PathState> paths;
-    for (const Flight& f : turn.flights) paths.push_back(f.path);
-    sampleLights<kFeatures>(scene, params, turn.flights, lit, turn.lanes);
+void compare(const CpuScene& scene, const RenderParams& params, uint lit, Iteration& it, Seen& seen) {
+    chooseLights<kFeatures>(scene, params, lit, it.lanes);
+    sampleDirectLights<kFeatures>(scene, params, lit, it.lanes);
     for (uint i = 0; i < kLanes; ++i) {
         if ((lit >> i & 1u) == 0u) continue;
-        const DirectLight expected = oneByOne(scene, params, turn.vertices[i], paths[i]);
-        const DirectLight direct = get(turn.lanes.direct, i);
+        const DirectLight expected = sampleAlone(scene, params, it, i);
+        const DirectLight direct = get(it.lanes.direct, i);
         ASSERT_TRUE(isSame(direct.radiance, expected.radiance));
         ASSERT_TRUE(isSame(direct.distance, expected.distance));
-        ASSERT_TRUE(isSame(turn.flights[i].path.last.total, paths[i].last.total));
+        ASSERT_TRUE(isSame(it.lanes.total.at[i], it.paths[i].last.total));
         if (!(direct.distance > 0.0f)) continue;
         ASSERT_TRUE(isSame(direct.direction, expected.direction));
-        const bool inLanes = turn.lanes.sampled.at[i] != 0u;
-        const bool isSphere = scene.lights[turn.lanes.choices.light.at[i]].kind == kLightSphere;
+        const bool inLanes = it.lanes.isSampled.at[i] != 0u;
+        const bool isSphere = scene.lights[get(it.lanes.choices, i).light].kind == kLightSphere;
         ++(!inLanes ? seen.others : isSphere ? seen.spheres : seen.quads);
     }
 }
@@ -174,14 +179,14 @@ TEST(LightLanes, SamplesAreThoseOfOnePathAtATime) {
     Uniforms uniform(41);
     for (const uint method : {kShapeAuto, kShapeSolidAngle, kShapeArea}) {
         Seen seen;
-        for (uint turns = 0; turns < 3000; ++turns) {
-            LitScene scene = randomScene(uniform, 1 + turns % kContributionLights);
+        for (uint round = 0; round < 3000; ++round) {
+            LitScene scene = randomScene(uniform, 1 + round % kContributionLights);
             RenderParams params = withMethod(method);
-            params.lightSampling = turns % 2 == 0 ? kSampleMis : kSampleMisBalance;
-            params.lightSelection = turns % 3; // all that there are
-            Turn turn;
-            fill(turn, params.lightSelection, uniform);
-            compareTurn(scene.get(), params, turns % 5 == 0 ? uniform.word() & 0xffffu : 0xffffu, turn, seen);
+            params.lightSampling = round % 2 == 0 ? kSampleMis : kSampleMisBalance;
+            params.lightSelection = round % 3; // all that there are
+            Iteration it;
+            fill(it, params.lightSelection, uniform);
+            compare(scene.get(), params, round % 5 == 0 ? uniform.word() & 0xffffu : 0xffffu, it, seen);
             if (HasFatalFailure()) return;
         }
         EXPECT_GT(seen.others, 1000);
@@ -198,53 +203,32 @@ TEST(LightLanes, LanesNotInUseAreFilledWithAnything) {
     params.lightSampling = kSampleMis;
     params.lightSelection = kSelectContribution;
     for (const unsigned char byte : {0x00, 0x7f, 0xff}) { // zero, huge, not a number
-        Turn turn;
-        fill(turn, kSelectContribution, uniform);
-        const PathLanes used = turn.lanes;
-        std::memset(&turn.lanes, byte, sizeof turn.lanes);
-        for (const uint i : {0u, 5u, 15u}) {
-            set(turn.lanes.vertices, i, get(used.vertices, i));
-            setNumbers(turn.lanes.vertices, i, turn.vertices[i].numbers);
-        }
-        compareTurn(scene.get(), params, 1u << 0 | 1u << 5 | 1u << 15, turn, seen);
+        Iteration it;
+        fill(it, kSelectContribution, uniform);
+        std::memset(&it.lanes, byte, sizeof it.lanes);
+        for (const uint i : {0u, 5u, 15u}) setLane(it, i);
+        compare(scene.get(), params, 1u << 0 | 1u << 5 | 1u << 15, it, seen);
     }
 }
 
-TEST(LightLanes, NumbersAreThoseOfTheVertices) {
+// A list of a record's fields keeps each of them, and what is omitted comes back as zero.
+TEST(Lanes, RecordsComeBackAsTheyWere) {
     Uniforms uniform(43);
-    for (const uint kind : {kSamplerSobol, kSamplerStratified, kSamplerIndependent}) {
-        Turn turn;
-        for (uint i = 0; i < kLanes; ++i) {
-            Sampler& smp = turn.flights[i].smp;
-            smp = {kind, uniform.word(), uniform.word() % 1000u, uniform.word() % 7u, 8u, 8u};
-            turn.lanes.vertices.index.at[i] = uniform.word() % 9u;
-        }
-        drawNumbers<kFeatures | kFeatureManyLights>(turn.flights, 0xffffu, turn.lanes.vertices);
-        for (uint i = 0; i < kLanes; ++i) {
-            const VertexNumbers expected = vertexNumbers(turn.flights[i].smp, turn.lanes.vertices.index.at[i]);
-            const VertexNumbers numbers = get(turn.lanes.vertices, i).numbers;
-            EXPECT_EQ(numbers.light, expected.light);
-            EXPECT_EQ(numbers.bsdf, expected.bsdf);
-            EXPECT_EQ(numbers.choice, expected.choice);
-            EXPECT_EQ(numbers.select, expected.select);
-        }
+    RecordLanes<Vertex> lanes;
+    Vertex vertices[kLanes];
+    for (uint i = 0; i < kLanes; ++i) {
+        vertices[i] = randomVertex(uniform);
+        set(lanes, i, vertices[i]);
     }
-}
-
-TEST(LightLanes, DirectionsAreThoseOfTheBsdf) {
-    Uniforms uniform(44);
-    for (int turns = 0; turns < 200; ++turns) {
-        Turn turn;
-        fill(turn, kSelectContribution, uniform);
-        sampleDiffuse(turn.lanes);
-        for (uint i = 0; i < kLanes; ++i) {
-            const Vertex& v = turn.vertices[i];
-            const BsdfSample expected = sampleScattering(kFeatures, v, v.numbers.bsdf);
-            const BsdfSample b = sampleScattering<kFeatures>(turn.lanes, i, v);
-            ASSERT_TRUE(isSame(b.wi, expected.wi) && isSame(b.weight, expected.weight) && isSame(b.pdf, expected.pdf));
-            ASSERT_EQ(b.delta, expected.delta);
-            ASSERT_EQ(b.transmitted, expected.transmitted);
-        }
+    for (uint i = 0; i < kLanes; ++i) {
+        const Vertex v = get(lanes, i);
+        EXPECT_EQ(v.index, vertices[i].index);
+        EXPECT_EQ(v.material.kind, vertices[i].material.kind);
+        EXPECT_EQ(v.material.parameter[kMetalFuzz], vertices[i].material.parameter[kMetalFuzz]);
+        EXPECT_EQ(v.material.texture, 0u);
+        EXPECT_TRUE(isSame(v.wo, vertices[i].wo));
+        EXPECT_TRUE(isSame(v.origin, vertices[i].origin));
+        EXPECT_TRUE(isSame(get(lanesOf<&Vertex::origin>(lanes), i), v.origin));
     }
 }
 

@@ -84,7 +84,7 @@ TEST(Hash, Avalanche) {
 // Serial independence of the raw words: neighbours in each argument, their low bytes, and collisions.
 TEST(Hash, NeighboursAreIndependent) {
     const auto word = [](uint pixel, uint index, uint pair) {
-        return randomWords(makeSampler(paramsOf(kSamplerIndependent), pixel, 0, index), pair);
+        return sampleWords(makeSampler(paramsOf(kSamplerIndependent), pixel, 0, index), pair);
     };
     const std::pair<const char*, std::function<std::pair<uint, uint>(uint)>> series[] = {
         {"x and y", [&](uint i) { return std::pair(word(7, i, 5).x, word(7, i, 5).y); }},
@@ -113,13 +113,13 @@ TEST(Hash, NeighboursAreIndependent) {
 
 TEST(Hash, SeedsPixelsAndReplicatesDiffer) {
     for (const uint kind : kKinds) {
-        const vec2 u = randomPair(makeSampler(paramsOf(kind), 5, 0, 3), 11);
-        EXPECT_EQ(u, randomPair(makeSampler(paramsOf(kind), 5, 0, 3), 11));
-        EXPECT_NE(u, randomPair(makeSampler(paramsOf(kind, 16, 16, 1), 5, 0, 3), 11));
-        EXPECT_NE(u, randomPair(makeSampler(paramsOf(kind), 6, 0, 3), 11));
-        EXPECT_NE(u, randomPair(makeSampler(paramsOf(kind), 5, 1, 3), 11));
-        EXPECT_NE(u, randomPair(makeSampler(paramsOf(kind), 5, 0, 4), 11));
-        EXPECT_NE(u, randomPair(makeSampler(paramsOf(kind), 5, 0, 3), 12));
+        const vec2 u = sample2D(makeSampler(paramsOf(kind), 5, 0, 3), 11);
+        EXPECT_EQ(u, sample2D(makeSampler(paramsOf(kind), 5, 0, 3), 11));
+        EXPECT_NE(u, sample2D(makeSampler(paramsOf(kind, 16, 16, 1), 5, 0, 3), 11));
+        EXPECT_NE(u, sample2D(makeSampler(paramsOf(kind), 6, 0, 3), 11));
+        EXPECT_NE(u, sample2D(makeSampler(paramsOf(kind), 5, 1, 3), 11));
+        EXPECT_NE(u, sample2D(makeSampler(paramsOf(kind), 5, 0, 4), 11));
+        EXPECT_NE(u, sample2D(makeSampler(paramsOf(kind), 5, 0, 3), 12));
     }
 }
 
@@ -146,7 +146,7 @@ TEST(Sobol, EveryScrambleIsANet) {
             const auto point = [&](uint i) {
                 Sampler at = s;
                 at.index = i;
-                return randomWords(at, seed + 3);
+                return sampleWords(at, seed + 3);
             };
             expectNet(point, m, 0, "start");
             if (seed < 8) expectNet(point, m, 5u << m, "later");
@@ -157,7 +157,7 @@ TEST(Sobol, EveryScrambleIsANet) {
 TEST(Sobol, OnePointIsUniformOverScrambles) {
     std::vector<std::uint64_t> counts(32 * 32);
     for (uint seed = 0; seed < 1u << 17; ++seed) {
-        const vec2 u = randomPair(makeSampler(paramsOf(kSamplerSobol), seed, 0, 6), 4);
+        const vec2 u = sample2D(makeSampler(paramsOf(kSamplerSobol), seed, 0, 6), 4);
         ++counts[static_cast<int>(u.x * 32) * 32 + static_cast<int>(u.y * 32)];
     }
     EXPECT_GT(chiSquareP(counts), kSignificance);
@@ -205,7 +205,7 @@ TEST(Stratified, CoversEveryCellOnce) {
         for (uint round = 0; round < 3; ++round) {
             std::vector<bool> seen(x * y);
             for (uint i = 0; i < x * y; ++i) {
-                const vec2 u = randomPair(makeSampler(paramsOf(kSamplerStratified, x, y), 9, 0, round * x * y + i), 4);
+                const vec2 u = sample2D(makeSampler(paramsOf(kSamplerStratified, x, y), 9, 0, round * x * y + i), 4);
                 ASSERT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
                 // In the middle of the grid's cell, because a cell's edge need not be on the grid.
                 const uint cell = uint((double(u.y) + 0x1p-25) * y) * x + uint((double(u.x) + 0x1p-25) * x);
@@ -217,7 +217,7 @@ TEST(Stratified, CoversEveryCellOnce) {
     for (const uint index : {0u, 5u, 300u}) {
         std::vector<std::uint64_t> counts(32 * 32);
         for (uint pixel = 0; pixel < 1u << 16; ++pixel) {
-            const vec2 u = randomPair(makeSampler(paramsOf(kSamplerStratified, 12, 20), pixel, 0, index), 4);
+            const vec2 u = sample2D(makeSampler(paramsOf(kSamplerStratified, 12, 20), pixel, 0, index), 4);
             ++counts[static_cast<int>(u.x * 32) * 32 + static_cast<int>(u.y * 32)];
         }
         EXPECT_GT(chiSquareP(counts), kSignificance) << index;
@@ -234,9 +234,9 @@ TEST(Samplers, PairsAreIndependentOfEachOther) {
         for (uint pixel = 0; pixel < 1u << 12; ++pixel) {
             for (uint i = 0; i < 16; ++i) {
                 const Sampler s = makeSampler(paramsOf(kind, 4, 4), pixel, 0, i);
-                const uint light = vertexPair(0, kPairLight), bsdf = vertexPair(0, kPairBsdf);
-                const vec2 a = randomPair(s, light), b = randomPair(s, bsdf);
-                const vec2 c = randomPair(makeSampler(paramsOf(kind, 4, 4), pixel + 1, 0, i), light);
+                const uint light = vertexDimension(0, kDimensionLight), bsdf = vertexDimension(0, kDimensionBsdf);
+                const vec2 a = sample2D(s, light), b = sample2D(s, bsdf);
+                const vec2 c = sample2D(makeSampler(paramsOf(kind, 4, 4), pixel + 1, 0, i), light);
                 ++dimensions[static_cast<int>(a.x * 32) * 32 + static_cast<int>(b.x * 32)];
                 ++pixels[static_cast<int>(a.x * 32) * 32 + static_cast<int>(c.x * 32)];
             }
@@ -257,7 +257,7 @@ TEST(Samplers, CoverageOfAnEdge) {
             for (uint replicate = 0; replicate < 32; ++replicate) {
                 double inside = 0;
                 for (uint i = 0; i < 256; ++i)
-                    inside += randomPair(makeSampler(paramsOf(kind), 12, replicate, i), kPairPixel).x < edge;
+                    inside += sample2D(makeSampler(paramsOf(kind), 12, replicate, i), kDimensionPixel).x < edge;
                 coverage.add(inside / 256);
             }
             EXPECT_TRUE(agrees(coverage, edge, 1e-4)) << kind << ' ' << edge;
@@ -273,7 +273,7 @@ TEST(Samplers, StratificationPays) {
         for (uint pixel = 0; pixel < 128; ++pixel) {
             double sum = 0;
             for (uint i = 0; i < 256; ++i) {
-                const vec2 u = randomPair(makeSampler(paramsOf(kind), pixel, 0, i), 6);
+                const vec2 u = sample2D(makeSampler(paramsOf(kind), pixel, 0, i), 6);
                 sum += std::exp(double(u.x) + double(u.y));
             }
             squares += std::pow(sum / 256 / std::pow(std::exp(1.0) - 1, 2) - 1, 2);
@@ -291,7 +291,7 @@ std::vector<double> errorImage(uint kind, uint seed) {
     for (uint pixel = 0; pixel < kSide * kSide; ++pixel) {
         double sum = 0;
         for (uint i = 0; i < 16; ++i) {
-            const vec2 u = randomPair(makeSampler(paramsOf(kind, 4, 4, seed), pixel, 0, i), 6);
+            const vec2 u = sample2D(makeSampler(paramsOf(kind, 4, 4, seed), pixel, 0, i), 6);
             sum += std::exp(double(u.x) + double(u.y));
         }
         errors.push_back(sum / 16 / std::pow(std::exp(1.0) - 1, 2) - 1);
@@ -327,7 +327,7 @@ TEST(Samplers, BlueNoiseSharesOneSequence) {
         for (uint p = 0; p < pixels; ++p)
             for (uint i = 0; i < 16; ++i) {
                 const uint pixel = (10 + p / 2) * 64 + 20 + p % 2;
-                const uvec2 w = randomWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), pixel, 0, i), 6);
+                const uvec2 w = sampleWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), pixel, 0, i), 6);
                 ++x[static_cast<std::size_t>((std::uint64_t{w.x} * 16 * pixels) >> 32)];
                 ++y[static_cast<std::size_t>((std::uint64_t{w.y} * 16 * pixels) >> 32)];
             }
@@ -340,33 +340,20 @@ TEST(Samplers, BlueNoiseGoesOnInRounds) {
     std::set<std::pair<uint, uint>> seen;
     Mean mean;
     for (uint i = 0; i < 4096; ++i) {
-        const uvec2 w = randomWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), 77, 0, i), 6);
+        const uvec2 w = sampleWords(makeSampler(paramsOf(kSamplerSobolBlue, 4, 4), 77, 0, i), 6);
         EXPECT_TRUE(seen.insert({w.x, w.y}).second) << i;
         mean.add(double(w.x) / 0x1p32);
     }
     EXPECT_TRUE(agrees(mean, 0.5));
 }
 
-// The numbers that a vertex draws at once are those of its pairs.
-TEST(Samplers, VertexNumbersAreItsPairs) {
-    for (const uint kind : kKinds) {
-        for (uint i = 0; i < 1000; ++i) {
-            const Sampler s = makeSampler(paramsOf(kind), hash1(i), 0, i);
-            const VertexNumbers numbers = vertexNumbers(s, i % 7);
-            ASSERT_EQ(numbers.light, randomPair(s, vertexPair(i % 7, kPairLight)));
-            ASSERT_EQ(numbers.bsdf, randomPair(s, vertexPair(i % 7, kPairBsdf)));
-            ASSERT_EQ(numbers.choice, randomPair(s, vertexPair(i % 7, kPairChoice)));
-        }
-    }
-}
-
 // Vertices never share a dimension, with each other or with the camera.
 TEST(Samplers, DimensionsDoNotOverlap) {
-    EXPECT_GE(vertexPair(0, 0), kPairsCamera);
-    EXPECT_LT(kPairTime, kPairsCamera);
-    EXPECT_LT(kPairMedium, kPairsPerVertex);
-    EXPECT_EQ(vertexPair(4, 0), vertexPair(3, kPairsPerVertex));
-    EXPECT_LT(vertexPair(4096, kPairsPerVertex), 1u << 16); // media use the upper half of the word
+    EXPECT_GE(vertexDimension(0, 0), kCameraDimensions);
+    EXPECT_LT(kDimensionTime, kCameraDimensions);
+    EXPECT_LT(kDimensionMedium, kDimensionsPerVertex);
+    EXPECT_EQ(vertexDimension(4, 0), vertexDimension(3, kDimensionsPerVertex));
+    EXPECT_LT(vertexDimension(4096, kDimensionsPerVertex), 1u << 16); // media use the upper half of the word
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// Eight floats at a time, over whatever instruction set the translation unit is compiled for. (Sixteen lanes were measured
-// to lose: their divisions and their masks take longer than a second register of eight.)
+// Eight floats at a time, over whatever instruction set the translation unit is compiled for. (Sixteen lanes were
+// measured to lose: their divisions and their masks take longer than a second register of eight.)
 //
 //   Float8, Mask8       eight lanes; plain aggregates that live in registers
 //   load, broadcast     from aligned memory; one value in all lanes
@@ -12,7 +12,6 @@
 //   bits(m)             lane i in bit i
 //   lane(a, i), least(a)
 //   firstOf(m, a)       the lane of the lowest bit of m, of which one must be set
-//   runningSums(a)      lane i holds the sum of lanes 0 to i, added in an order that is the same everywhere
 //   Index8              eight words, only carried along: loadIndex, select, firstOf
 //   topBits(a)          the top bit of word i in bit i
 //   fromWords(p)        eight words of 16 bits as floats

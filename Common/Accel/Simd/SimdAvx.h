@@ -77,12 +77,6 @@ RT_FN float least(Float8 a) {
     m = _mm_min_ps(m, _mm_movehl_ps(m, m));
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
 }
-RT_FN Float8 runningSums(Float8 a) {
-    const __m256 pairs = _mm256_add_ps(a.v, _mm256_castsi256_ps(_mm256_slli_si256(_mm256_castps_si256(a.v), 4)));
-    const __m256 fours = _mm256_add_ps(pairs, _mm256_castsi256_ps(_mm256_slli_si256(_mm256_castps_si256(pairs), 8)));
-    const __m256 lower = _mm256_permute2f128_ps(fours, fours, 0x08); // in the place of the upper four
-    return {_mm256_add_ps(fours, _mm256_permute_ps(lower, 0xff))};
-}
 
 } // namespace
 } // namespace rt::accel

@@ -157,17 +157,6 @@ RT_FN float least(Float8 a) {
     }
     return result;
 }
-RT_FN Float8 runningSums(Float8 a) {
-    Float8 r;
-    for (int i = 0; i < 8; i += 4) {
-        r.v[i] = a.v[i];
-        r.v[i + 1] = a.v[i + 1] + a.v[i];
-        r.v[i + 2] = (a.v[i + 2] + a.v[i + 1]) + a.v[i];
-        r.v[i + 3] = (a.v[i + 3] + a.v[i + 2]) + r.v[i + 1];
-    }
-    for (int i = 4; i < 8; ++i) r.v[i] += r.v[3];
-    return r;
-}
 
 #undef RT_EACH_LANE
 

@@ -142,14 +142,6 @@ RT_FN float least(Float8 a) {
     m = _mm_min_ps(m, _mm_movehl_ps(m, m));
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));
 }
-RT_FN __m128 runningSums(__m128 a) {
-    const __m128 pairs = _mm_add_ps(a, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(a), 4)));
-    return _mm_add_ps(pairs, _mm_castsi128_ps(_mm_slli_si128(_mm_castps_si128(pairs), 8)));
-}
-RT_FN Float8 runningSums(Float8 a) {
-    const __m128 lower = runningSums(a.lo);
-    return {lower, _mm_add_ps(runningSums(a.hi), _mm_shuffle_ps(lower, lower, 0xff))};
-}
 
 } // namespace
 } // namespace rt::accel

@@ -34,7 +34,7 @@ RT_FN vec2 sinCos2Pi(float u) {
     // At most 4. The mask keeps GCC from taking the way to an integer and back for a call of trunc(), of which it makes no vectors.
     uint quadrant = uint(4.0f * u + 0.5f) & 7u;
     vec2 sc = sinCosOctant(u - 0.25f * float(quadrant));
-    exchangeIf((quadrant & 1u) != 0u, sc.x, sc.y);
+    conditionalSwap((quadrant & 1u) != 0u, sc.x, sc.y);
     return vec2(uintBitsToFloat(floatBitsToUint(sc.x) ^ ((quadrant & 2u) << 30u)),
                 uintBitsToFloat(floatBitsToUint(sc.y) ^ (((quadrant + 1u) & 2u) << 30u)));
 }

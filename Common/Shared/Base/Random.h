@@ -8,20 +8,21 @@
 RT_SHARED_BEGIN
 
 // ---- dimensions -----------------------------------------------------------------------------------------------------
-// A dimension names a pair of numbers. Pairs of the camera come first, then kPairsPerVertex for each vertex of the path.
-const uint kPairPixel = 0u; // position in the pixel
-const uint kPairLens = 1u;  // position on the lens
-const uint kPairTime = 2u;  // x: time in the shutter interval
-const uint kPairsCamera = 4u;
-const uint kPairLight = 0u;  // choice of the light, stretched, and position on it
-const uint kPairBsdf = 1u;   // lobe or direction of the scattered ray
-const uint kPairChoice = 2u; // x: survival of the roulette, y: technique of the mixture
-const uint kPairSelect = 3u; // choice of the light where there are too many to stretch kPairLight
-const uint kPairMedium = 4u; // x: free flight in medium 0; medium m uses dimension kPairMedium + (m << 16)
-const uint kPairsPerVertex = 8u;
+// A sample dimension is a 2D point of the unit square. Dimensions of the camera come first, then kDimensionsPerVertex
+// for each vertex of the path.
+const uint kDimensionPixel = 0u; // position in the pixel
+const uint kDimensionLens = 1u;  // position on the lens
+const uint kDimensionTime = 2u;  // x: time in the shutter interval
+const uint kCameraDimensions = 4u;
+const uint kDimensionLight = 0u;     // choice of the light, stretched, and position on it
+const uint kDimensionBsdf = 1u;      // lobe or direction of the scattered ray
+const uint kDimensionRoulette = 2u;  // x: survival of the roulette, y: technique of the mixture
+const uint kDimensionSelection = 3u; // choice of the light where there are too many to stretch kDimensionLight
+const uint kDimensionMedium = 4u;    // x: free flight in medium 0; medium m uses dimension kDimensionMedium + (m << 16)
+const uint kDimensionsPerVertex = 8u;
 
-RT_FN uint vertexPair(uint vertex, uint pair) {
-    return kPairsCamera + vertex * kPairsPerVertex + pair;
+RT_FN uint vertexDimension(uint vertex, uint dimension) {
+    return kCameraDimensions + vertex * kDimensionsPerVertex + dimension;
 }
 
 // ---- hashing --------------------------------------------------------------------------------------------------------
@@ -89,7 +90,7 @@ RT_FN uint sobolSecondReversed(uint index) {
 }
 
 // Two words of the (0,2)-sequence: point `index`, order and both coordinates scrambled by the words of `key`.
-RT_FN uvec2 sobolPair(uint index, uvec3 key) {
+RT_FN uvec2 sobolWords(uint index, uvec3 key) {
     uint shuffled = owenScramble(index, key.z);
     return uvec2(bitfieldReverse(laineKarras(shuffled, key.x)),
                  bitfieldReverse(laineKarras(sobolSecondReversed(shuffled), key.y)));
@@ -150,11 +151,11 @@ RT_FN uint spreadBits(uint x) {
     return (x | x << 1u) & 0x55555555u;
 }
 
-// kSamplerSobolBlue: all pixels share one sequence, in the order of a Z curve, and the scrambling of its index, which is
-// nested, shuffles quadrants at every level. What 2^k pixels of a square take together is stratified like the samples of
-// one, so errors of neighbours cancel, and errors turn into blue noise (Ahmed & Wonka, "Screen-Space Blue-Noise Diffusion of
-// Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020). A pixel takes 2^strataX samples in a row; those
-// beyond are of another, independent round.
+// kSamplerSobolBlue: all pixels share one sequence, in the order of a Z curve, and the scrambling of its index, which
+// is nested, shuffles quadrants at every level. What 2^k pixels of a square take together is stratified like the
+// samples of one, so errors of neighbours cancel, and errors turn into blue noise (Ahmed & Wonka, "Screen-Space
+// Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of Pixels", 2020). A pixel takes
+// 2^strataX samples in a row; those beyond are of another, independent round.
 RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate, uint index) {
     Sampler s;
     s.kind = params.samplerKind;
@@ -173,66 +174,41 @@ RT_FN Sampler makeSampler(RT_IN(RenderParams) params, uint pixel, uint replicate
     return s;
 }
 
-// The two words of dimension pair `pair`; each is uniform over all words, and the pair is stratified over the samples
-// of the pixel as the kind of sampler says.
-RT_CALL uvec2 randomWords(RT_IN(Sampler) s, uint pair) {
+// Words of a dimension of sample `index` in Sobol's sequence (Sampler::base + Sampler::index). Without a branch, for
+// loops over samples.
+RT_FN uvec2 sobolSample(uint key, uint index, uint dimension) {
+    return sobolWords(index, hash3(uvec3(key, kSobolKey, dimension)));
+}
+
+// The two words of a dimension; each is uniform over all words, and the point is stratified over the samples of the
+// pixel as the kind of sampler says.
+RT_CALL uvec2 sampleWords(RT_IN(Sampler) s, uint dimension) {
     if (s.kind == kSamplerIndependent) {
-        uvec3 h = hash3(uvec3(s.key, s.index, pair));
+        uvec3 h = hash3(uvec3(s.key, s.index, dimension));
         return uvec2(h.x, h.y);
     }
-    if (s.kind == kSamplerSobol) return sobolPair(s.base + s.index, hash3(uvec3(s.key, kSobolKey, pair)));
+    if (s.kind == kSamplerSobol) return sobolSample(s.key, s.base + s.index, dimension);
     uint cells = s.strataX * s.strataY;
     uint round = s.index / cells;
-    uint cell = permute(s.index % cells, cells, hash3(uvec3(s.key, round, pair)).z);
-    uvec3 h = hash3(uvec3(s.key, s.index, pair));
+    uint cell = permute(s.index % cells, cells, hash3(uvec3(s.key, round, dimension)).z);
+    uvec3 h = hash3(uvec3(s.key, s.index, dimension));
     // In integers, which are the same on every device.
     return uvec2(cell % s.strataX * (0xffffffffu / s.strataX) + h.x / s.strataX,
                  cell / s.strataX * (0xffffffffu / s.strataY) + h.y / s.strataY);
 }
 
-RT_FN vec2 randomPair(RT_IN(Sampler) s, uint pair) {
-    uvec2 words = randomWords(s, pair);
+RT_FN vec2 toUniform2(uvec2 words) {
     return vec2(toUniform(words.x), toUniform(words.y));
 }
 
-// The pairs that nearly every vertex needs.
-struct VertexNumbers {
-    vec2 light;
-    vec2 bsdf;
-    vec2 choice;
-    vec2 select; // Sobol's only
-};
-
-// randomPair() of kPairLight, kPairBsdf and kPairChoice, and of kPairSelect where it costs nothing. Sobol's take one call:
-// C++ compilers work on the pairs side by side.
-RT_CALL VertexNumbers vertexNumbers(RT_IN(Sampler) s, uint vertex) {
-    VertexNumbers numbers;
-    if (s.kind != kSamplerSobol) {
-        numbers.light = randomPair(s, vertexPair(vertex, kPairLight));
-        numbers.bsdf = randomPair(s, vertexPair(vertex, kPairBsdf));
-        numbers.choice = randomPair(s, vertexPair(vertex, kPairChoice));
-        numbers.select = vec2(0.0f, 0.0f);
-        return numbers;
-    }
-    uint first = vertexPair(vertex, 0u);
-    float x[4];
-    float y[4];
-    for (uint i = 0u; i < 4u; i++) {
-        uvec2 words = sobolPair(s.base + s.index, hash3(uvec3(s.key, kSobolKey, first + i)));
-        x[i] = toUniform(words.x);
-        y[i] = toUniform(words.y);
-    }
-    numbers.light = vec2(x[kPairLight], y[kPairLight]);
-    numbers.bsdf = vec2(x[kPairBsdf], y[kPairBsdf]);
-    numbers.choice = vec2(x[kPairChoice], y[kPairChoice]);
-    numbers.select = vec2(x[kPairSelect], y[kPairSelect]);
-    return numbers;
+RT_FN vec2 sample2D(RT_IN(Sampler) s, uint dimension) {
+    return toUniform2(sampleWords(s, dimension));
 }
 
-// First number of the pair, in [0,1), fine near 0.
-RT_FN float randomFine(RT_IN(Sampler) s, uint pair) {
-    uint high = randomWords(s, pair).x;
-    return toFineUniform(high, hash3(uvec3(s.key ^ 0x9e3779b9u, s.base + s.index, pair)).x);
+// First coordinate of a dimension, in [0,1), fine near 0.
+RT_FN float sampleFine(RT_IN(Sampler) s, uint dimension) {
+    uint high = sampleWords(s, dimension).x;
+    return toFineUniform(high, hash3(uvec3(s.key ^ 0x9e3779b9u, s.base + s.index, dimension)).x);
 }
 
 // u, known to lie in [low, high) of a distribution function, stretched to [0,1): reuses a number after a choice.

@@ -37,7 +37,8 @@ RT_FN float square(float x) {
     return x * x;
 }
 
-RT_FN vec3 either(bool first, vec3 a, vec3 b) {
+// `first ? a : b` without a branch, for loops over lanes.
+RT_FN vec3 select(bool first, vec3 a, vec3 b) {
     return vec3(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }
 
@@ -63,9 +64,9 @@ RT_FN vec3 sampleDiskRadius(vec2 u) {
     float a = (2.0f * u.x - 1.0f) + kEpsilon;
     float b = (2.0f * u.y - 1.0f) + kEpsilon;
     bool wide = abs(a) > abs(b);
-    exchangeIf(wide, a, b); // b is the radius
+    conditionalSwap(wide, a, b); // b is the radius
     vec2 sc = sinCosOctant(0.125f * a / b);
-    exchangeIf(wide, sc.x, sc.y);
+    conditionalSwap(wide, sc.x, sc.y);
     return vec3(b * sc.x, b * sc.y, b);
 }
 

@@ -6,10 +6,6 @@
 //   RT_CALL          the same for a function that is worth a call: never inlined in C++.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
-//   RT_LARGE_INOUT(T, x)
-//                    RT_INOUT for x, the first of several parameters, too large to be copied. In GLSL, where parameters are
-//                    copies and compilers inline every call, there is none: functions use the one variable x of the
-//                    invocation, which RT_LARGE_VARIABLE(T, x) declares.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
 #define RT_SHARED_SHIM_H
@@ -43,8 +39,6 @@
 #define RT_IN(T) const T&
 #define RT_INOUT(T) T&
 #define RT_OUT(T) T&
-#define RT_LARGE_INOUT(T, x) T &x,
-#define RT_LARGE_VARIABLE(T, x)
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
 #define RT_PROJECTED // see ProjectedLights.h; C++ compilers drop what a kernel does not use
@@ -96,7 +90,7 @@ RT_FN float uintBitsToFloat(uint x) {
     return std::bit_cast<float>(x);
 }
 // Exchanges a and b where `is` holds. As bits, since a comparison would become a branch that no processor predicts.
-RT_FN void exchangeIf(bool is, float& a, float& b) {
+RT_FN void conditionalSwap(bool is, float& a, float& b) {
     const uint bits = (floatBitsToUint(a) ^ floatBitsToUint(b)) & (0u - uint(is));
     a = uintBitsToFloat(floatBitsToUint(a) ^ bits);
     b = uintBitsToFloat(floatBitsToUint(b) ^ bits);
@@ -122,12 +116,10 @@ RT_SHARED_END
 #define RT_IN(T) T
 #define RT_INOUT(T) inout T
 #define RT_OUT(T) out T
-#define RT_LARGE_INOUT(T, x)
-#define RT_LARGE_VARIABLE(T, x) T x;
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
 
-void exchangeIf(bool is, inout float a, inout float b) {
+void conditionalSwap(bool is, inout float a, inout float b) {
     float first = is ? b : a;
     b = is ? a : b;
     a = first;

@@ -28,7 +28,7 @@ RT_CALL LightSample sampleEllipsoidLight(RT_IN(RenderParams) params, RT_IN(Light
     if (strategy == kStrategyInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
-        EllipsoidHit hit = meetEllipsoid(e, center, s.wi);
+        EllipsoidHit hit = intersectEllipsoid(e, center, s.wi);
         s.distance = hit.distance;
         s.point = position + s.wi * s.distance;
         s.normal = ellipsoidNormal(e, hit.onSphere);

@@ -8,13 +8,13 @@
 RT_SHARED_BEGIN
 
 // Where a ray meets a light: distance (0: nowhere) and the front normal there.
-struct LightCrossing {
+struct LightIntersection {
     float distance;
     vec3 normal;
 };
 
-RT_FN LightCrossing crossSphereLight(RT_IN(Light) light, vec3 position, float time, vec3 wi) {
-    LightCrossing c;
+RT_FN LightIntersection intersectSphereLight(RT_IN(Light) light, vec3 position, float time, vec3 wi) {
+    LightIntersection c;
     c.distance = 0.0f;
     c.normal = -wi;
     vec3 f = position - (light.position + light.edgeU * time);
@@ -31,17 +31,17 @@ RT_FN LightCrossing crossSphereLight(RT_IN(Light) light, vec3 position, float ti
     return c;
 }
 
-RT_FN LightCrossing crossEllipsoidLight(RT_IN(Light) light, vec3 position, vec3 wi) {
+RT_FN LightIntersection intersectEllipsoidLight(RT_IN(Light) light, vec3 position, vec3 wi) {
     Ellipsoid e = ellipsoidOf(light);
-    EllipsoidHit hit = meetEllipsoid(e, toSphere(e, light.position - position), wi);
-    LightCrossing c;
+    EllipsoidHit hit = intersectEllipsoid(e, toSphere(e, light.position - position), wi);
+    LightIntersection c;
     c.distance = max(hit.distance, 0.0f);
     c.normal = ellipsoidNormal(e, hit.onSphere);
     return c;
 }
 
-RT_FN LightCrossing crossFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
-    LightCrossing c;
+RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
+    LightIntersection c;
     c.distance = 0.0f;
     c.normal = light.normal;
     float cosine = dot(light.normal, wi);
@@ -58,14 +58,14 @@ RT_FN LightCrossing crossFlatLight(RT_IN(Light) light, vec3 position, vec3 wi) {
 // Density over solid angle of wi under sampleLight; 0 where wi misses the light.
 RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                           float time, vec3 wi) {
-    LightCrossing c;
+    LightIntersection c;
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
-        c = crossSphereLight(light, position, time, wi);
+        c = intersectSphereLight(light, position, time, wi);
     } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
-        c = crossEllipsoidLight(light, position, wi);
+        c = intersectEllipsoidLight(light, position, wi);
     } else {
         if (!isLit(light, position)) return 0.0f;
-        c = crossFlatLight(light, position, wi);
+        c = intersectFlatLight(light, position, wi);
     }
     if (!(c.distance > 0.0f)) return 0.0f;
     return lightPdf(features, params, light, position, normal, time, wi, c.distance, c.normal);

@@ -41,27 +41,56 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     return choice;
 }
 
-#ifndef RT_PICKS_CONTRIBUTIONS
-// The share u of the way along the contributions of `count` lights, at least one.
+const uint kSumGroup = 8u; // divides kContributionLights
+
+struct GroupWeights {
+    float at[kSumGroup];
+};
+
+// Element k: the sum of `before` and the weights 0 to k of a group, by chains of few additions.
+RT_FN GroupWeights runningSums(RT_IN(GroupWeights) weights, float before) {
+    GroupWeights sums;
+    for (uint k = 0u; k < kSumGroup; k += 4u) {
+        sums.at[k] = weights.at[k];
+        sums.at[k + 1u] = weights.at[k + 1u] + weights.at[k];
+        sums.at[k + 2u] = (weights.at[k + 2u] + weights.at[k + 1u]) + weights.at[k];
+        sums.at[k + 3u] = (weights.at[k + 3u] + weights.at[k + 2u]) + sums.at[k + 1u];
+    }
+    float lowerHalf = sums.at[3];
+    for (uint k = 0u; k < 4u; k++) {
+        sums.at[k] = sums.at[k] + before;
+        sums.at[k + 4u] = (sums.at[k + 4u] + lowerHalf) + before;
+    }
+    return sums;
+}
+
+// The light at the share u of the way along the contributions of `count` lights, at least one.
 RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
     LightWeights weights;
     LightWeights sums;
     LightPick pick;
     pick.total = 0.0f;
-    for (uint i = 0u; i < count; i++) {
-        weights.weight[i] = lightContribution(loadLightBound(scene, i), position, normal);
-        pick.total += weights.weight[i];
-        sums.weight[i] = pick.total;
+    for (uint first = 0u; first < count; first += kSumGroup) {
+        GroupWeights group;
+        for (uint k = 0u; k < kSumGroup; k++) {
+            group.at[k] = 0.0f;
+            if (first + k < count) {
+                group.at[k] = lightContribution(loadLightBound(scene, first + k), position, normal);
+            }
+            weights.weight[first + k] = group.at[k];
+        }
+        group = runningSums(group, pick.total);
+        for (uint k = 0u; k < kSumGroup; k++) sums.weight[first + k] = group.at[k];
+        pick.total = group.at[kSumGroup - 1u];
     }
-    float place = u * pick.total;
-    uint passed = 0u;
-    for (uint i = 0u; i < count; i++) passed += sums.weight[i] <= place ? 1u : 0u;
-    pick.light = min(passed, count - 1u);
+    // The first light whose sum is beyond the target.
+    float target = u * pick.total;
+    pick.light = count - 1u;
+    for (uint i = count - 1u; i > 0u; i--) pick.light = target < sums.weight[i - 1u] ? i - 1u : pick.light;
     pick.weight = weights.weight[pick.light];
-    pick.beyond = sums.weight[pick.light] - place;
+    pick.beyond = sums.weight[pick.light] - target;
     return pick;
 }
-#endif
 
 RT_FN LightChoice noLightChoice() {
     LightChoice choice;
@@ -81,28 +110,33 @@ RT_FN LightChoice choiceOf(RT_IN(LightPick) pick) {
     return choice;
 }
 
-// In proportion to the contributions of a short table.
-RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
-    if (count == 0u) return noLightChoice();
-    LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
-    context.total = pick.total;
-    return choiceOf(pick);
-}
-
-// Chooses among the lights proper by u.x, or in a tree by both numbers, and completes `context` with what
-// lightProbability needs.
-RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
-    context.total = 0.0f;
-    if (count > 0u && context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
-    if (count > 0u && context.policy == kSelectUniform) return chooseUniformly(count, u.x);
-    if (!usesLightTree(features, count)) return chooseByContribution(scene, count, u.x, context);
-    TreeChoice drawn = chooseFromTree(scene, u, context.position, context.normal);
-    context.total = drawn.total;
+// Of a light from the tree; the descent used up both coordinates of the sample.
+RT_FN LightChoice choiceOf(RT_IN(TreeChoice) drawn) {
     LightChoice choice;
     choice.light = drawn.light;
     choice.probability = drawn.probability;
     choice.u = 0.0f;
     return choice;
+}
+
+// In proportion to the contributions of a short table, not empty.
+RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_INOUT(LightContext) context) {
+    LightPick pick = pickContribution(scene, count, context.position, context.normal, u);
+    context.total = pick.total;
+    return choiceOf(pick);
+}
+
+// Chooses among the lights proper by u.x, or in a tree by both coordinates, and completes `context` with what
+// lightProbability needs.
+RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
+    context.total = 0.0f;
+    if (count == 0u) return noLightChoice();
+    if (context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
+    if (context.policy == kSelectUniform) return chooseUniformly(count, u.x);
+    if (!usesLightTree(features, count)) return chooseByContribution(scene, count, u.x, context);
+    TreeChoice drawn = chooseFromTree(scene, u, context.position, context.normal);
+    context.total = drawn.total;
+    return choiceOf(drawn);
 }
 
 // Probability with which chooseLight picks `light` in this context.

@@ -49,27 +49,27 @@ struct TreeChoice {
     float total; // weight of the root: 0 where no light at all can contribute
 };
 
-// On the way from the root to a light. Uses the numbers one after the other: each is stretched by choices until a thousandth
-// is left of it, then the next one serves; after both, hashes of them.
+// On the way from the root to a light. Uses the coordinates of a 2D sample one after the other: each is stretched by
+// choices until a thousandth is left of it, then the next one serves; after both, hashes of them.
 struct TreeDescent {
     uint child; // as in LightNode; kNone: it has ended where no light can contribute
     float probability;
     float total; // as in TreeChoice
     float u;
     float left;
-    uint used; // numbers
-    vec2 numbers;
+    uint used; // coordinates of `selection`
+    vec2 selection;
 };
 
-RT_FN TreeDescent beginDescent(vec2 numbers) {
+RT_FN TreeDescent beginDescent(vec2 selection) {
     TreeDescent d;
     d.child = 0u;
     d.probability = 1.0f;
     d.total = 0.0f;
-    d.u = numbers.x;
+    d.u = selection.x;
     d.left = 1.0f;
     d.used = 0u;
-    d.numbers = numbers;
+    d.selection = selection;
     return d;
 }
 
@@ -98,9 +98,9 @@ RT_FN void descend(SceneRef scene, vec3 position, vec3 normal, RT_INOUT(TreeDesc
     if (d.left < 1.0e-3f) {
         d.used++;
         d.left = 1.0f;
-        d.u = d.numbers.y;
+        d.u = d.selection.y;
         if (d.used > 1u)
-            d.u = toUniform(hash3(uvec3(floatBitsToUint(d.numbers.x), floatBitsToUint(d.numbers.y), d.used)).x);
+            d.u = toUniform(hash3(uvec3(floatBitsToUint(d.selection.x), floatBitsToUint(d.selection.y), d.used)).x);
     }
 }
 
@@ -112,8 +112,8 @@ RT_FN TreeChoice endDescent(RT_IN(TreeDescent) d) {
     return choice;
 }
 
-RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, vec3 normal) {
-    TreeDescent d = beginDescent(numbers);
+RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 selection, vec3 position, vec3 normal) {
+    TreeDescent d = beginDescent(selection);
     while (isAtNode(d)) descend(scene, position, normal, d);
     return endDescent(d);
 }

@@ -18,9 +18,10 @@ RT_FN vec2 spanAbove(float h, float slope) {
     return vec2(slope > 0.0f ? zero : 0.0f, slope < 0.0f ? zero : 1.0f);
 }
 
-// The part of a quad that can illuminate a surface with this normal, as the smallest parallelogram along its edges around what is
-// above the horizon: its first corner and its extent, in coordinates of the edges. Exact where an edge is parallel to the horizon,
-// as between walls and floors. Worth its cost near a quad alone, where solid angle is sampled.
+// The part of a quad that can illuminate a surface with this normal, as the smallest parallelogram along its edges
+// around what is above the horizon: its first corner and its extent, in coordinates of the edges. Exact where an edge
+// is parallel to the horizon, as between walls and floors. Worth its cost near a quad alone, where solid angle is
+// sampled.
 struct QuadPart {
     vec2 from;
     vec2 size;
@@ -59,8 +60,8 @@ struct QuadView {
     Strip strip;     // of a rectangle, under the automatic method
 };
 
-// Automatic: a rectangle at twice its short edge or farther is sampled as a strip, a nearer one more and more with regard to the
-// cosine. Without a branch but for the method, for loops over lights.
+// Automatic: a rectangle at twice its short edge or farther is sampled as a strip, a nearer one more and more with
+// regard to the cosine. Without a branch but for the method, for loops over lights.
 RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
@@ -74,8 +75,8 @@ RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 pos
     float u2 = dot(light.edgeU, light.edgeU);
     float v2 = dot(light.edgeV, light.edgeV);
     q.swapped = v2 > u2;
-    vec3 longEdge = either(q.swapped, light.edgeV, light.edgeU);
-    vec3 shortEdge = either(q.swapped, light.edgeU, light.edgeV);
+    vec3 longEdge = select(q.swapped, light.edgeV, light.edgeU);
+    vec3 shortEdge = select(q.swapped, light.edgeU, light.edgeV);
     q.strip = makeStrip(q.corner + shortEdge * 0.5f, longEdge, min(u2, v2));
     float shortEdges2 = stripDistance2(q.strip) / (min(u2, v2) * q.strip.inverse);
     // Fading: where the method changes within a pixel, Sobol's points lose what they had gained.
@@ -101,8 +102,8 @@ RT_FN SphericalRectangle rectangleShape(RT_IN(Light) light, vec3 corner) {
     return makeSphericalRectangle(corner, light.edgeU, light.edgeV, light.normal);
 }
 
-// Cosines to the receiver's normal at the corners of a rectangle. Within a rectangle that is cut by the horizon none is so small
-// that the density falls far below the cosine elsewhere.
+// Cosines to the receiver's normal at the corners of a rectangle. Within a rectangle that is cut by the horizon none is
+// so small that the density falls far below the cosine elsewhere.
 RT_FN vec4 cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighting) {
     float x1 = r.x0 + r.width;
     float y1 = r.y0 + r.height;
@@ -117,8 +118,8 @@ RT_FN vec4 cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighti
     return mix(vec4(most), max(cosines, vec4(0.1f * most)), weighting);
 }
 
-// By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly differ. A pdf
-// of 0 if the light is too small for that.
+// By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly
+// differ. A pdf of 0 if the light is too small for that.
 RT_FN LightSample sampleQuadSolidAngle(RT_IN(Light) light, vec3 position, vec3 normal, float weighting, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;

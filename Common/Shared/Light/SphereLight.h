@@ -25,10 +25,10 @@ RT_FN uint sphereLightStrategy(uint features, uint method, RT_IN(Light) light, v
     return d2 <= r2 ? kStrategyInside : strategy;
 }
 
-// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only one form
-// guarantees that, far from it the other is finer.
+// The point of a sample whose direction, distance and normal are known: it must lie on the ray. Near the sphere only
+// one form guarantees that, far from it the other is finer.
 RT_FN vec3 pointOnSphere(float toCenter, vec3 center, float radius, vec3 normal, vec3 onRay) {
-    return either(toCenter < 2.0f * radius, onRay, center + normal * radius);
+    return select(toCenter < 2.0f * radius, onRay, center + normal * radius);
 }
 
 RT_FN LightSample sampleSphereProjected(RT_IN(Light) light, vec3 center, vec3 toCenter, vec3 position, vec3 normal,
@@ -48,14 +48,24 @@ RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, v
     return projectedSphereDensity(toCenter, light.radius, normal, wi) * max(dot(normal, wi), 0.0f);
 }
 
-// The sample of a direction in the cone of a sphere that is seen from outside.
-RT_FN LightSample sampleOfCone(RT_IN(SphereCone) cone, RT_IN(ConeSample) c, float pdf, vec3 center, float radius,
-                               vec3 position) {
+// A sphere from outside: in its cone of directions, or in the ellipse that the cone is as seen along the normal
+// (isCap), for kStrategyVisibleCap. Without a branch that keeps loops over lights from becoming vectors.
+RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, vec3 position, vec3 normal, vec2 u) {
+    SphereCone cone = makeSphereCone(center - position, light.radius);
+    ConeSample c;
+    float pdf;
+    if (isCap) {
+        c = sampleVisibleCap(cone, light.radius, normal, u);
+        pdf = visibleCapPdf(cone, normal, c.direction);
+    } else {
+        c = sampleSphereCone(cone, light.radius, u);
+        pdf = sphereConePdf(cone);
+    }
     LightSample s = noLightSample();
     s.wi = c.direction;
     s.distance = c.distance;
     s.normal = c.normal;
-    s.point = pointOnSphere(cone.distance, center, radius, c.normal, position + c.direction * c.distance);
+    s.point = pointOnSphere(cone.distance, center, light.radius, c.normal, position + c.direction * c.distance);
     s.pdf = pdf;
     return s;
 }
@@ -70,13 +80,7 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     if (has(features, kFeatureProjected) && strategy == kStrategyProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
     } else if (strategy == kStrategySolidAngle || strategy == kStrategyVisibleCap) {
-        SphereCone cone = makeSphereCone(toCenter, radius);
-        if (strategy == kStrategyVisibleCap) {
-            ConeSample c = sampleVisibleCap(cone, radius, normal, u);
-            s = sampleOfCone(cone, c, visibleCapPdf(cone, normal, c.direction), center, radius, position);
-        } else {
-            s = sampleOfCone(cone, sampleSphereCone(cone, radius, u), sphereConePdf(cone), center, radius, position);
-        }
+        s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, position, normal, u);
     } else if (strategy == kStrategyInside) {
         vec4 w = sampleInside(normal, u);
         s.wi = vec3(w);
@@ -103,7 +107,8 @@ RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
-    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be inside.
+    // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be
+    // inside.
     if ((dot(lightNormal, wi) > 0.0f) != (strategy == kStrategyInside)) return 0.0f;
     if (has(features, kFeatureProjected) && strategy == kStrategyProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);

@@ -52,7 +52,7 @@ RT_FN float lengthWithin(vec2 interval, float tMax) {
     return max(min(interval.y, tMax) - max(interval.x, 0.0f), 0.0f);
 }
 
-// Distance to the next collision in a medium without end; u in [0,1), fine near 0 (randomFine): thin media need its
+// Distance to the next collision in a medium without end; u in [0,1), fine near 0 (sampleFine): thin media need its
 // bits.
 RT_FN float sampleFreeFlight(float u, float extinction) {
     return -log1p(-u) / extinction;

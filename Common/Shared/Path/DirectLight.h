@@ -1,8 +1,10 @@
-// Next-event estimation: a light that is chosen and sampled from a vertex, and the shadow ray that finds whether it arrives.
+// Next-event estimation: a light that is chosen and sampled from a vertex, and the shadow ray that finds whether it
+// arrives.
 #ifndef RT_SHARED_DIRECT_LIGHT_H
 #define RT_SHARED_DIRECT_LIGHT_H
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Path/Emission.h"
+#include "Common/Shared/Path/PathSamples.h"
 #include "Common/Shared/Path/Vertex.h"
 
 RT_SHARED_BEGIN
@@ -19,11 +21,22 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     return transmittance(depth);
 }
 
-// The numbers that choose the light: the first of the pair that also places the point, unless there are so many lights
-// that the choice would use up its bits.
-RT_FN vec2 selectionNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v) {
-    if (!usesLightTree(features, globals.lightCount)) return v.numbers.light;
-    return smp.kind == kSamplerSobol ? v.numbers.select : randomPair(smp, vertexPair(v.index, kPairSelect));
+// Whether a light is chosen and sampled at v, whose light is added if it arrives.
+RT_FN bool usesNextEventEstimation(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+                                   RT_IN(Vertex) v) {
+    return has(features, kFeatureLights) && usesMis(params) && globals.lightCount > 0u && !isDeltaVertex(features, v);
+}
+
+// The sample that chooses the light: the one whose second coordinate also places the point on it, unless there are so
+// many lights that the choice would use up its bits.
+RT_FN vec2 selectionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(VertexSamples) u) {
+    return usesLightTree(features, globals.lightCount) ? u.selection : u.light;
+}
+
+// The sample that places the point on the light: in its first coordinate what the choice from a short table left of it.
+RT_FN vec2 positionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice,
+                          RT_IN(VertexSamples) u) {
+    return usesLightTree(features, globals.lightCount) ? u.light : vec2(choice.u, u.light.y);
 }
 
 // Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
@@ -44,8 +57,8 @@ RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderP
     return sampled;
 }
 
-// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound made of
-// the light's coordinates when the light is far from the shading point but not from the origin.
+// Shadow rays end by this fraction early: a parameter t is known to a few roundings of itself, which exceeds any bound
+// made of the light's coordinates when the light is far from the shading point but not from the origin.
 const float kShadowMargin = 32.0f * kEpsilon;
 
 RT_FN DirectLight noDirectLight() {
@@ -56,13 +69,13 @@ RT_FN DirectLight noDirectLight() {
     return direct;
 }
 
-// What a sample of a light that was chosen with `probability` brings to a path of this throughput, weighed against the bsdf's
-// density. Without a branch, for loops over samples.
+// The contribution of a light that was chosen with `probability` and sampled, to a path of this throughput that
+// scatters at v, weighed against the bsdf's density. Without a branch, for loops over samples.
 RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, RT_IN(LightSample) sampled,
                               RT_IN(Vertex) v, vec3 throughput) {
     vec4 f = evalScattering(features, v, sampled.wi);
-    vec3 contribution = throughput * vec3(f) * sampled.radiance;
-    float brought = sampled.pdf > 0.0f ? maxComponent(contribution) : 0.0f;
+    vec3 unweighted = throughput * vec3(f) * sampled.radiance;
+    float contribution = sampled.pdf > 0.0f ? maxComponent(unweighted) : 0.0f;
     // The weight and the division by the light's own density are one division.
     float density = probability * sampled.pdf;
     float scattering = params.lightSampling == kSampleMisBalance ? f.w : f.w * (f.w / density);
@@ -70,30 +83,26 @@ RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float p
     // to be excluded.
     vec3 end = offsetOrigin(sampled.point, sampled.error, sampled.normal, -sampled.wi);
     vec3 segment = end - v.origin;
-    float whole = length(segment);
+    float segmentLength = length(segment);
     // Closer than rounding can tell apart nothing fits in between.
-    float distance = dot(segment, sampled.wi) > 0.0f ? whole * (1.0f - kShadowMargin) : 0.0f;
+    float distance = dot(segment, sampled.wi) > 0.0f ? segmentLength * (1.0f - kShadowMargin) : 0.0f;
     bool isSky = has(features, kFeatureSkyImage) && sampled.distance == kInfinity;
     DirectLight direct;
-    direct.radiance = either(brought > 0.0f, contribution * (1.0f / (density + scattering)), vec3(0.0f));
-    direct.direction = either(isSky, sampled.wi, segment / whole);
+    direct.radiance = select(contribution > 0.0f, unweighted * (1.0f / (density + scattering)), vec3(0.0f));
+    direct.direction = select(isSky, sampled.wi, segment / segmentLength);
     distance = isSky ? kInfinity : distance;
-    direct.distance = brought > 0.0f ? distance : 0.0f;
+    direct.distance = contribution > 0.0f ? distance : 0.0f;
     return direct;
 }
 
-// The number that chooses a light of a short table is the first of those that sample it.
-RT_FN vec2 sampleNumbers(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice, RT_IN(Vertex) v) {
-    return usesLightTree(features, globals.lightCount) ? v.numbers.light : vec2(choice.u, v.numbers.light.y);
-}
-
-// Next-event estimation with the light that was chosen: one sample, one shadow ray.
+// Next-event estimation at v with the light that was chosen: one sample, one shadow ray.
 RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
-                                    RT_IN(LightChoice) choice, RT_IN(Vertex) v, RT_IN(PathState) s) {
+                                    RT_IN(LightChoice) choice, RT_IN(Vertex) v, RT_IN(VertexSamples) u,
+                                    RT_IN(PathState) s) {
     if (choice.light == kNone) return noDirectLight();
     RT_IN(Light) light = loadLight(scene, choice.light);
-    vec2 u = sampleNumbers(features, loadGlobals(scene), choice, v);
-    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, u);
+    vec2 position = positionSample(features, loadGlobals(scene), choice, u);
+    LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, position);
     return weighSample(features, params, choice.probability, sampled, v, s.throughput);
 }
 

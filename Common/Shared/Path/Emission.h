@@ -1,4 +1,4 @@
-// Light that a path meets, weighed against the light sampling of the vertex before.
+// Emission that the ray of a path hits, weighed against the light sampling of the vertex before.
 #ifndef RT_SHARED_EMISSION_H
 #define RT_SHARED_EMISSION_H
 #include "Common/Shared/Light/LightSelection.h"
@@ -13,7 +13,7 @@ RT_FN bool usesMis(RT_IN(RenderParams) params) {
     return params.lightSampling >= kSampleMis;
 }
 
-// Weight of emission that a bsdf-sampled ray met, against next-event estimation with density lightDensity.
+// Weight of emission that a bsdf-sampled ray hit, against next-event estimation with density lightDensity.
 RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDensity) {
     if (!usesMis(params) || pdf == 0.0f) return 1.0f;
     return params.lightSampling == kSampleMisBalance ? balanceHeuristic(pdf, lightDensity)

@@ -6,6 +6,29 @@
 
 RT_SHARED_BEGIN
 
+// Whether the direction in which v scatters is drawn from the mixture.
+RT_FN bool usesMixture(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals, RT_IN(Vertex) v) {
+    return has(features, kFeatureMixture) && has(features, kFeatureLights | kFeatureTargets) &&
+           params.lightSampling == kSampleMixture && globals.lightCount + globals.targetCount > 0u &&
+           !isDeltaVertex(features, v);
+}
+
+// Share of the importance targets among all that the mixture's half for lights chooses from.
+RT_FN float targetShare(RT_IN(SceneGlobals) globals) {
+    return float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
+}
+
+// The sample that chooses among the lights proper: of the mixture's the part that does not choose a target. (The light
+// is chosen even when a target is sampled, since the density of the direction sums over all of them.)
+RT_FN vec2 lightSelectionSample(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+                                RT_IN(VertexSamples) u) {
+    vec2 selection = selectionSample(features, globals, u);
+    if (has(features, kFeatureMixture) && params.lightSampling == kSampleMixture) {
+        selection.x = stretch(selection.x, targetShare(globals), 1.0f);
+    }
+    return selection;
+}
+
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
 RT_FN float mixtureProbability(uint features, SceneRef scene, RT_IN(SceneGlobals) globals, uint i,
                                RT_IN(LightContext) context) {
@@ -32,38 +55,44 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
     return sum;
 }
 
-// Chooses a light or a target and a direction to it; a pdf of 0 where there is none.
-RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
-                                     RT_IN(SceneGlobals) globals, RT_IN(Sampler) smp, RT_IN(Vertex) v, float time,
-                                     RT_INOUT(LightContext) context) {
-    vec2 pick = selectionNumbers(features, globals, smp, v);
-    float split = float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
-    // The context is completed even when a target is chosen: the density of the direction sums over all of them.
-    vec2 rest = vec2(stretch(pick.x, split, 1.0f), pick.y);
-    LightChoice choice = chooseLight(features, scene, globals.lightCount, rest, context);
-    if (pick.x < split) {
-        float position = pick.x / split * float(globals.targetCount);
+// The light or target that the mixture samples, given the light that was chosen.
+RT_FN LightChoice mixtureChoice(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light,
+                                RT_IN(VertexSamples) u) {
+    LightChoice choice = light;
+    float pick = selectionSample(features, globals, u).x;
+    float share = targetShare(globals);
+    if (pick < share) {
+        float position = pick / share * float(globals.targetCount);
         uint target = min(uint(position), globals.targetCount - 1u);
         choice.light = globals.lightCount + target;
         choice.u = clamp(position - float(target), 0.0f, 0.999999940395355f);
     }
-    if (choice.light == kNone) return noLightSample();
-    vec2 u = sampleNumbers(features, globals, choice, v);
-    return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, u);
+    return choice;
 }
 
-// Replaces the bsdf's direction by that of the one-sample mixture: half from the lights, half from the bsdf.
-RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                               RT_IN(Vertex) v, RT_IN(BsdfSample) b, float time, RT_INOUT(LightContext) context) {
+// Samples a direction to a light or target; a pdf of 0 where there is none.
+RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+                                     RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light, RT_IN(Vertex) v,
+                                     RT_IN(VertexSamples) u, float time) {
+    LightChoice choice = mixtureChoice(features, globals, light, u);
+    if (choice.light == kNone) return noLightSample();
+    vec2 position = positionSample(features, globals, choice, u);
+    return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, position);
+}
+
+// Replaces b, the bsdf's sample, by that of the one-sample mixture: half from the lights, half from the bsdf. `light`
+// was chosen in this context by lightSelectionSample().
+RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(LightChoice) light,
+                               RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_IN(BsdfSample) b, float time,
+                               RT_IN(LightContext) context) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
-    if (globals.lightCount + globals.targetCount == 0u) return b;
-    LightSample sampled = sampleMixtureLight(features, scene, params, globals, smp, v, time, context);
     // Where no light can contribute and there is no target, the lights' half of the mixture would be empty.
     bool lightless = context.policy == kSelectContribution && !(context.total > 0.0f);
     if (lightless && globals.targetCount == 0u) return b;
     BsdfSample mixed = b;
     mixed.weight = vec3(0.0f, 0.0f, 0.0f);
-    if (v.numbers.choice.y < 0.5f) {
+    if (u.roulette.y < 0.5f) {
+        LightSample sampled = sampleMixtureLight(features, scene, params, globals, light, v, u, time);
         if (!(sampled.pdf > 0.0f)) return mixed;
         mixed.wi = sampled.wi;
     }

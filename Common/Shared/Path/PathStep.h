@@ -1,13 +1,20 @@
-// One vertex of a path: emission, next-event estimation, scattering, roulette. Both engines run this very code; the loop
-// around it is theirs.
+// A path, vertex by vertex. Each vertex goes through these stages:
 //
-//        ray           pathVertex
-//   o---------->x   emission weighed against the light sampling of the vertex before
-//               |\__ one shadow ray to a chosen light          (mis)
-//               v    next ray from the bsdf, or from a light   (mixture)
+//   arrive                 collision in a medium, emission weighed against the light sampling of the vertex before,
+//                          surface
+//   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
+//   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
+//   scatter                the bsdf's sample, or the mixture's in its place
+//   go on                  throughput, next ray, roulette
 //
-// The engine traces. For each step it finds the nearest hit of PathState::ray, calls pathVertex, and looks whether anything
-// lies in the way of the shadow ray that the step may leave.
+//        ray            vertex
+//   o---------->x   arrive
+//               |\__ shadow ray to the chosen light      (mis)
+//               v    next ray, by the bsdf or to a light (mixture)
+//
+// The engines trace: the nearest hit of PathState::ray before a vertex is arrived at, and whether anything lies in the
+// way of the shadow ray that it leaves. stepPath() strings the stages together for one path; the CPU does so for a
+// packet of paths.
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
@@ -17,20 +24,21 @@ RT_SHARED_BEGIN
 
 const float kLeastSurvival = 0.05f; // of the roulette: bounds what a path may weigh
 
-// The path of a sample, given randomPair(smp, kPairPixel).
-RT_FN PathState startPath(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, RT_IN(Sampler) smp,
-                          uvec2 pixel, vec2 pixelNumbers) {
-    vec2 lens = vec2(0.5f, 0.5f);
-    if (has(features, kFeatureThinLens)) lens = randomPair(smp, kPairLens);
-    float time = 0.0f;
-    if (has(features, kFeatureMotion)) time = randomPair(smp, kPairTime).x;
+// The ray of a sample from the camera.
+RT_FN Ray cameraRay(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, uvec2 pixel,
+                    RT_IN(CameraSamples) u) {
+    return generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), u.pixel, u.lens, u.time.x);
+}
+
+// The path that begins with a camera ray.
+RT_FN PathState startPath(RT_IN(Ray) ray) {
     PathState s;
-    s.ray = generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), pixelNumbers, lens, time);
+    s.ray = ray;
     s.throughput = vec3(1.0f, 1.0f, 1.0f);
     s.radiance = vec3(0.0f, 0.0f, 0.0f);
     s.pdf = 0.0f;
     s.vertex = 0u;
-    s.last.position = s.ray.origin;
+    s.last.position = ray.origin;
     s.last.normal = vec3(0.0f, 0.0f, 0.0f);
     s.last.total = 0.0f;
     s.last.policy = kSelectUniform;
@@ -51,7 +59,7 @@ RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sa
         float entry = max(span.x, 0.0f);
         float leave = min(span.y, nearest);
         if (!(entry < leave)) continue;
-        float u = randomFine(smp, vertexPair(vertex, kPairMedium) + (i << 16u));
+        float u = sampleFine(smp, vertexDimension(vertex, kDimensionMedium) + (i << 16u));
         float t = entry + sampleFreeFlight(u, candidate.extinction);
         if (t < leave) {
             nearest = t;
@@ -61,67 +69,13 @@ RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sa
     return nearest;
 }
 
-// Whether lights are sampled from v.
-RT_FN bool isLitByLights(uint features, RT_IN(Vertex) v) {
-    return has(features, kFeatureLights | kFeatureTargets) && !isDeltaVertex(features, v);
-}
-
-// Continues the path from v into the direction b. False: it ends here.
-RT_FN bool follow(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
-    s.throughput *= b.weight;
-    float strongest = maxComponent(s.throughput);
-    if (!(strongest > 0.0f)) return false;
-    if (v.inMedium == 0u) {
-        // A sample that leaks through the geometric surface is black.
-        float side = dot(b.wi, v.normal);
-        if (b.transmitted != 0u ? !(side < 0.0f) : !(side > 0.0f)) return false;
-        s.ray.origin = b.transmitted != 0u ? offsetOrigin(v.position, v.error, v.normal, b.wi) : v.origin;
-    } else {
-        s.ray.origin = v.origin;
-    }
-    s.ray.direction = b.wi;
-    s.pdf = b.delta != 0u ? 0.0f : b.pdf;
-    if (params.russianRoulette != 0u && v.index > 0u) {
-        float survival = clamp(float(params.russianRoulette) * strongest, kLeastSurvival, 1.0f);
-        if (v.numbers.choice.x >= survival) return false;
-        s.throughput /= survival;
-    }
-    return true;
-}
-
-// Next-event estimation at v, and the continuation of the path. False: it ends here. Either way `direct` may be left to be
-// checked.
-RT_FN bool scatter(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Vertex) v,
-                   RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
-    bool lights = isLitByLights(features, v);
-    if (lights && usesMis(params)) {
-        RT_IN(SceneGlobals) globals = loadGlobals(scene);
-        vec2 u = selectionNumbers(features, globals, smp, v);
-        LightChoice choice = chooseLight(features, scene, globals.lightCount, u, s.last);
-        direct = sampleDirectLight(features, scene, params, choice, v, s);
-        addUnshadowed(direct, s);
-    }
-    BsdfSample b = sampleScattering(features, v, v.numbers.bsdf);
-    if (has(features, kFeatureMixture) && lights && params.lightSampling == kSampleMixture) {
-        b = sampleMixture(features, scene, params, smp, v, b, s.ray.time, s.last);
-    }
-    return follow(params, v, b, s);
-}
-
-// Added to `features` by those who go on from the vertex themselves.
-const uint kVertexOnly = 1u << kFeatureBits;
-
-// Advances the path by one vertex, given what s.ray meets and vertexNumbers(smp, s.vertex). False: it has ended, and s.radiance
-// is its estimate once `direct`, which the caller sets to noDirectLight(), has been added if it arrives. With kVertexOnly it
-// only gets to the vertex, which is v, and does not read the numbers.
-RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, RT_IN(RenderParams) params,
-                      RT_IN(Sampler) smp, RT_IN(VertexNumbers) numbers, RT_IN(Hit) hit, RT_INOUT(PathState) s,
-                      RT_INOUT(DirectLight) direct) {
+// Arrives at the next vertex of the path, v, given what s.ray hits. False: the path has ended.
+RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+                  RT_INOUT(PathState) s, RT_OUT(Vertex) v) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
     s.vertex++;
-    RT_LARGE_VARIABLE(Vertex, v)
     if (has(features, kFeatureVolumes) && medium != kNone) {
         if (s.vertex >= params.maxDepth) return false;
         placeInMedium(features, scene, s, t, medium, v);
@@ -137,9 +91,55 @@ RT_FN bool pathVertex(RT_LARGE_INOUT(Vertex, v) uint features, SceneRef scene, R
         placeOnSurface(features, scene, s, surface, material, v);
     }
     s.last = lightContext(params, v);
-    if (has(features, kVertexOnly)) return true;
-    v.numbers = numbers;
-    return scatter(features, scene, params, smp, v, s, direct);
+    return true;
+}
+
+// Goes on from v into the direction that b sampled; `survival` decides the roulette. False: the path ends here.
+RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
+                RT_INOUT(PathState) s) {
+    s.throughput *= b.weight;
+    float strongest = maxComponent(s.throughput);
+    if (!(strongest > 0.0f)) return false;
+    if (v.inMedium == 0u) {
+        // A sample that leaks through the geometric surface is black.
+        float side = dot(b.wi, v.normal);
+        if (b.transmitted != 0u ? !(side < 0.0f) : !(side > 0.0f)) return false;
+        s.ray.origin = b.transmitted != 0u ? offsetOrigin(v.position, v.error, v.normal, b.wi) : v.origin;
+    } else {
+        s.ray.origin = v.origin;
+    }
+    s.ray.direction = b.wi;
+    s.pdf = b.delta != 0u ? 0.0f : b.pdf;
+    if (params.russianRoulette != 0u && v.index > 0u) {
+        float probability = clamp(float(params.russianRoulette) * strongest, kLeastSurvival, 1.0f);
+        if (survival >= probability) return false;
+        s.throughput /= probability;
+    }
+    return true;
+}
+
+// All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
+// `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
+RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
+    Vertex v;
+    if (!arrive(features, scene, params, smp, hit, s, v)) return false;
+    VertexSamples u = vertexSamples(features, smp, v.index);
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
+    bool nextEvent = usesNextEventEstimation(features, params, globals, v);
+    bool mixture = usesMixture(features, params, globals, v);
+    LightChoice choice = noLightChoice();
+    if (nextEvent || mixture) {
+        vec2 selection = lightSelectionSample(features, params, globals, u);
+        choice = chooseLight(features, scene, globals.lightCount, selection, s.last);
+    }
+    if (nextEvent) {
+        direct = sampleDirectLight(features, scene, params, choice, v, u, s);
+        addUnshadowed(direct, s);
+    }
+    BsdfSample b = sampleScattering(features, v, u.bsdf);
+    if (mixture) b = sampleMixture(features, scene, params, choice, v, u, b, s.ray.time, s.last);
+    return goOn(params, v, b, u.roulette.x, s);
 }
 
 RT_SHARED_END

@@ -2,7 +2,6 @@
 #ifndef RT_SHARED_VERTEX_H
 #define RT_SHARED_VERTEX_H
 #include "Common/Shared/Base/Features.h"
-#include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Material/Bsdf.h"
 #include "Common/Shared/Shape/Surface.h"
 #include "Common/Shared/Texture/Textures.h"
@@ -22,7 +21,6 @@ struct Vertex {
     vec3 position;
     vec3 error;  // of position, per axis
     vec3 origin; // where rays on wo's side start
-    VertexNumbers numbers;
 };
 
 RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint texture, vec3 position, vec2 uv) {
@@ -43,7 +41,7 @@ RT_FN Material blackMaterial() {
     return m;
 }
 
-// Sets all of v but its numbers.
+// The vertex of a collision in medium `index` at the distance t along the path's ray.
 RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index, RT_OUT(Vertex) v) {
     RT_IN(Medium) medium = loadMedium(scene, index);
     v.index = s.vertex - 1u;
@@ -59,7 +57,7 @@ RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, floa
     v.albedo = texturedAlbedo(features, scene, medium.albedo, medium.texture, v.position, vec2(0.0f, 0.0f));
 }
 
-// The same.
+// The vertex on a surface that the path's ray hit.
 RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
                           RT_IN(Material) material, RT_OUT(Vertex) v) {
     v.index = s.vertex - 1u;

@@ -136,7 +136,7 @@ struct EllipsoidHit {
 };
 
 // `center`: from the ray's origin, in the sphere's space; wi in the world. From inside, the far side.
-RT_FN EllipsoidHit meetEllipsoid(RT_IN(Ellipsoid) e, vec3 center, vec3 wi) {
+RT_FN EllipsoidHit intersectEllipsoid(RT_IN(Ellipsoid) e, vec3 center, vec3 wi) {
     Ray ray;
     ray.origin = -center;
     ray.direction = toSphere(e, wi);

@@ -74,7 +74,7 @@ RT_FN vec3 hemisphereVector(RT_INOUT(Arguments) a, vec3 n) {
 RT_FN uvec4 probeSampler(uint i) {
     RenderParams params = probeParams(kShapeAuto);
     params.samplerKind = i % 4u;
-    uvec2 words = randomWords(makeSampler(params, i / 4u, i & 1u, i & 255u), i & 15u);
+    uvec2 words = sampleWords(makeSampler(params, i / 4u, i & 1u, i & 255u), i & 15u);
     return uvec4(words.x, words.y, 0u, 0u);
 }
 
@@ -249,7 +249,7 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
 RT_FN uvec4 probeNumbers(RT_INOUT(Arguments) a, uint which, uint i) {
     if (which == kProbeHash) return uvec4(hash3(uvec3(i, 3u, 5u)), owenScramble(i, hash1(i)));
     if (which == kProbePermute)
-        return uvec4(permute(i % 977u, 977u, hash1(i)), sobolPair(i, uvec3(i, 11u, 13u)), hash1(i));
+        return uvec4(permute(i % 977u, 977u, hash1(i)), sobolWords(i, uvec3(i, 11u, 13u)), hash1(i));
     if (which == kProbeSampler) return probeSampler(i);
     return which <= kProbeSrgb ? probeElementary(a, which) : probeSampling(a, which);
 }

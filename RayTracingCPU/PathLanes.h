@@ -1,0 +1,88 @@
+// What sixteen paths hold between the stages of an iteration. Included by one translation unit per instruction set;
+// everything here has internal linkage.
+#pragma once
+#include "Common/Shared/Path/PathStep.h"
+#include "RayTracingCPU/Lanes.h"
+#include "RayTracingCPU/SceneAccess.h"
+
+RT_SHARED_BEGIN
+
+template <>
+struct FieldsOf<Ray> : Fields<FieldList<&Ray::origin, &Ray::direction, &Ray::time>> {};
+
+template <>
+struct FieldsOf<Sampler> : Fields<FieldList<&Sampler::kind, &Sampler::key, &Sampler::index, &Sampler::base,
+                                            &Sampler::strataX, &Sampler::strataY>> {};
+
+template <>
+struct FieldsOf<CameraSamples> : Fields<FieldList<&CameraSamples::pixel, &CameraSamples::lens, &CameraSamples::time>> {
+};
+
+template <>
+struct FieldsOf<VertexSamples>
+    : Fields<
+          FieldList<&VertexSamples::light, &VertexSamples::bsdf, &VertexSamples::roulette, &VertexSamples::selection>> {
+};
+
+template <>
+struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
+
+// Omitted: what is read at arrival only, to find out how the vertex emits and which albedo it has.
+template <>
+struct FieldsOf<Material> : Fields<FieldList<&Material::kind, &Material::parameter>,
+                                   FieldList<&Material::albedo, &Material::texture, &Material::emission,
+                                             &Material::emissionTexture, &Material::emissionSides>> {};
+
+template <>
+struct FieldsOf<Vertex> : Fields<FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::material,
+                                           &Vertex::normal, &Vertex::shading, &Vertex::wo, &Vertex::albedo,
+                                           &Vertex::position, &Vertex::error, &Vertex::origin>> {};
+
+template <>
+struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoice::probability, &LightChoice::u>> {};
+
+// Omitted: what the choice of a light reads, and the texture of its emission.
+template <>
+struct FieldsOf<Light> : Fields<FieldList<&Light::kind, &Light::position, &Light::edgeU, &Light::edgeV, &Light::normal,
+                                          &Light::radius, &Light::area, &Light::emission, &Light::sides>,
+                                FieldList<&Light::material, &Light::selection, &Light::cdf>> {};
+
+template <>
+struct FieldsOf<LightSample>
+    : Fields<FieldList<&LightSample::wi, &LightSample::distance, &LightSample::pdf, &LightSample::radiance,
+                       &LightSample::point, &LightSample::error, &LightSample::normal, &LightSample::uv>> {};
+
+template <>
+struct FieldsOf<DirectLight>
+    : Fields<FieldList<&DirectLight::radiance, &DirectLight::direction, &DirectLight::distance>> {};
+
+// One record, so that compilers see that its parts do not overlap. Lanes that are not in use are computed like the
+// others, from whatever they hold.
+struct PathLanes {
+    RecordLanes<Sampler> samplers;
+    RecordLanes<Hit> hits; // of the paths' rays
+    RecordLanes<Vertex> vertices;
+    RecordLanes<VertexSamples> u;
+    Vec3Lanes throughput;
+    FloatLanes time;
+    Vec2Lanes selection; // samples that choose a light
+    Vec2Lanes position;  // and that place a point on it
+    RecordLanes<LightChoice> choices;
+    FloatLanes total;          // of LightContext
+    RecordLanes<Light> lights; // that were chosen
+    RecordLanes<LightSample> lightSamples;
+    UintLanes isSampled; // 1: the light's sample is there
+    RecordLanes<DirectLight> direct;
+    Vec3Lanes diffuse; // directions of sampleLambertian(), and their densities
+    FloatLanes diffusePdf;
+};
+
+// Calls work(i) for each lane of `set`, a bit a lane.
+template <class Work>
+RT_FN void eachLane(uint set, const Work& work) {
+    for (uint i = 0u; i < kLanes; ++i) {
+        if ((set >> i & 1u) != 0u) work(i);
+    }
+}
+
+RT_SHARED_END

@@ -1,0 +1,178 @@
+// Paths on the CPU: sixteen of a tile's make a packet and go from vertex to vertex together, and as soon as one ends
+// the next takes its slot. An iteration takes every path through the stages of PathStep.h, one stage after the other
+// for all of them: what is arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one
+// translation unit per instruction set; all it defines has internal linkage.
+#pragma once
+#include "RayTracingCPU/LightLanes.h"
+#include "RayTracingCPU/TileSamples.h"
+
+namespace rt::cpu {
+namespace {
+
+using namespace rt::shared;
+
+// A path under way.
+struct PathSlot {
+    PathState path;
+    uint sample = kNone; // of the tile; kNone: there is no path
+};
+
+// Which of the slots an iteration has to do with, a bit a slot.
+struct ActiveSlots {
+    uint arrived = 0u; // at a vertex
+    uint lit = 0u;     // of these, where a light is chosen
+};
+
+// Where all vertices would scatter if they were Lambertian.
+RT_CALL void sampleDiffuse(PathLanes& lanes) {
+    for (uint i = 0u; i < kLanes; ++i) {
+        const Vertex v = get(lanes.vertices, i);
+        const BsdfSample b = sampleLambertian(v.albedo, v.shading, get(lanes.u, i).bsdf);
+        set(lanes.diffuse, i, b.wi);
+        lanes.diffusePdf.at[i] = b.pdf;
+    }
+}
+
+template <uint kFeatures>
+RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
+    const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
+    if (inMedium || !isLambertian(kFeatures, v.material)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
+    BsdfSample b = absorbed();
+    b.wi = get(lanes.diffuse, i);
+    b.weight = v.albedo;
+    b.pdf = lanes.diffusePdf.at[i];
+    return b;
+}
+
+template <uint kFeatures>
+class PathPacket {
+  public:
+    // radiances: of the tile's samples, in the order of TileSamples.
+    PathPacket(const KernelContext& context, const TileTask& task, vec3* radiances, KernelCounters& counters)
+        : scene_(*context.scene),
+          params_(context.params),
+          cancel_(task.cancel),
+          samples_(context, task),
+          radiances_(radiances),
+          counters_(counters) {}
+
+    // Traces the paths of all samples. False: cancelled.
+    bool trace() {
+        for (;;) {
+            if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return false;
+            const ActiveSlots active = arriveAll();
+            if (active.arrived == 0u) return true;
+            drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
+            if (active.lit != 0u) sampleLights(active.lit);
+            sampleDiffuse(lanes_);
+            eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
+        }
+    }
+
+  private:
+    // Takes every path to its next vertex: one that ends on the way makes room for the next sample's.
+    ActiveSlots arriveAll() {
+        ActiveSlots active;
+        for (uint i = 0u; i < kLanes; ++i) {
+            PathSlot& slot = slots_[i];
+            Vertex v;
+            for (;;) {
+                if (slot.sample == kNone && !begin(slot, i)) break;
+                const Sampler smp = get(lanes_.samplers, i);
+                if (arrive(kFeatures, scene_, params_, smp, get(lanes_.hits, i), slot.path, v)) break;
+                end(slot);
+            }
+            if (slot.sample == kNone) continue;
+            set(lanes_.vertices, i, v);
+            active.arrived |= 1u << i;
+            active.lit |= uint(choosesLight(v)) << i;
+        }
+        return active;
+    }
+
+    // False: there is no sample left.
+    bool begin(PathSlot& slot, uint i) {
+        Ray ray;
+        slot.sample = samples_.template next<kFeatures>(lanes_.samplers, i, ray);
+        if (slot.sample == kNone) return false;
+        slot.path = startPath(ray);
+        set(lanes_.hits, i, traceRay(scene_, slot.path.ray));
+        return true;
+    }
+
+    void end(PathSlot& slot) {
+        radiances_[slot.sample] = slot.path.radiance;
+        counters_.scattered += slot.path.vertex - 1u;
+        slot.sample = kNone;
+    }
+
+    bool choosesLight(const Vertex& v) const {
+        return usesNextEventEstimation(kFeatures, params_, scene_.globals, v) ||
+               usesMixture(kFeatures, params_, scene_.globals, v);
+    }
+
+    // Chooses a light for the paths `lit`, and samples it unless that is left to the mixture.
+    void sampleLights(uint lit) {
+        chooseLights<kFeatures>(scene_, params_, lit, lanes_);
+        eachLane(lit, [&](uint i) {
+            PathState& path = slots_[i].path;
+            path.last.total = lanes_.total.at[i];
+            set(lanes_.throughput, i, path.throughput);
+            lanes_.time.at[i] = path.ray.time;
+        });
+        if (usesMis(params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
+    }
+
+    // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
+    // sampled.
+    void goOnFrom(uint i, bool isLit) {
+        PathSlot& slot = slots_[i];
+        PathState& path = slot.path;
+        const Vertex v = get(lanes_.vertices, i);
+        const VertexSamples u = get(lanes_.u, i);
+        const DirectLight direct = isLit && usesMis(params_) ? get(lanes_.direct, i) : noDirectLight();
+        addUnshadowed(direct, path);
+        BsdfSample b = sampleScattering<kFeatures>(lanes_, i, v);
+        if (has(kFeatures, kFeatureMixture) && isLit && !usesMis(params_)) {
+            const LightChoice choice = get(lanes_.choices, i);
+            b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
+        }
+        if (goOn(params_, v, b, u.roulette.x, path)) {
+            set(lanes_.hits, i, traceOn(direct, path));
+        } else {
+            traceShadow(direct, path);
+            end(slot);
+        }
+    }
+
+    // Adds what the shadow ray of a path that has ended lets through.
+    void traceShadow(const DirectLight& direct, PathState& path) {
+        if (!(direct.distance > 0.0f)) return;
+        ++counters_.shadow;
+        if (!isOccluded(scene_, shadowRay(path, direct), direct.distance)) {
+            addDirectLight(kFeatures, scene_, direct, path);
+        }
+    }
+
+    // What the next ray hits; adds what the shadow ray, if there is one, lets through.
+    Hit traceOn(const DirectLight& direct, PathState& path) {
+        if (!(direct.distance > 0.0f)) return traceRay(scene_, path.ray);
+        ++counters_.shadow;
+        bool isOccluded;
+        const Hit hit = scene_.tracer.both(scene_.accel, path.ray, direct.direction, direct.distance, isOccluded);
+        if (!isOccluded) addDirectLight(kFeatures, scene_, direct, path);
+        return hit;
+    }
+
+    const CpuScene& scene_;
+    const RenderParams& params_;
+    const std::atomic<bool>* cancel_;
+    TileSamples samples_;
+    vec3* radiances_;
+    KernelCounters& counters_;
+    PathSlot slots_[kLanes]{};
+    PathLanes lanes_{};
+};
+
+} // namespace
+} // namespace rt::cpu

@@ -1,0 +1,75 @@
+// The samples of a tile, whose paths begin sixteen at a time. Included by one translation unit per instruction set; all
+// it defines has internal linkage.
+#pragma once
+#include "RayTracingCPU/SampleLanes.h"
+
+namespace rt::cpu {
+namespace {
+
+using namespace rt::shared;
+
+// Camera rays of the samples of a tile, pixel by pixel.
+class TileSamples {
+  public:
+    TileSamples(const KernelContext& context, const TileTask& task)
+        : context_(context), task_(task), count_(task.width * task.height * task.count) {}
+
+    // The index of the next sample, with its sampler and ray. kNone: none is left.
+    template <uint kFeatures>
+    uint next(RecordLanes<Sampler>& samplers, uint lane, Ray& ray) {
+        if (next_ == count_) return kNone;
+        const uint i = next_ % kLanes;
+        if (i == 0u) generateRays<kFeatures>();
+        set(samplers, lane, get(samplers_, i));
+        ray = get(rays_, i);
+        return next_++;
+    }
+
+  private:
+    // Of the samples from next_ on.
+    template <uint kFeatures>
+    void generateRays() {
+        UintLanes x, y;
+        for (uint i = 0u; i < kLanes; ++i) {
+            if (sampleInPixel_ == task_.count) nextPixel();
+            if (sampleInPixel_ == 0u) {
+                const uint index = (task_.y + y_) * context_.params.width + task_.x + x_;
+                first_ = makeSampler(context_.params, index, task_.replicate, task_.first);
+            }
+            Sampler s = first_;
+            s.index += sampleInPixel_++;
+            set(samplers_, i, s);
+            x.at[i] = task_.x + x_;
+            y.at[i] = task_.y + y_;
+        }
+        RecordLanes<CameraSamples> u;
+        const RenderParams params = context_.params; // of this function, so that no lane could overlap them
+        const Camera camera = context_.camera;
+        drawCameraSamples<kFeatures>(samplers_, u);
+        for (uint i = 0u; i < kLanes; ++i) {
+            const uvec2 pixel(x.at[i], y.at[i]);
+            set(rays_, i, cameraRay(kFeatures, params, camera, pixel, get(u, i)));
+        }
+    }
+
+    void nextPixel() {
+        sampleInPixel_ = 0u;
+        if (++x_ < task_.width) return;
+        x_ = 0u;
+        ++y_;
+    }
+
+    const KernelContext& context_;
+    const TileTask& task_;
+    const uint count_;
+    uint next_ = 0u; // sample of the tile
+    uint x_ = 0u;    // of the pixel in the tile
+    uint y_ = 0u;
+    uint sampleInPixel_ = 0u;
+    Sampler first_{}; // of the pixel's samples
+    RecordLanes<Sampler> samplers_;
+    RecordLanes<Ray> rays_;
+};
+
+} // namespace
+} // namespace rt::cpu

@@ -1,0 +1,145 @@
+// The paths of a packet are those of stepPath() alone, bit for bit: shaders compile its text, too.
+#include <bit>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/Accel/CpuAccel.h"
+#include "Common/App/Session/RenderParams.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Json/CameraRecord.h"
+#include "RayTracingCPU/PathPacket.h"
+
+namespace rt::cpu {
+namespace {
+
+constexpr uint kSide = 40;
+
+// A built-in scene as the engine prepares it.
+struct TracedScene {
+    explicit TracedScene(const char* id) : compiled(scene::compileScene(scene::findBuiltinScene(id))) {
+        const scene::CompiledScene& s = *compiled;
+        const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
+                                      s.triangles, s.geometries,    s.instances};
+        accel = accel::CpuAccel::build(input, {}, nullptr);
+        view = CpuScene{viewOf(s, s.globals), accel->view(), {}};
+        view.tracer = accel::rayQuery().tracer(view.accel.kinds);
+    }
+
+    KernelContext context(const app::RenderSettings& settings) const {
+        const Camera camera = scene::makeCamera(compiled->camera, settings.width, settings.height, compiled->origin);
+        return {&view, app::makeRenderParams(*compiled, settings), camera};
+    }
+
+    std::shared_ptr<const scene::CompiledScene> compiled;
+    std::unique_ptr<const accel::CpuAccel> accel;
+    CpuScene view;
+};
+
+vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, KernelCounters& counters) {
+    const CpuScene& scene = *context.scene;
+    PathState path =
+        startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
+    for (bool goesOn = true; goesOn;) {
+        DirectLight direct = noDirectLight();
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, traceRay(scene, path.ray), path, direct);
+        if (!(direct.distance > 0.0f)) continue;
+        ++counters.shadow;
+        if (!isOccluded(scene, shadowRay(path, direct), direct.distance)) {
+            addDirectLight(kFeatureAll, scene, direct, path);
+        }
+    }
+    counters.scattered += path.vertex - 1u;
+    return path.radiance;
+}
+
+std::vector<vec3> traceOneByOne(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
+    std::vector<vec3> radiances;
+    for (uint y = task.y; y < task.y + task.height; ++y) {
+        for (uint x = task.x; x < task.x + task.width; ++x) {
+            for (uint i = 0; i < task.count; ++i) {
+                const Sampler smp =
+                    makeSampler(context.params, y * context.params.width + x, task.replicate, task.first + i);
+                radiances.push_back(tracePath(context, smp, uvec2(x, y), counters));
+            }
+        }
+    }
+    return radiances;
+}
+
+bool isSame(vec3 a, vec3 b) {
+    const auto same = [](float x, float y) { return std::bit_cast<uint>(x) == std::bit_cast<uint>(y); };
+    return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
+}
+
+void comparePaths(const TracedScene& scene, const app::RenderSettings& settings) {
+    const KernelContext context = scene.context(settings);
+    TileTask task;
+    task.x = 11;
+    task.y = 17;
+    task.width = 7;
+    task.height = 6;
+    task.first = 3;
+    task.count = 5; // a batch of camera rays belongs to several pixels
+    KernelCounters expectedCounters;
+    const std::vector<vec3> expected = traceOneByOne(context, task, expectedCounters);
+    KernelCounters counters;
+    std::vector<vec3> radiances(expected.size(), vec3(-1.0f));
+    ASSERT_TRUE(PathPacket<kFeatureAll>(context, task, radiances.data(), counters).trace());
+    for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(isSame(radiances[i], expected[i])) << i;
+    EXPECT_EQ(counters.scattered, expectedCounters.scattered);
+    EXPECT_EQ(counters.shadow, expectedCounters.shadow);
+}
+
+app::RenderSettings smallImage() {
+    app::RenderSettings settings;
+    settings.width = settings.height = kSide;
+    settings.spp = 16;
+    return settings;
+}
+
+// Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky.
+TEST(PathPacket, PathsAreThoseOfStepPath) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
+                           "one-weekend-final", "many-lights", "veach-mis"}) {
+        const TracedScene scene(id);
+        for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
+            SCOPED_TRACE(std::string(id) + ", estimator " + std::to_string(estimator));
+            app::RenderSettings settings = smallImage();
+            settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
+            comparePaths(scene, settings);
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST(PathPacket, WithEverySamplerAndSelection) {
+    const TracedScene scene("cornell-box-lights");
+    for (uint sampler : {kSamplerIndependent, kSamplerStratified, kSamplerSobol, kSamplerSobolBlue}) {
+        for (uint selection : {kSelectUniform, kSelectPower, kSelectContribution}) {
+            SCOPED_TRACE("sampler " + std::to_string(sampler) + ", selection " + std::to_string(selection));
+            app::RenderSettings settings = smallImage();
+            settings.sampler = static_cast<decltype(settings.sampler)>(sampler);
+            settings.lightSelection = static_cast<decltype(settings.lightSelection)>(selection);
+            comparePaths(scene, settings);
+            if (HasFatalFailure()) return;
+        }
+    }
+}
+
+TEST(PathPacket, CancelledPathsAreNotFinished) {
+    const TracedScene scene("cornell-box-lights");
+    const KernelContext context = scene.context(smallImage());
+    const std::atomic<bool> cancel{true};
+    TileTask task;
+    task.width = task.height = task.count = 2;
+    task.cancel = &cancel;
+    KernelCounters counters;
+    vec3 radiances[8];
+    EXPECT_FALSE(PathPacket<kFeatureAll>(context, task, radiances, counters).trace());
+}
+
+} // namespace
+} // namespace rt::cpu
