@@ -1,5 +1,6 @@
 // What holds for every row of the table of materials, whoever adds one: it is sampled as its density says, survives a scene file,
 // and the published schema describes it.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -161,7 +162,11 @@ TEST(MaterialTable, IsTheSchemas) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, Materials, testing::Range(std::size_t{0}, materialTypes().size()),
-                         [](const auto& info) { return std::string(materialTypes()[info.param].name); });
+                         [](const auto& info) {
+                             std::string name = materialTypes()[info.param].name;
+                             std::ranges::replace(name, '-', '_');
+                             return name;
+                         });
 
 } // namespace
 } // namespace rt::scene
