@@ -49,7 +49,7 @@ inline constexpr Named<ShapeSampling> kSphereLights[] = {
     {"area", ShapeSampling::Area, "Area", "on its area"}};
 // Of quads and of triangles.
 inline constexpr Named<ShapeSampling> kFlatLights[] = {
-    {"auto", ShapeSampling::Auto, "Auto", "by distance and shape, see docs/light-sampling.md"},
+    {"auto", ShapeSampling::Auto, "Auto", "area when far, strip when thin, else solid angle"},
     {"solid-angle", ShapeSampling::SolidAngle, "Solid angle", "in the solid angle that it is seen in"},
     {"projected", ShapeSampling::Projected, "Projected solid angle", "in that, weighed by the cosine at the surface"},
     {"area", ShapeSampling::Area, "Area", "on its area"}};
