@@ -32,6 +32,20 @@ constexpr std::uint32_t kMostThreads = 4096;
 constexpr std::uint32_t kMostVertices = 4096;
 constexpr std::uint32_t kMostPixels = 16384; // of a side
 
+// A string as a template argument: functions of an axis have no other way to know its name.
+template <std::size_t N>
+struct Key {
+    char text[N];
+    constexpr Key(const char (&key)[N]) { std::copy_n(key, N, text); }
+};
+
+// The axis of a setting that is one of a table's.
+template <Key kKey, auto kMember, const auto& kTable>
+constexpr Axis method() {
+    return {kKey.text, Says::How, [](const Config& c) { return nameOf(kTable, c.settings.*kMember); },
+            [](Config& c, Text value) { c.settings.*kMember = parseChoice(kKey.text, value, kTable); }};
+}
+
 constexpr Axis kAxes[] = {
     {"scene", Says::Where, [](const Config& c) { return c.scene; }, [](Config& c, Text value) { c.scene = value; }},
     {"engine", Says::Where, [](const Config& c) { return c.engine; }, setEngine},
@@ -43,22 +57,13 @@ constexpr Axis kAxes[] = {
      [](Config& c, Text value) { c.settings.height = parseWhole("height", value, 0, kMostPixels); }},
     {"max_depth", Says::Where, [](const Config& c) { return std::to_string(c.settings.maxDepth); },
      [](Config& c, Text value) { c.settings.maxDepth = parseWhole("max_depth", value, 1, kMostVertices); }},
-    {"light_sampling", Says::How, [](const Config& c) { return nameOf(kLightSamplings, c.settings.lightSampling); },
-     [](Config& c, Text value) { c.settings.lightSampling = parseChoice("light_sampling", value, kLightSamplings); }},
-    {"light_selection", Says::How, [](const Config& c) { return nameOf(kLightSelections, c.settings.lightSelection); },
-     [](Config& c, Text value) {
-         c.settings.lightSelection = parseChoice("light_selection", value, kLightSelections);
-     }},
-    {"sphere_light", Says::How, [](const Config& c) { return nameOf(kSphereLights, c.settings.sphereLight); },
-     [](Config& c, Text value) { c.settings.sphereLight = parseChoice("sphere_light", value, kSphereLights); }},
-    {"quad_light", Says::How, [](const Config& c) { return nameOf(kFlatLights, c.settings.quadLight); },
-     [](Config& c, Text value) { c.settings.quadLight = parseChoice("quad_light", value, kFlatLights); }},
-    {"triangle_light", Says::How, [](const Config& c) { return nameOf(kFlatLights, c.settings.triangleLight); },
-     [](Config& c, Text value) { c.settings.triangleLight = parseChoice("triangle_light", value, kFlatLights); }},
-    {"sampler", Says::How, [](const Config& c) { return nameOf(kSamplers, c.settings.sampler); },
-     [](Config& c, Text value) { c.settings.sampler = parseChoice("sampler", value, kSamplers); }},
-    {"russian_roulette", Says::How, [](const Config& c) { return nameOf(kOnOff, c.settings.russianRoulette); },
-     [](Config& c, Text value) { c.settings.russianRoulette = parseChoice("russian_roulette", value, kOnOff); }},
+    method<"light_sampling", &RenderSettings::lightSampling, kLightSamplings>(),
+    method<"light_selection", &RenderSettings::lightSelection, kLightSelections>(),
+    method<"sphere_light", &RenderSettings::sphereLight, kSphereLights>(),
+    method<"quad_light", &RenderSettings::quadLight, kFlatLights>(),
+    method<"triangle_light", &RenderSettings::triangleLight, kFlatLights>(),
+    method<"sampler", &RenderSettings::sampler, kSamplers>(),
+    method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),
     {"features", Says::How, [](const Config& c) { return nameOf(kFeatures, c.settings.features.has_value()); },
      setFeatures},
 };

@@ -28,16 +28,17 @@ bool checkbox(const char* label, const char* tip, bool& value);
 template <class E, std::size_t N>
 bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], E& value) {
     row(label, tip);
-    const std::string current = app::nameOf(table, value);
+    const std::string current = app::titleOf(table, value);
     bool changed = false;
     ImGui::PushID(label);
     if (ImGui::BeginCombo("##value", current.c_str())) {
         for (const auto& entry : table) {
             const bool selected = entry.value == value;
-            if (ImGui::Selectable(std::string(entry.name).c_str(), selected) && !selected) {
+            if (ImGui::Selectable(app::titleOf(table, entry.value).c_str(), selected) && !selected) {
                 value = entry.value;
                 changed = true;
             }
+            if (entry.help) tooltip(entry.help);
             if (selected) ImGui::SetItemDefaultFocus();
         }
         ImGui::EndCombo();

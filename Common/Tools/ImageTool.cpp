@@ -7,13 +7,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "Common/App/Options/Names.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/Metrics.h"
-#include "Common/Shared/Tonemap.h"
 
 namespace {
 
@@ -33,14 +33,6 @@ constexpr Metric kMetrics[] = {{"mse", &image::ErrorFigures::mse, false},
                                {"relmse", &image::ErrorFigures::relmse, false},
                                {"mae", &image::ErrorFigures::mae, false},
                                {"psnr", &image::ErrorFigures::psnr, true}};
-
-struct Curve {
-    const char* name;
-    std::uint32_t curve;
-};
-
-constexpr Curve kCurves[] = {
-    {"none", shared::kTonemapNone}, {"reinhard", shared::kTonemapReinhard}, {"aces", shared::kTonemapAces}};
 
 struct Arguments {
     std::string a, b;
@@ -104,7 +96,8 @@ int convert(const Arguments& arguments) {
     if (arguments.exposure != 0 || arguments.tonemap != "none") {
         if (!image::isDisplayReferred(arguments.b))
             throw UsageError(arguments.b + ": --exposure and --tonemap are for .png only");
-        rows = image::toDisplay(image, arguments.exposure, rowOf(kCurves, arguments.tonemap).curve);
+        rows = image::toDisplay(image, arguments.exposure,
+                                static_cast<std::uint32_t>(rowOf(app::kTonemaps, arguments.tonemap).value));
     }
     image::writeImage(arguments.b, rows);
     return static_cast<int>(ExitCode::Done);
@@ -132,7 +125,7 @@ int run(int argc, char** argv) {
     converts->add_option("A", arguments.a)->required();
     converts->add_option("B", arguments.b)->required();
     converts->add_option("--exposure", arguments.exposure, "Stops");
-    converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(kCurves)));
+    converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(app::kTonemaps)));
 
     try {
         app.parse(argc, argv);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "Common/App/Options/Names.h"
 #include "Common/Bench/Stability.h"
 #include "tests/image/AnalyticScenes.h"
 
@@ -19,12 +20,9 @@ app::RenderSettings smallSettings(std::uint32_t side, std::uint32_t spp) {
 }
 
 std::string describe(const app::RenderSettings& settings) {
-    static const char* const kSamplings[] = {"bsdf", "mixture", "mis", "mis-balance"};
-    static const char* const kSelections[] = {"uniform", "power", "contribution"};
-    static const char* const kSamplers[] = {"independent", "stratified", "sobol", "sobol-blue"};
-    return std::string(kSamplings[static_cast<std::size_t>(settings.lightSampling)]) + " " +
-           kSelections[static_cast<std::size_t>(settings.lightSelection)] + " " +
-           kSamplers[static_cast<std::size_t>(settings.sampler)] + " depth " + std::to_string(settings.maxDepth);
+    return app::nameOf(app::kLightSamplings, settings.lightSampling) + " " +
+           app::nameOf(app::kLightSelections, settings.lightSelection) + " " +
+           app::nameOf(app::kSamplers, settings.sampler) + " depth " + std::to_string(settings.maxDepth);
 }
 
 Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Options/Names.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Core/Error.h"
@@ -53,6 +54,14 @@ TEST(BenchSuite, ThePublishedSchemaAgrees) {
     // Every axis is in it.
     for (const Axis& axis : axes())
         EXPECT_TRUE(json["definitions"]["experiment"]["properties"].contains(std::string(axis.name))) << axis.name;
+    // It names what each method may be.
+    app::RenderSettings settings;
+    app::forEachMethod(
+        [&](const char* key, const char*, const char*, const auto& table, auto&) {
+            EXPECT_EQ(json["definitions"]["experiment"]["properties"][key]["description"], app::joinedNames(table))
+                << key;
+        },
+        settings);
 }
 
 TEST(BenchSuite, ThePredecessorsTableIsWhole) {

@@ -57,12 +57,9 @@ void readRequest(const Reader& reader, RenderRequest& request) {
     reader.read("max_depth", s.maxDepth, 1, 4096);
     reader.read("seed", s.seed, 0, 4294967295.0);
     reader.read("replicates", s.replicates, 1, 1024);
-    reader.read("light_sampling", kLightSamplings, s.lightSampling);
-    reader.read("light_selection", kLightSelections, s.lightSelection);
-    reader.read("sphere_light", kSphereLights, s.sphereLight);
-    reader.read("quad_light", kFlatLights, s.quadLight);
-    reader.read("triangle_light", kFlatLights, s.triangleLight);
-    reader.read("sampler", kSamplers, s.sampler);
+    forEachMethod([&reader](const char* key, const char*, const char*, const auto& table,
+                            auto& value) { reader.read(key, table, value); },
+                  s);
     reader.read("russian_roulette", s.russianRoulette);
     std::uint32_t width = 0;
     reader.read("width", width, 1, image::kMaxImageSide);
@@ -82,17 +79,14 @@ Json toJson(const RenderRequest& request) {
               {"max_depth", s.maxDepth},
               {"seed", s.seed},
               {"replicates", s.replicates},
-              {"light_sampling", nameOf(kLightSamplings, s.lightSampling)},
-              {"light_selection", nameOf(kLightSelections, s.lightSelection)},
-              {"sphere_light", nameOf(kSphereLights, s.sphereLight)},
-              {"quad_light", nameOf(kFlatLights, s.quadLight)},
-              {"triangle_light", nameOf(kFlatLights, s.triangleLight)},
-              {"sampler", nameOf(kSamplers, s.sampler)},
               {"russian_roulette", s.russianRoulette},
               {"one_sided_lights", request.oneSidedLights},
               {"accumulate", request.accumulate},
               {"samples_per_frame", request.samplesPerFrame},
               {"loop", request.loop}};
+    forEachMethod([&json](const char* key, const char*, const char*, const auto& table,
+                          const auto& value) { json[key] = nameOf(table, value); },
+                  s);
     if (request.size.width) json["width"] = *request.size.width;
     if (request.size.aspect) json["aspect"] = *request.size.aspect;
     return json;

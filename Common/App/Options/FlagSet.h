@@ -46,9 +46,12 @@ class FlagSet {
 
     template <class E, std::size_t N>
     CLI::Option* addChoice(const std::string& flags, const Named<E> (&table)[N], E& target, const std::string& help) {
-        std::string type;
-        for (const auto& row : table) type += (type.empty() ? "" : "|") + std::string(row.name);
-        return add(flags, type, help, [&target, &table](const std::string& flag, const std::string& text) {
+        std::string type, text = help;
+        for (const auto& row : table) {
+            type += (type.empty() ? "" : "|") + std::string(row.name);
+            if (row.help) text += "\n  " + std::string(row.name) + ": " + row.help;
+        }
+        return add(flags, type, text, [&target, &table](const std::string& flag, const std::string& text) {
             target = parseChoice(flag, text, table);
         });
     }

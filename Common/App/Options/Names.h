@@ -1,5 +1,7 @@
-// What every enumeration is called on the command line, in statistics and in checkpoints. The first row is the default.
+// The tables of what can be chosen: names on the command line, in statistics and in checkpoints, titles in windows. The first row is
+// the default.
 #pragma once
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -21,37 +23,51 @@ enum class Tonemap : std::uint32_t {
 // Images beside the picture: first-hit features, and what the film knows of each pixel.
 enum class Aov { Albedo, Normal, Depth, Variance, Samples };
 
+// A value of an enumeration: on the command line, in files and in statistics; in a window; and a sentence on what it does.
 template <class E>
 struct Named {
     std::string_view name;
     E value;
+    const char* title = nullptr; // null: the name
+    const char* help = nullptr;
 };
 
-inline constexpr Named<LightSampling> kLightSamplings[] = {{"mis", LightSampling::Mis},
-                                                           {"mis-balance", LightSampling::MisBalance},
-                                                           {"mixture", LightSampling::Mixture},
-                                                           {"bsdf", LightSampling::Bsdf}};
-inline constexpr Named<LightSelection> kLightSelections[] = {{"contribution", LightSelection::Contribution},
-                                                             {"power", LightSelection::Power},
-                                                             {"uniform", LightSelection::Uniform}};
-inline constexpr Named<ShapeSampling> kSphereLights[] = {{"auto", ShapeSampling::Auto},
-                                                         {"cone", ShapeSampling::SolidAngle},
-                                                         {"projected", ShapeSampling::Projected},
-                                                         {"area", ShapeSampling::Area}};
-inline constexpr Named<ShapeSampling> kFlatLights[] = {{"auto", ShapeSampling::Auto},
-                                                       {"solid-angle", ShapeSampling::SolidAngle},
-                                                       {"projected", ShapeSampling::Projected},
-                                                       {"area", ShapeSampling::Area}};
-inline constexpr Named<SamplerKind> kSamplers[] = {{"sobol", SamplerKind::Sobol},
-                                                   {"sobol-blue", SamplerKind::SobolBlue},
-                                                   {"stratified", SamplerKind::Stratified},
-                                                   {"independent", SamplerKind::Independent}};
-inline constexpr Named<Policy> kPolicies[] = {
-    {"par", Policy::Par}, {"seq", Policy::Seq}, {"par_unseq", Policy::ParUnseq}};
+inline constexpr Named<LightSampling> kLightSamplings[] = {
+    {"mis", LightSampling::Mis, "MIS (power heuristic)",
+     "lights and the BSDF are both sampled, weighed against each other by the power heuristic"},
+    {"mis-balance", LightSampling::MisBalance, "MIS (balance heuristic)", "weighed by the balance heuristic instead"},
+    {"mixture", LightSampling::Mixture, "BSDF + light mixture", "one direction, half from lights, half from the BSDF"},
+    {"bsdf", LightSampling::Bsdf, "BSDF only", "light is found by chance"}};
+inline constexpr Named<LightSelection> kLightSelections[] = {
+    {"contribution", LightSelection::Contribution, "By contribution", "by a bound of what each brings to the point"},
+    {"power", LightSelection::Power, "By power", "in proportion to what each emits"},
+    {"uniform", LightSelection::Uniform, "Uniform", "all alike"}};
+inline constexpr Named<ShapeSampling> kSphereLights[] = {
+    {"auto", ShapeSampling::Auto, "Auto", "projected above the horizon, else cone"},
+    {"cone", ShapeSampling::SolidAngle, "Cone", "in the cone of directions that it is seen in"},
+    {"projected", ShapeSampling::Projected, "Projected cap", "in that cone, weighed by the cosine at the surface"},
+    {"area", ShapeSampling::Area, "Area", "on its area"}};
+// Of quads and of triangles.
+inline constexpr Named<ShapeSampling> kFlatLights[] = {
+    {"auto", ShapeSampling::Auto, "Auto", "area when far, strip when thin, else solid angle"},
+    {"solid-angle", ShapeSampling::SolidAngle, "Solid angle", "in the solid angle that it is seen in"},
+    {"projected", ShapeSampling::Projected, "Projected solid angle", "in that, weighed by the cosine at the surface"},
+    {"area", ShapeSampling::Area, "Area", "on its area"}};
+inline constexpr Named<SamplerKind> kSamplers[] = {
+    {"sobol", SamplerKind::Sobol, "Sobol (Owen-scrambled)", "well spread in many dimensions"},
+    {"sobol-blue", SamplerKind::SobolBlue, "Sobol, blue noise", "one sequence for all pixels, so that noise is finer"},
+    {"stratified", SamplerKind::Stratified, "Stratified", "one in each cell of a grid"},
+    {"independent", SamplerKind::Independent, "Independent (random)", "each on its own"}};
+inline constexpr Named<Policy> kPolicies[] = {{"par", Policy::Par, "Multi core: par"},
+                                              {"seq", Policy::Seq, "Single core: seq"},
+                                              {"par_unseq", Policy::ParUnseq, "Multi core: par_unseq"}};
 inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
-    {"auto", GpuEngineKind::Auto}, {"pipeline", GpuEngineKind::Pipeline}, {"compute", GpuEngineKind::Compute}};
-inline constexpr Named<Tonemap> kTonemaps[] = {
-    {"none", Tonemap::None}, {"reinhard", Tonemap::Reinhard}, {"aces", Tonemap::Aces}};
+    {"auto", GpuEngineKind::Auto, "Auto", "what serves the device best"},
+    {"pipeline", GpuEngineKind::Pipeline, "Ray tracing pipeline", "the device's own acceleration structures"},
+    {"compute", GpuEngineKind::Compute, "Compute shaders", "our tree, for devices without a ray tracing pipeline too"}};
+inline constexpr Named<Tonemap> kTonemaps[] = {{"none", Tonemap::None, "None (clamp)"},
+                                               {"reinhard", Tonemap::Reinhard, "Reinhard"},
+                                               {"aces", Tonemap::Aces, "ACES-like"}};
 inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"normal", Aov::Normal},
                                        {"depth", Aov::Depth},
@@ -59,11 +75,49 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"samples", Aov::Samples}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
+// Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with dashes it is
+// the flag. Of one RenderSettings, or of several side by side.
+template <typename Visit, typename... Settings>
+void forEachMethod(const Visit& visit, Settings&... settings) {
+    visit("light_sampling", "Direct-lighting estimator", "how light is found", kLightSamplings,
+          settings.lightSampling...);
+    visit("light_selection", "Light selection", "how one of the lights is chosen", kLightSelections,
+          settings.lightSelection...);
+    visit("sphere_light", "Sampling strategy for sphere lights", "where a sphere is sampled", kSphereLights,
+          settings.sphereLight...);
+    visit("quad_light", "Sampling strategy for quad lights", "where a quad is sampled", kFlatLights,
+          settings.quadLight...);
+    visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
+          settings.triangleLight...);
+    visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
+}
+
+// "--light-sampling" of "light_sampling".
+inline std::string flagOf(std::string key) {
+    std::replace(key.begin(), key.end(), '_', '-');
+    return "--" + key;
+}
+
 template <class E, std::size_t N>
 std::string nameOf(const Named<E> (&table)[N], E value) {
     for (const auto& row : table)
         if (row.value == value) return std::string(row.name);
     return {};
+}
+
+template <class E, std::size_t N>
+std::string titleOf(const Named<E> (&table)[N], E value) {
+    for (const auto& row : table)
+        if (row.value == value) return row.title ? row.title : std::string(row.name);
+    return {};
+}
+
+// "a, b, c".
+template <class E, std::size_t N>
+std::string joinedNames(const Named<E> (&table)[N]) {
+    std::string text;
+    for (const auto& row : table) text += (text.empty() ? "" : ", ") + std::string(row.name);
+    return text;
 }
 
 } // namespace rt::app

@@ -100,12 +100,9 @@ void addImage(FlagSet& flags, Options& options) {
 
 void addEstimator(FlagSet& flags, RenderSettings& settings) {
     flags.group("Estimator");
-    flags.addChoice("--light-sampling", kLightSamplings, settings.lightSampling, "how light is found");
-    flags.addChoice("--light-selection", kLightSelections, settings.lightSelection, "how one of the lights is chosen");
-    flags.addChoice("--sphere-light", kSphereLights, settings.sphereLight, "where a sphere is sampled");
-    flags.addChoice("--quad-light", kFlatLights, settings.quadLight, "where a quad is sampled");
-    flags.addChoice("--triangle-light", kFlatLights, settings.triangleLight, "where a triangle is sampled");
-    flags.addChoice("--sampler", kSamplers, settings.sampler, "the random numbers");
+    forEachMethod([&flags](const char* key, const char*, const char* help, const auto& table,
+                           auto& value) { flags.addChoice(flagOf(key), table, value, help); },
+                  settings);
     flags.addChoice("--russian-roulette", kOnOff, settings.russianRoulette, "end dim paths early, unbiased");
     flags.add("--features", "LIST|auto|all", "force the feature mask: a superset of what the scene needs",
               [&settings](const std::string&, const std::string& text) {

@@ -21,7 +21,7 @@ std::string exactly(float value) {
 Json argumentList(const Options& options, const scene::CameraDesc& camera, const EngineReport& report) {
     const RenderSettings& s = options.settings;
     Json list = Json::array();
-    const auto add = [&list](const char* flag, const std::string& value) {
+    const auto add = [&list](const std::string& flag, const std::string& value) {
         list.push_back(flag);
         list.push_back(value);
     };
@@ -33,12 +33,9 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     add("--max-depth", std::to_string(s.maxDepth));
     add("--seed", std::to_string(s.seed));
     add("--replicates", std::to_string(s.replicates));
-    add("--light-sampling", nameOf(kLightSamplings, s.lightSampling));
-    add("--light-selection", nameOf(kLightSelections, s.lightSelection));
-    add("--sphere-light", nameOf(kSphereLights, s.sphereLight));
-    add("--quad-light", nameOf(kFlatLights, s.quadLight));
-    add("--triangle-light", nameOf(kFlatLights, s.triangleLight));
-    add("--sampler", nameOf(kSamplers, s.sampler));
+    forEachMethod([&add](const char* key, const char*, const char*, const auto& table,
+                         const auto& value) { add(flagOf(key), nameOf(table, value)); },
+                  s);
     add("--one-sided-lights", nameOf(kOnOff, options.oneSidedLights));
     add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
     add("--exposure", exactly(options.exposure));

@@ -32,21 +32,19 @@ Json toJson(const scene::CameraDesc& camera) {
 
 // Everything that the samples of a pixel depend on, in the order in which a difference is best explained.
 Json identity(const RenderSettings& settings, const scene::CompiledScene& scene, const EngineReport& report) {
-    return {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
-            {"width", settings.width},
-            {"height", settings.height},
-            {"seed", settings.seed},
-            {"replicates", settings.replicates},
-            {"sampler", nameOf(kSamplers, settings.sampler)},
-            {"max_depth", settings.maxDepth},
-            {"light_sampling", nameOf(kLightSamplings, settings.lightSampling)},
-            {"light_selection", nameOf(kLightSelections, settings.lightSelection)},
-            {"sphere_light", nameOf(kSphereLights, settings.sphereLight)},
-            {"quad_light", nameOf(kFlatLights, settings.quadLight)},
-            {"triangle_light", nameOf(kFlatLights, settings.triangleLight)},
-            {"russian_roulette", settings.russianRoulette},
-            {"camera", toJson(scene.camera)},
-            {"scene_hash", hex(scene.hash)}};
+    Json json = {{"engine", report.threads > 0 ? "cpu" : report.engine}, // threads and policies make no difference
+                 {"width", settings.width},
+                 {"height", settings.height},
+                 {"seed", settings.seed},
+                 {"replicates", settings.replicates},
+                 {"max_depth", settings.maxDepth}};
+    forEachMethod([&json](const char* key, const char*, const char*, const auto& table,
+                          const auto& value) { json[key] = nameOf(table, value); },
+                  settings);
+    json["russian_roulette"] = settings.russianRoulette;
+    json["camera"] = toJson(scene.camera);
+    json["scene_hash"] = hex(scene.hash);
+    return json;
 }
 
 void checkIdentity(const std::string& file, const nlohmann::json& stored, const Json& wanted) {

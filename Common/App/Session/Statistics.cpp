@@ -18,19 +18,18 @@ Json orNull(const std::optional<T>& value) {
 
 Json settingsJson(const Options& options) {
     const RenderSettings& settings = options.settings;
-    return {{"light_sampling", nameOf(kLightSamplings, settings.lightSampling)},
-            {"light_selection", nameOf(kLightSelections, settings.lightSelection)},
-            {"sphere_light", nameOf(kSphereLights, settings.sphereLight)},
-            {"quad_light", nameOf(kFlatLights, settings.quadLight)},
-            {"triangle_light", nameOf(kFlatLights, settings.triangleLight)},
-            {"sampler", nameOf(kSamplers, settings.sampler)},
-            {"one_sided_lights", options.oneSidedLights},
-            {"russian_roulette", settings.russianRoulette},
-            {"replicates", settings.replicates},
-            {"features", settings.features ? "forced" : "auto"},
-            {"policy", nameOf(kPolicies, options.policy)},
-            {"time_limit", orNull(options.timeLimit)},
-            {"target_error", orNull(options.targetError)}};
+    Json json;
+    forEachMethod([&json](const char* key, const char*, const char*, const auto& table,
+                          const auto& value) { json[key] = nameOf(table, value); },
+                  settings);
+    json.update({{"one_sided_lights", options.oneSidedLights},
+                 {"russian_roulette", settings.russianRoulette},
+                 {"replicates", settings.replicates},
+                 {"features", settings.features ? "forced" : "auto"},
+                 {"policy", nameOf(kPolicies, options.policy)},
+                 {"time_limit", orNull(options.timeLimit)},
+                 {"target_error", orNull(options.targetError)}});
+    return json;
 }
 
 Json secondsJson(const Seconds& seconds, const EngineReport& report) {

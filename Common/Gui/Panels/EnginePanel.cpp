@@ -13,13 +13,6 @@ using app::EngineDevice;
 using app::GpuEngineKind;
 using Devices = std::vector<EngineDevice>;
 
-constexpr app::Named<app::Policy> kPolicyNames[] = {{"Multi core: par", app::Policy::Par},
-                                                    {"Multi core: par_unseq", app::Policy::ParUnseq},
-                                                    {"Single core: seq", app::Policy::Seq}};
-constexpr app::Named<GpuEngineKind> kKindNames[] = {{"Automatic", GpuEngineKind::Auto},
-                                                    {"Ray tracing pipeline", GpuEngineKind::Pipeline},
-                                                    {"Compute shaders", GpuEngineKind::Compute}};
-
 Devices::const_iterator find(const Devices& devices, const std::string& request) {
     return std::find_if(devices.begin(), devices.end(), [&](const EngineDevice& d) { return d.request == request; });
 }
@@ -31,7 +24,7 @@ bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
 }
 
 void drawProcessor(EngineChoice& engine) {
-    combo("Engine", "std::execution policy that the workers run under", kPolicyNames, engine.policy);
+    combo("Engine", "std::execution policy that the workers run under", app::kPolicies, engine.policy);
     if (engine.policy == app::Policy::Seq) return;
     inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
 }
@@ -41,13 +34,13 @@ void drawKind(EngineChoice& engine, const app::SessionState& state, const Device
         "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
         "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
         "same");
-    std::string shown = app::nameOf(kKindNames, engine.kind);
+    std::string shown = app::titleOf(app::kGpuEngines, engine.kind);
     if (engine.kind == GpuEngineKind::Auto && state.engine == engine) shown += " (" + state.report.engine + ")";
     if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
-    for (const auto& [name, kind] : kKindNames) {
-        if (kind == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;
-        if (ImGui::Selectable(std::string(name).c_str(), kind == engine.kind)) engine.kind = kind;
-        if (kind == engine.kind) ImGui::SetItemDefaultFocus();
+    for (const auto& row : app::kGpuEngines) {
+        if (row.value == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;
+        if (ImGui::Selectable(row.title, row.value == engine.kind)) engine.kind = row.value;
+        if (row.value == engine.kind) ImGui::SetItemDefaultFocus();
     }
     ImGui::EndCombo();
 }

@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <string>
+#include <string_view>
 #include <thread>
 
 #include "Common/App/Platform.h"
@@ -12,32 +15,6 @@
 
 namespace rt::gui {
 namespace {
-
-using app::LightSampling;
-using app::LightSelection;
-using app::Named;
-using app::SamplerKind;
-using app::ShapeSampling;
-
-constexpr Named<LightSampling> kLightSamplingNames[] = {{"Light sampling with MIS", LightSampling::Mis},
-                                                        {"MIS, balance heuristic", LightSampling::MisBalance},
-                                                        {"Mixture PDF (PDF on)", LightSampling::Mixture},
-                                                        {"Scattering only (PDF off)", LightSampling::Bsdf}};
-constexpr Named<LightSelection> kSelectionNames[] = {{"By contribution", LightSelection::Contribution},
-                                                     {"By power", LightSelection::Power},
-                                                     {"Uniform", LightSelection::Uniform}};
-constexpr Named<ShapeSampling> kSphereNames[] = {{"Automatic", ShapeSampling::Auto},
-                                                 {"Cone", ShapeSampling::SolidAngle},
-                                                 {"Projected cap", ShapeSampling::Projected},
-                                                 {"Area", ShapeSampling::Area}};
-constexpr Named<ShapeSampling> kFlatNames[] = {{"Automatic", ShapeSampling::Auto},
-                                               {"Solid angle", ShapeSampling::SolidAngle},
-                                               {"Projected solid angle", ShapeSampling::Projected},
-                                               {"Area", ShapeSampling::Area}};
-constexpr Named<SamplerKind> kSamplerNames[] = {{"Sobol (Owen-scrambled)", SamplerKind::Sobol},
-                                                {"Sobol, blue noise", SamplerKind::SobolBlue},
-                                                {"Stratified", SamplerKind::Stratified},
-                                                {"Normal (independent)", SamplerKind::Independent}};
 
 // Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to others: one
 // digit too many is not to end the program.
@@ -87,32 +64,25 @@ void drawSize(Gui& gui) {
     }
 }
 
-void drawLights(app::RenderSettings& settings, app::RenderRequest& request) {
-    combo("Light sampling",
-          "MIS: light and scattering are both sampled and weighted against each other. Mixture: one sample from half "
-          "light, "
-          "half scattering, the predecessors' 'PDF on'. Scattering only: light is found by chance, 'PDF off'. All have "
-          "the "
-          "same mean; their noise differs.",
-          kLightSamplingNames, settings.lightSampling);
-    if (settings.lightSampling != LightSampling::Bsdf) {
-        combo("Light selection",
-              "How one of several lights is chosen: by a bound of what it contributes at the point, by its power, or "
-              "all alike",
-              kSelectionNames, settings.lightSelection);
-        combo("Sphere lights",
-              "Where on a sphere: in the cone of directions that it is seen in, in that cone weighted by the cosine at "
-              "the surface (projected), or on its area; automatic chooses",
-              kSphereNames, settings.sphereLight);
-        combo("Quad lights",
-              "Where on a quad: in the solid angle that it is seen in, in that weighted by the cosine at the surface "
-              "(projected), or on its area; automatic chooses",
-              kFlatNames, settings.quadLight);
-        combo("Triangle lights",
-              "Where on a triangle: in the solid angle that it is seen in, in that weighted by the cosine at the "
-              "surface (projected), or on its area; automatic chooses",
-              kFlatNames, settings.triangleLight);
-    }
+// Of a line of --help.
+std::string sentence(std::string text) {
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text;
+}
+
+// How light is found and where random numbers come from; how lights are sampled only where they are.
+void drawMethods(app::RenderSettings& settings) {
+    const bool areLightsSampled = settings.lightSampling != app::LightSampling::Bsdf;
+    app::forEachMethod(
+        [areLightsSampled](const char* key, const char* title, const char* help, const auto& table, auto& value) {
+            const bool isOfLights = std::string_view(key).find("light") != std::string_view::npos;
+            if (areLightsSampled || !isOfLights || key == std::string_view("light_sampling"))
+                combo(title, sentence(help).c_str(), table, value);
+        },
+        settings);
+}
+
+void drawLights(app::RenderRequest& request) {
     checkbox("One-sided lights",
              "Flat lights emit from their front only, the predecessors' 'unidirectional light'. Off: from both sides. "
              "A light whose scene says which side it emits from is not concerned",
@@ -147,12 +117,8 @@ void drawRenderPanel(Gui& gui) {
     inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
     inputCount("Depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
     drawSize(gui);
-    drawLights(settings, request);
-    combo("Pixel sampling",
-          "Where random numbers come from. Sobol: well spread in many dimensions. Stratified: one in each cell of a "
-          "grid. "
-          "Normal: independent.",
-          kSamplerNames, settings.sampler);
+    drawMethods(settings);
+    drawLights(request);
     drawFrames(request);
     checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
     checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);

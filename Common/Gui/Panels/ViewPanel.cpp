@@ -8,8 +8,6 @@
 namespace rt::gui {
 namespace {
 
-constexpr app::Named<app::Tonemap> kTonemapNames[] = {
-    {"None (clamp)", app::Tonemap::None}, {"Reinhard", app::Tonemap::Reinhard}, {"ACES-like", app::Tonemap::Aces}};
 constexpr app::Named<app::ColorMode> kColorModeNames[] = {
     {"Dark", app::ColorMode::Dark}, {"Light", app::ColorMode::Light}, {"High contrast", app::ColorMode::HighContrast}};
 
@@ -87,7 +85,7 @@ void drawViewPanel(Gui& gui) {
     if (sliderReal("Exposure", "Stops, of what is shown and of PNG files", exposure, -10, 10, "%.2f")) {
         settings.exposure = static_cast<float>(exposure);
     }
-    combo("Tone curve", "How radiance beyond white is shown", kTonemapNames, settings.tonemap);
+    combo("Tone curve", "How radiance beyond white is shown", app::kTonemaps, settings.tonemap);
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
     if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width))
