@@ -299,7 +299,7 @@ TEST_F(OptionsTest, FeatureNames) {
     EXPECT_EQ(error({"--features", "spheres,teapots"}).rfind("--features teapots: must be spheres, ", 0), 0u);
     EXPECT_TRUE(absentFeatureNames(shared::kFeatureAll).empty());
     EXPECT_EQ(featureNames(shared::kFeatureNoise), (std::vector<std::string>{"textures", "noise"}));
-    for (std::uint32_t bit = 0; bit < shared::kFeatureBits; ++bit)
+    for (std::uint32_t bit = 0; bit < shared::kFirstFreeFeature; ++bit)
         EXPECT_EQ(parseFeatures(featureNames(1u << bit).back()), 1u << bit);
 }
 

@@ -322,7 +322,7 @@ TEST(SceneCompiler, TheHashTellsScenesApart) {
     changed.title = "Other";
     EXPECT_EQ(compileScene(changed)->hash, hash) << "neither camera angle nor title affects the scene";
     changed = scene;
-    changed.materials["glass"].ior = 1.5000002;
+    changed.materials["glass"].parameters[shared::kDielectricIor] = 1.5000002;
     EXPECT_NE(compileScene(changed)->hash, hash);
     changed = scene;
     changed.importanceTargets.clear();

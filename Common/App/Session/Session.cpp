@@ -9,10 +9,10 @@
 #include "Common/App/Platform.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Reference.h"
-#include "Common/App/Session/RenderLoop.h"
 #include "Common/App/Session/Resume.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
@@ -56,7 +56,7 @@ class HeadlessRender {
         engine_ = makeEngine();
         interrupt_.defer(); // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
-        startFilm();
+        beginFilm();
         try {
             sample();
         } catch (const std::exception&) { // of the engine, or want of memory
@@ -71,18 +71,18 @@ class HeadlessRender {
 
   private:
     void load();
-    void startFilm();
+    void beginFilm();
     void sample();
     void write();
     void save(const std::string& file) const;
     std::string rescue() const;
-    const image::Film& keptFilm();
 
     Options options_;
     Interrupt interrupt_;
     std::shared_ptr<const scene::CompiledScene> scene_;
     std::optional<image::Image> reference_;
     std::unique_ptr<Engine> engine_;
+    std::optional<FilmRun> run_;
     Statistics statistics_;
     std::vector<std::string> failures_; // of what is done with the samples, one line each
     // Kept from the render, so that what it leaves can be written when it has taken all other memory.
@@ -101,14 +101,16 @@ void HeadlessRender::load() {
     statistics_.seconds.load = watch.seconds();
 }
 
-void HeadlessRender::startFilm() {
-    if (options_.resume.empty()) return engine_->reset(scene_->camera, options_.settings);
-    image::Film film = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
-    if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !film.desc().secondMoments)
-        throw InputError(options_.resume + ": second_moments is false in the checkpoint but --aov variance needs them");
-    statistics_.samplesRestored = film.totalSamples();
-    engine_->reset(scene_->camera, options_.settings);
-    engine_->restore(std::move(film));
+void HeadlessRender::beginFilm() {
+    image::Film kept;
+    if (!options_.resume.empty()) {
+        kept = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+        if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !kept.desc().secondMoments)
+            throw InputError(options_.resume +
+                             ": second_moments is false in the checkpoint but --aov variance needs them");
+    }
+    run_.emplace(*engine_, scene_->camera, options_.settings, std::move(kept));
+    statistics_.samplesRestored = run_->samplesRestored();
 }
 
 void HeadlessRender::sample() {
@@ -121,21 +123,27 @@ void HeadlessRender::sample() {
         attempt(failures, "cannot write " + options_.checkpoint, [this] { save(options_.checkpoint); });
         if (!failures.empty()) logWarning(failures.front()); // the render itself is well
     };
-    const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
-                                                   interrupt_.requested(), progress, saveOrWarn);
-    statistics_.stoppedBy = result.stoppedBy;
-    statistics_.seconds.render = result.seconds;
+    run_->limit({options_.timeLimit, options_.targetError, options_.saveEvery, saveOrWarn});
+    std::optional<StopReason> reason;
+    while (!reason) {
+        reason = run_->slice(FilmRun::kSliceSeconds, interrupt_.requested());
+        progress.update(run_->progress());
+    }
+    statistics_.stoppedBy = *reason;
     if (reference_)
         attempt(failures_, options_.reference + ": cannot be compared with",
                 [this] { statistics_.error = image::compare(engine_->film().resolve(), *reference_); });
-    progress.finish(result.progress, describeEnd(statistics_));
+    progress.finish(run_->progress(), describeEnd(statistics_));
 }
 
 // The checkpoint first, as all else can be made again from it. Whatever can be written is; then the first failure counts.
 void HeadlessRender::write() {
     memoryForWriting_.reset();
     const Stopwatch watch;
-    const image::Film& film = keptFilm();
+    std::string lost;
+    const image::Film& film = run_->keptFilm(lost);
+    if (!lost.empty()) failures_.push_back(lost);
+    statistics_.seconds.render = run_->seconds();
     const auto saveCheckpoint = [this] { save(options_.checkpoint); };
     const bool isSaved =
         !options_.checkpoint.empty() && attempt(failures_, "cannot write " + options_.checkpoint, saveCheckpoint);
@@ -151,16 +159,6 @@ void HeadlessRender::write() {
     if (failures_.empty()) return;
     for (std::size_t i = 1; i < failures_.size(); ++i) logWarning(failures_[i]);
     throw RenderError(failures_.front() + (outputs.failures.empty() || isSaved ? "" : rescue()));
-}
-
-// The film as it is, or as the engine last copied it when it cannot be read any more.
-const image::Film& HeadlessRender::keptFilm() {
-    try {
-        return engine_->film();
-    } catch (const RenderError& error) {
-        failures_.emplace_back(error.what());
-        return engine_->film();
-    }
 }
 
 void HeadlessRender::save(const std::string& file) const {

@@ -223,8 +223,8 @@ RT_FN Material probeCaseMaterial(uint which) {
     m.kind = which == 0u ? kMaterialLambertian : kMaterialMetal;
     m.albedo = vec3(1.0f);
     m.texture = kNone;
-    m.fuzz = which == 2u ? 0.1f : 0.6f;
-    m.ior = 1.0f;
+    m.parameter[kMetalFuzz] = which == 2u ? 0.1f : 0.6f;
+    m.parameter[1] = 0.0f;
     m.emission = vec3(0.0f);
     m.emissionTexture = kNone;
     m.emissionSides = kSidesFront;
@@ -236,7 +236,7 @@ const vec3 kProbeOutwards = vec3(0.34202014f, 0.93969262f, 0.0f);
 RT_FN vec4 probeCone(uint which) {
     if (which == 0u) return vec4(0.0f, 1.0f, 0.0f, 0.0f);
     if (which == 1u) return vec4(0.0f, 1.0f, 0.0f, -1.0f);
-    float fuzz = probeCaseMaterial(which).fuzz;
+    float fuzz = probeCaseMaterial(which).parameter[kMetalFuzz];
     return vec4(-kProbeOutwards.x, kProbeOutwards.y, 0.0f, sqrt((1.0f - fuzz) * (1.0f + fuzz)));
 }
 
@@ -252,7 +252,7 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     if (stress) { // grazing directions and the smallest lobes
         n = probeUnit(a);
         wo = normalize(makeFrame(n).tangent + n * probeDecades(a, -7.0f, 3.0f));
-        m.fuzz = min(probeDecades(a, -7.0f, 0.1f), 1.0f);
+        m.parameter[kMetalFuzz] = min(probeDecades(a, -7.0f, 0.1f), 1.0f);
     }
     vec2 u = probeSquare(a, mode, i);
     if (stress && (i & 7u) < 4u) u = vec2(float(i & 1u), float(i >> 1u & 1u)) * 0.99999994f;
