@@ -26,8 +26,10 @@ if "%verb%"=="run" (
     %configure% && %build% --target ray-tracing-cpu && build\bin\ray-tracing-cpu --headless --spp 100 -o build\run\cornell-box-lights.cpu.png --stats -
     goto end
 )
+set tier=--label-exclude nightly
+if "%~2"=="--all" set tier=
 if "%verb%"=="test" (
-    %configure% -DRT_BUILD_TESTS=ON -DVCPKG_MANIFEST_FEATURES=tests && %build% && ctest --test-dir build --output-on-failure --no-label-summary
+    %configure% -DRT_BUILD_TESTS=ON -DVCPKG_MANIFEST_FEATURES=tests && %build% && ctest --test-dir build --output-on-failure --no-label-summary %tier%
     goto end
 )
 if "%verb%"=="bench" (
@@ -41,7 +43,7 @@ exit /b 1
 :help
 echo build.bat               install what is needed and build Release into build\
 echo build.bat run           the same, then render the default scene and show figures
-echo build.bat test          the same, then build and run all tests
+echo build.bat test          the same, then build and run the tests of every change; test --all: the nightly ones, too
 echo build.bat bench [ARGS]  the same, then run ray-tracing-bench with ARGS
 exit /b 0
 

@@ -26,7 +26,8 @@ usage() {
 ./build.sh               install what is needed and build Release into build/
 ./build.sh run [gpu]     the same, then open the window of ray-tracing-cpu, or of ray-tracing-gpu; without a display
                          render the default scene on CPU and GPU and compare them
-./build.sh test          the same, then build and run all tests
+./build.sh test          the same, then build and run the tests of every change (label ci)
+./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
 ./build.sh bench [ARGS]  the same, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
 END
@@ -78,9 +79,12 @@ open_window() {
     "build/bin/ray-tracing-$1"
 }
 
+# run_tests [--all]
 run_tests() {
-    local log=build/test.log status=0
-    ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(nproc)" 2>&1 | tee $log || status=$?
+    local log=build/test.log status=0 tier=(--label-exclude nightly)
+    [[ ${1:-} != --all ]] || tier=()
+    ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(nproc)" "${tier[@]}" 2>&1 | tee $log ||
+        status=$?
     grep 'tests passed' $log || echo "No test ran"
     return $status
 }
@@ -104,11 +108,12 @@ case $verb in
         fi
         ;;
     test)
+        [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
-        run_tests
+        run_tests "$@"
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"

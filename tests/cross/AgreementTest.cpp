@@ -172,7 +172,8 @@ TEST_P(SupersetTest, SampleForSample) {
 
 // Every way of sampling lights and pixels, on the default scene.
 class EstimatorAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, EstimatorAgreementTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, EstimatorAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, EstimatorAgreementTest, kSecondEngine, engineName);
 
 TEST_P(EstimatorAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
@@ -184,7 +185,8 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
 
 // Emissive spheres under every kind of transform.
 class EllipsoidAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, EllipsoidAgreementTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, EllipsoidAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, EllipsoidAgreementTest, kSecondEngine, engineName);
 
 TEST_P(EllipsoidAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/ellipsoid-lights.json"), true, true);
@@ -200,6 +202,17 @@ TEST_P(EllipsoidAgreementTest, SampleForSample) {
         EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << static_cast<int>(shape);
     }
     EXPECT_EQ(device().validationMessages(), 0u);
+}
+
+// Samplers by projected solid angle are shaders of their own in the ray tracing pipeline, which it calls.
+TEST(CallableAgreementTest, SampleForSample) {
+    for (const char* id : {"cornell-box-lights", "triangle-lights"}) {
+        const auto scene = app::compile(app::loadScene(id), true);
+        EnginePair engines(scene, app::GpuEngineKind::Pipeline);
+        app::RenderSettings settings = pairSettings(1);
+        settings.sphereLight = settings.quadLight = settings.triangleLight = app::ShapeSampling::Projected;
+        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << id;
+    }
 }
 
 } // namespace

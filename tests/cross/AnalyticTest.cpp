@@ -21,7 +21,8 @@ using namespace rt::scene;
 using glm::dvec3;
 
 class AnalyticTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, AnalyticTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, AnalyticTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, AnalyticTest, kSecondEngine, engineName);
 
 // Renders one scene with many settings.
 class GpuRenders {

@@ -15,6 +15,11 @@ vulkan::VulkanContext& device();
 // Both ways to trace rays on it, as parameters of tests.
 inline const auto kBothEngines = ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Compute);
 
+// One proves a formula, which both compile from one header. The other one's proof has the prefix Nightly, by which ctest
+// leaves it to the nightly tests; that both trace the same paths is proved with kBothEngines.
+inline const auto kFirstEngine = ::testing::Values(app::GpuEngineKind::Compute);
+inline const auto kSecondEngine = ::testing::Values(app::GpuEngineKind::Pipeline);
+
 inline std::string engineName(const ::testing::TestParamInfo<app::GpuEngineKind>& info) {
     return app::nameOf(app::kGpuEngines, info.param);
 }

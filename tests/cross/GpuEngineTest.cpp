@@ -258,9 +258,9 @@ TEST_P(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
     }
 }
 
-// ---- what a scene does not need --------------------------------------------------------------------------------------
+// ---- what a scene does not need: ShaderGroupsTest.cpp counts it, and reports name it ----------------------------------
 
-TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
+TEST_P(GpuEngineTest, KernelsAreNamedByTheirFeatures) {
     const auto kernel = [](const char* id, const app::RenderSettings& settings) {
         const auto scene = app::compile(app::loadScene(id), true);
         const auto engine = gpu::makeGpuEngine(device(), testedEngine());
@@ -278,8 +278,8 @@ TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
     EXPECT_EQ(kernel("next-week-quads", settings), way + "+triangles+quads+spheres");
 }
 
-// Callable shaders as well: those of the shapes that are sampled so, in scenes with lights of that shape.
-TEST_P(GpuEngineTest, OnlyCallableGroupsThatLightsNeed) {
+// By those of the shapes that are sampled so, in scenes with lights of that shape.
+TEST_P(GpuEngineTest, KernelsAreNamedByTheirCallableShaders) {
     const auto kernel = [](app::ShapeSampling sphere, app::ShapeSampling quad) {
         app::RenderSettings settings = settingsFor(1);
         settings.sphereLight = sphere;

@@ -201,6 +201,23 @@ void Directions::keepStrata() const {
 
 // ---- choice among lights --------------------------------------------------------------------------------------------
 
+// The mean of max(x, 0) over x uniform in [middle - spread, middle + spread].
+double clampedMean(double middle, double spread) {
+    const double low = std::max(middle - spread, 0.0), high = std::max(middle + spread, 0.0);
+    return (high * high - low * low) / (4 * spread);
+}
+
+// Irradiance that a flat light with this bound is estimated to cause on a surface with the normal `n`, or anywhere if that is 0.
+double estimatedIrradiance(const shared::LightBound& bound, const dvec3& position, const dvec3& n) {
+    const dvec3 toLight = dvec3(bound.center) - position;
+    const double radius = static_cast<double>(bound.radius);
+    const double distance = std::max(glm::length(toLight), radius / 2); // nearer, distances say nothing
+    const double towards = -glm::dot(dvec3(bound.axis), toLight) / distance;
+    const double emitted = bound.twoSided > 0 ? std::abs(towards) : std::max(towards, 0.0);
+    const double received = n == dvec3(0) ? 1 : clampedMean(glm::dot(n, toLight), radius) / distance;
+    return static_cast<double>(bound.intensity) * emitted * received / (distance * distance);
+}
+
 class Choice : public Sampler {
   public:
     using Sampler::Sampler;
@@ -215,7 +232,7 @@ class Choice : public Sampler {
             p.push_back(which_ == 1 ? i + 1.0
                         : which_ == 2
                             ? 1.0
-                            : double(shared::lightContribution(shared::loadLightBound(1, i), c.position, c.normal)));
+                            : estimatedIrradiance(shared::loadLightBound(1, i), dvec3(c.position), dvec3(c.normal)));
         const double whole = std::accumulate(p.begin(), p.end(), 0.0);
         for (double& x : p) x /= whole;
         return p;

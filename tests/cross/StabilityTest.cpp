@@ -7,7 +7,8 @@ namespace rt::test {
 namespace {
 
 class StabilityTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, StabilityTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, StabilityTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, StabilityTest, kSecondEngine, engineName);
 
 TEST_P(StabilityTest, EveryRowPasses) {
     const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});

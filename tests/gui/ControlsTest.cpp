@@ -196,8 +196,11 @@ TEST_P(ControlsTest, EveryControlCanBeUsed) {
     EXPECT_GE(changed.size(), kEnough);
 }
 
+class NightlyControlsTest : public ControlsTest {};
+INSTANTIATE_TEST_SUITE_P(, NightlyControlsTest, kBothPrograms, nameOfProgram);
+
 // What 200 actions that nobody would think of leave behind: a program that runs, answers and ends as it should.
-TEST_P(ControlsTest, SurvivesRandomActions) {
+TEST_P(NightlyControlsTest, SurvivesRandomActions) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     const char* const keys[] = {"F1",

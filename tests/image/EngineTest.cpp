@@ -102,7 +102,6 @@ TEST(CpuEngine, MoreFeaturesThanNeededChangeNothing) {
     }
 }
 
-// Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, CostsAreTheRaysOfTheRenderAndTime) {
     const auto scene = builtin("cornell-box-lights");
     const auto engine = cpu::makeCpuEngine({cpu::Policy::Par, 2});
@@ -120,6 +119,7 @@ TEST(CpuEngine, DepthIsThatOfWhatIsHit) {
     expectDepthOfWhatIsHit(*cpu::makeCpuEngine({}));
 }
 
+// Lengths in binary floating point scale exactly by powers of two: any absolute tolerance would show.
 TEST(CpuEngine, ScalingByAPowerOfTwoIsExact) {
     const scene::SceneDesc desc = scene::findBuiltinScene("cornell-box-lights");
     const auto settings = plainSettings(24, 16);

@@ -126,15 +126,15 @@ Ray adversarialRay(const Geometry& g, Random& random, int i) {
     return ray;
 }
 
-TEST(AccelOracle, AgreesWithALoopInDouble) {
-    const int kRays = 1000000, kBatch = 50000;
+void expectAgreementWithALoopInDouble(int rayCount) {
+    constexpr int kBatch = 50000;
     Geometry g = adversarialGeometry();
     const auto tree = buildAccel(g);
     const std::vector<NamedQuery> queries = runnableQueries();
     Random random(62);
     int sure = 0;
     std::vector<int> wrong(queries.size(), 0);
-    for (int first = 0; first < kRays; first += kBatch) {
+    for (int first = 0; first < rayCount; first += kBatch) {
         std::vector<Ray> rays;
         std::vector<FirstHit> expected;
         for (int i = 0; i < kBatch; ++i) {
@@ -149,10 +149,18 @@ TEST(AccelOracle, AgreesWithALoopInDouble) {
             }
         }
     }
-    EXPECT_GT(sure, kRays / 2);
+    EXPECT_GT(sure, rayCount / 2);
     for (std::size_t k = 0; k < queries.size(); ++k) {
         EXPECT_EQ(wrong[k], 0) << queries[k].name;
     }
+}
+
+// One wrong ray in thirty thousand is seen with a probability of 95 %; one in three hundred thousand every night.
+TEST(AccelOracle, AgreesWithALoopInDouble) {
+    expectAgreementWithALoopInDouble(100'000);
+}
+TEST(NightlyAccelOracle, AgreesWithALoopInDouble) {
+    expectAgreementWithALoopInDouble(1'000'000);
 }
 
 #ifdef RT_HAS_EMBREE
@@ -237,13 +245,13 @@ class EmbreeScene {
     RTCScene scene_;
 };
 
-TEST(AccelOracle, AgreesWithEmbree) {
+void expectAgreementWithEmbree(int rayCount) {
     Geometry g = meshAndSpheres();
     const auto tree = buildAccel(g);
     const EmbreeScene embree(g);
     Random random(64);
     std::vector<Ray> rays;
-    for (int i = 0; i < 1000000; ++i) {
+    for (int i = 0; i < rayCount; ++i) {
         Ray ray{random.inCube(3.0f), random.direction(), 0.0f};
         if (i % 3 == 1) ray.direction = shared::normalize(g.positions[random.below(g.positions.size())] - ray.origin);
         if (i % 3 == 2) {
@@ -260,7 +268,7 @@ TEST(AccelOracle, AgreesWithEmbree) {
     }
     for (const NamedQuery& q : runnableQueries()) {
         std::vector<Ray> some = rays;
-        if (q.name == "generic") some.resize(100000); // it is slow
+        if (q.name == "generic") some.resize(std::min<std::size_t>(some.size(), 100'000)); // it is slow
         const std::vector<Hit> ours = closestHits(*q.query, tree->view(), some);
         int different = 0, wrong = 0;
         for (std::size_t i = 0; i < some.size(); ++i) {
@@ -269,8 +277,15 @@ TEST(AccelOracle, AgreesWithEmbree) {
             wrong += !bruteForce(g, rays[i]).allows(ours[i].t);
         }
         EXPECT_EQ(wrong, 0) << q.name;
-        EXPECT_LT(different, 5000) << q.name;
+        EXPECT_LT(different, rayCount / 200) << q.name;
     }
+}
+
+TEST(AccelOracle, AgreesWithEmbree) {
+    expectAgreementWithEmbree(100'000);
+}
+TEST(NightlyAccelOracle, AgreesWithEmbree) {
+    expectAgreementWithEmbree(1'000'000);
 }
 
 #endif

@@ -1,0 +1,105 @@
+// Of a ray tracing pipeline exist only the shader groups that a scene needs: counted in what the driver is asked to make.
+#include <cstdint>
+#include <ostream>
+#include <span>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Shared/Base/Features.h"
+#include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/Device.h"
+
+namespace rt::test {
+namespace {
+
+struct Groups {
+    std::uint32_t triangles = 0;  // hits of meshes, and of quads, which are two triangles
+    std::uint32_t procedural = 0; // hits of spheres
+    std::uint32_t callable = 0;   // samplers by projected solid angle
+    bool operator==(const Groups&) const = default;
+};
+
+std::ostream& operator<<(std::ostream& out, const Groups& groups) {
+    return out << groups.triangles << " of triangles, " << groups.procedural << " procedural, " << groups.callable
+               << " callable";
+}
+
+// While it lives, it stands between the engine and the driver.
+class MadeGroups {
+  public:
+    explicit MadeGroups(vulkan::VulkanContext& context)
+        // The context itself is no constant: what it loaded may be replaced.
+        : functions_(const_cast<vulkan::RayTracingFunctions&>(context.rayTracing())),
+          driver_(std::exchange(functions_.createPipelines, &MadeGroups::create)) {
+        current_ = this;
+    }
+    ~MadeGroups() {
+        functions_.createPipelines = driver_;
+        current_ = nullptr;
+    }
+    MadeGroups(const MadeGroups&) = delete;
+    MadeGroups& operator=(const MadeGroups&) = delete;
+
+    // Of the pipeline that was made last.
+    const Groups& last() const { return last_; }
+
+  private:
+    static VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice device, VkDeferredOperationKHR operation,
+                                                 VkPipelineCache cache, std::uint32_t count,
+                                                 const VkRayTracingPipelineCreateInfoKHR* infos,
+                                                 const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+        Groups& groups = current_->last_ = {};
+        for (const VkRayTracingShaderGroupCreateInfoKHR& g : std::span(infos->pGroups, infos->groupCount)) {
+            groups.triangles += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
+            groups.procedural += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR;
+            groups.callable += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR &&
+                               infos->pStages[g.generalShader].stage == VK_SHADER_STAGE_CALLABLE_BIT_KHR;
+        }
+        return current_->driver_(device, operation, cache, count, infos, allocator, pipelines);
+    }
+
+    static inline MadeGroups* current_ = nullptr;
+    vulkan::RayTracingFunctions& functions_;
+    const PFN_vkCreateRayTracingPipelinesKHR driver_;
+    Groups last_;
+};
+
+Groups groupsFor(const char* id, const app::RenderSettings& settings) {
+    const auto scene = app::compile(app::loadScene(id), true);
+    const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = app::GpuEngineKind::Pipeline});
+    engine->setScene(scene, nullptr);
+    const MadeGroups made(device());
+    engine->reset(scene->camera, settings);
+    return made.last();
+}
+
+app::RenderSettings tiny() {
+    app::RenderSettings settings;
+    settings.width = settings.height = 8;
+    settings.spp = 1;
+    return settings;
+}
+
+TEST(ShaderGroupsTest, AreThoseOfTheShapesInTheScene) {
+    app::RenderSettings settings = tiny();
+    EXPECT_EQ(groupsFor("one-weekend-final", settings), (Groups{0, 1, 0}));
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0, 0}));
+    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 0}));
+    settings.features = shared::kFeatureAll;
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{2, 1, 0}));
+}
+
+// The default scene is lit by a quad and by spheres.
+TEST(ShaderGroupsTest, CallableAreTheSamplersThatLightsNeed) {
+    app::RenderSettings settings = tiny();
+    settings.quadLight = app::ShapeSampling::Projected;
+    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 1}));
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0, 0}));
+    settings.sphereLight = app::ShapeSampling::Projected;
+    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 2}));
+}
+
+} // namespace
+} // namespace rt::test

@@ -1,0 +1,59 @@
+# The bugs that run.sh plants: name, file, extended regular expression for sed, and the test that must see it. Each is a mistake
+# that could be made, in a line that rarely changes.
+
+# ---- random numbers and samplers -------------------------------------------------------------------------------------
+bug 'a uniform number of 1' Random.h 's/return float\(x >> 8u\) \* 5\.9604644775390625e-8f/return float(x >> 8u) * 5.9604652e-8f/' unit.Uniform
+bug 'second Sobol coordinate' Random.h 's/(0xf0f0f0f0u\) >> )4u/\13u/' unit.Sobol
+bug 'Owen scrambling that is not nested' Random.h 's/0x05526c56u/0x05526c57u/' unit.Sobol
+bug 'cosine hemisphere' Sampling.h 's/sqrt\(\(1\.0f - d\.z\) \* \(1\.0f \+ d\.z\)\)/1.0f - d.z/' unit.Sampling
+bug 'points on a sphere' Sampling.h 's/float z = 1\.0f - 2\.0f \* u\.x/float z = 1.0f - 1.98f * u.x/' unit.Sampling
+
+# ---- lights ----------------------------------------------------------------------------------------------------------
+bug 'density inside a sphere light' SphereLight.h 's/max\(dot\(normal, wi\), 0\.0f\) \* kInvPi : 0\.25f/max(dot(normal, wi), 0.0f) * 0.9f * kInvPi : 0.25f/' cross.Families/Samplers
+bug 'density inside an ellipsoid light' EllipsoidLight.h 's/max\(dot\(normal, wi\), 0\.0f\) \* kInvPi : 0\.25f/max(dot(normal, wi), 0.0f) * 0.9f * kInvPi : 0.25f/' unit.Ellipsoids
+bug 'weight of corners of a quad light' QuadLight.h 's/s\.pdf \*= bilinearDensity\(cosines, numbers\);//' unit.Lights/LightCase
+bug 'density on a triangle light' TriangleLight.h 's/s\.pdf = 1\.0f \/ t\.solidAngle;/s.pdf = 0.9f \/ t.solidAngle;/' unit.Lights/LightCase
+bug 'contribution of a light near the horizon' LightContribution.h 's/above \/ \(4\.0f \* wide\)/above \/ (3.9f * wide)/' cross.Families/Samplers
+bug 'probability of a light chosen uniformly' LightSelection.h 's/choice\.probability = 1\.0f \/ float\(count\);/choice.probability = 1.0f \/ float(count + 1u);/' cross.Families/Samplers
+
+# ---- paths -----------------------------------------------------------------------------------------------------------
+bug 'weight of multiple importance sampling' Sampling.h 's/square\(pdfB \/ pdfA\)/pdfB \/ pdfA/' image.Irradiance
+bug 'Russian roulette without its weight' PathStep.h 's/s\.throughput \/= survival;//' image.Furnace
+bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth\);/return transmittance(0.5f * depth);/' image.Transmittance
+
+# ---- materials, media, textures --------------------------------------------------------------------------------------
+bug 'density of rough metal' Bsdf.h 's/\(square\(cosine\) \+ square\(root\)\) \/ \(2\.0f/(square(cosine)) \/ (2.0f/' unit.Fuzz/MetalFuzz
+bug 'Fresnel reflectance' Bsdf.h 's/float parallel = \(c - eta \* t\)/float parallel = (c - t)/' unit.Dielectric
+bug 'free flight' Media.h 's/-log1p\(-u\) \/ extinction/u \/ extinction/' unit.FreeFlight
+bug 'half a texel' Textures.h 's/(float\(image\.height\)\)) - 0\.5f;/\1;/' unit.Textures
+
+# ---- acceleration structures -----------------------------------------------------------------------------------------
+bug 'box of a sphere' PrimitiveBoxes.cpp 's/box\.upper \+= vec3\(sphere\.radius\)/box.upper += vec3(0.5f * sphere.radius)/' unit.AccelOracle
+bug 'hits behind the nearest' TraverseNodes.h 's/lanes\.mask & \(lanes\.t <= broadcast\(best\.t\)\)/lanes.mask/' unit.AccelOracle
+bug 'boxes of the GPU that are left early' Traverse.glsl 's/leave = min\(leave, max\(t\.xz, t\.yw\)\);/leave = min(leave, max(t.xz, t.yw) * 0.97f);/' cross.Scenes/AgreementTest
+
+# ---- film and images -------------------------------------------------------------------------------------------------
+bug 'variance of replicates' Film.cpp 's/\/ \(groups - 1\) \/ total\.count/\/ groups \/ total.count/' unit.Film
+bug 'checkpoint without squares' FilmState.cpp 's/writer\.put\(std::span\(squares_\)\);//' unit.FilmCheckpoint
+bug 'a film on the device that loses low words' FilmReduce.comp 's/precise vec3 rest = s\.low \+ error;/precise vec3 rest = error;/' cross.DeviceFilmTest
+bug 'relMSE' Metrics.cpp 's/\(square\(target\) \+ kRelativeFloor\)/(std::abs(target) + kRelativeFloor)/' unit.Metrics
+bug 'checksum in a PNG' PngText.cpp 's/0xedb88320u/0xedb88321u/' unit.ImageDescription
+bug 'PFM upside down' Pfm.cpp 's/for \(std::size_t row = image\.height; row-- > 0;\)/for (std::size_t row = 0; row < image.height; ++row)/' unit.ImageIo
+bug 'EXR of the wrong version' Exr.cpp 's/kVersion = 2;/kVersion = 3;/' unit.ImageIo
+
+# ---- options, scenes -------------------------------------------------------------------------------------------------
+bug 'a whole number beyond its range' OptionValues.cpp 's/rest != end \|\| value < min \|\| value > max/rest != end || value < min/' unit.OptionsTest
+bug 'a key twice in a configuration' ConfigText.cpp 's/same\); first != entries_\.end\(\)\)/same); first == entries_.end() - 1)/' unit.ConfigTextTest
+bug 'a scene file without the field "light"' SceneWriter.cpp 's/setUnless\(out, "light", surface\.light, true\);//' unit.SceneJson
+bug 'a scale of 0' ObjectReader.cpp 's/factors\.x == 0 \|\| //' unit.SceneJson
+bug 'defocus in a scene file' SceneWriter.cpp 's/\{"defocus_angle", camera\.defocusAngle\}/{"defocus_angle", camera.focusDistance}/' unit.All/BuiltinScenes
+
+# ---- windows, history, benchmark -------------------------------------------------------------------------------------
+bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, openFile/GLFW_KEY_P, When::Control, openFile/' gui.ControlsTest
+bug 'the curve of a run' RunHistory.cpp 's/curve\.push_back\(\{point\.seconds, point\.relmse\}\)/curve.push_back({point.relmse, point.seconds})/' unit.RunHistoryTest
+bug 'confidence of an error' Analysis.cpp 's/: 1\.96 \* tileError/: 1.0 * tileError/' unit.BenchAnalysis
+
+# ---- shape of the code -----------------------------------------------------------------------------------------------
+bug 'a shader group that no scene needs' RtPipeline.cpp 's/name \+= "\+quads";/list.addTriangles(Shader::QuadHit); &/' cross.ShaderGroupsTest
+bug 'a shared header that needs another one' Media.h 's/#include "Common\/Shared\/Base\/Sampling\.h"//' structure.sharedHeaders.g++
+bug 'an include against the arrows' Film.cpp '1s/$/\n#include "Common\/App\/Platform.h"/' structure.IncludeRules

@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# Plants the bugs of bugs.sh one after the other and expects the ci tier's test that each names to fail: evidence that the tests
+# would see them. Needs a tree that was built with its tests, a device (./build.sh test provides both), GNU sed; takes minutes
+# a bug.
+#   tests/planted/run.sh          all bugs
+#   tests/planted/run.sh REGEX    those whose names match
+#   tests/planted/run.sh --list   names, files and tests, and whether each still applies; changes nothing
+# Exit code 0: all were seen; 1: some were not, or could not be planted.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+only=${1:-.}
+scratch=$(mktemp -d)
+patched=
+bad=0
+declare -A passes # tests that were seen to pass without a bug
+
+restore() {
+    [[ -z $patched ]] || cp "$scratch/original" "$patched"
+    patched=
+}
+trap 'restore; rm -rf "$scratch"' EXIT
+
+report() {
+    printf '%-9s %-55s %s\n' "$@"
+}
+fail() {
+    report "$@"
+    bad=1
+}
+
+# run_test TEST: 0 it passed, 1 it failed, 2 there is none
+run_test() {
+    ctest --test-dir build --label-exclude nightly --tests-regex "^$1\$" >"$scratch/test" 2>&1 && status=0 || status=1
+    if grep -q 'No tests were found' "$scratch/test"; then
+        status=2
+    fi
+    return $status
+}
+
+# build_for TEST: what it runs
+build_for() {
+    local target=rt-${1%%.*}-tests
+    cmake --build build --target "$target" >"$scratch/build" 2>&1
+}
+
+# bug NAME FILE SED TEST: FILE is the end of one tracked path, SED an expression for it, TEST the one of ctest's that must fail.
+bug() {
+    local name=$1 file=$2 expression=$3 test=$4 path
+    [[ $only == --list || $name =~ $only ]] || return 0
+    path=$(git ls-files "$file" "*/$file")
+    if [[ -z $path || $path == *$'\n'* ]]; then
+        fail 'no file' "$name" "$file names not one file"
+        return
+    fi
+    sed -E "$expression" "$path" >"$scratch/planted"
+    if cmp -s "$path" "$scratch/planted"; then
+        fail 'obsolete' "$name" "$path has no such line"
+        return
+    fi
+    if [[ $only == --list ]]; then
+        report applies "$name" "$path, $test"
+        return
+    fi
+    if [[ -z ${passes[$test]:-} ]]; then
+        build_for "$test" && run_test "$test" || {
+            fail 'no test' "$name" "$test does not pass, or is not there, without a bug"
+            return
+        }
+        passes[$test]=1
+    fi
+    cp "$path" "$scratch/original"
+    patched=$path
+    cp "$scratch/planted" "$path"
+    if ! build_for "$test"; then
+        fail 'no bug' "$name" "does not compile: $(grep -m 1 error "$scratch/build")"
+    elif run_test "$test"; then
+        fail MISSED "$name" "$test passes"
+    else
+        report caught "$name" "$test"
+    fi
+    restore
+}
+
+. tests/planted/bugs.sh
+[[ $only == --list ]] || cmake --build build >/dev/null # without the last bug
+exit $bad
