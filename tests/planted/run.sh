@@ -31,7 +31,7 @@ fail() {
 
 # run_test TEST: 0 it passed, 1 it failed, 2 there is none
 run_test() {
-    ctest --test-dir build --label-exclude nightly --tests-regex "^$1\$" >"$scratch/test" 2>&1 && status=0 || status=1
+    ctest --test-dir build --label-exclude nightly --tests-regex "^${1//+/\\+}\$" >"$scratch/test" 2>&1 && status=0 || status=1
     if grep -q 'No tests were found' "$scratch/test"; then
         status=2
     fi
