@@ -1,6 +1,5 @@
 // Every sampler proved on the host and on the device by the same tests, in single precision, against answers in double
 // precision that use no shared formula.
-#include <SamplerProbe.comp.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "SamplerProbe.comp.h"
 #include "tests/cross/Probe.h"
 #include "tests/cross/SamplerDomain.h"
 #include "tests/cross/probes/SamplerProbe.h"
@@ -207,7 +207,7 @@ double clampedMean(double middle, double spread) {
     return (high * high - low * low) / (4 * spread);
 }
 
-// Irradiance that a flat light with this bound is estimated to cause on a surface with the normal `n`, or anywhere if that is 0.
+// Irradiance that a flat light with this bound is estimated to cause on a surface with the normal `n`; n = 0: in a medium.
 double estimatedIrradiance(const shared::LightBound& bound, const dvec3& position, const dvec3& n) {
     const dvec3 toLight = dvec3(bound.center) - position;
     const double radius = static_cast<double>(bound.radius);
@@ -232,7 +232,7 @@ class Choice : public Sampler {
             p.push_back(which_ == 1 ? i + 1.0
                         : which_ == 2
                             ? 1.0
-                            : estimatedIrradiance(shared::loadLightBound(1, i), dvec3(c.position), dvec3(c.normal)));
+                            : estimatedIrradiance(shared::probeTableBound(i), dvec3(c.position), dvec3(c.normal)));
         const double whole = std::accumulate(p.begin(), p.end(), 0.0);
         for (double& x : p) x /= whole;
         return p;
