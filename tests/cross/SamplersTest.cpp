@@ -1,6 +1,5 @@
 // Every sampler proved on the host and on the device by the same tests, in single precision, against answers in double
 // precision that use no shared formula.
-#include <SamplerProbe.comp.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "SamplerProbe.comp.h"
 #include "tests/cross/Probe.h"
 #include "tests/cross/SamplerDomain.h"
 #include "tests/cross/probes/SamplerProbe.h"
@@ -232,7 +232,7 @@ class Choice : public Sampler {
             p.push_back(which_ == 1 ? i + 1.0
                         : which_ == 2
                             ? 1.0
-                            : estimatedIrradiance(shared::loadLightBound(1, i), dvec3(c.position), dvec3(c.normal)));
+                            : estimatedIrradiance(shared::probeTableBound(i), dvec3(c.position), dvec3(c.normal)));
         const double whole = std::accumulate(p.begin(), p.end(), 0.0);
         for (double& x : p) x /= whole;
         return p;
