@@ -93,10 +93,9 @@ class PathPacket {
     // False: there is no sample left.
     bool begin(PathSlot& slot, uint i) {
         Ray ray;
-        slot.sample = samples_.template next<kFeatures>(lanes_.samplers, i, ray);
+        slot.sample = samples_.template next<kFeatures>(lanes_, i, ray);
         if (slot.sample == kNone) return false;
         slot.path = startPath(ray);
-        set(lanes_.hits, i, traceRay(scene_, slot.path.ray));
         return true;
     }
 

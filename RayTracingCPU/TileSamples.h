@@ -8,19 +8,23 @@ namespace {
 
 using namespace rt::shared;
 
-// Camera rays of the samples of a tile, pixel by pixel.
+// Camera rays of the samples of a tile, pixel by pixel, and what they hit.
 class TileSamples {
   public:
     TileSamples(const KernelContext& context, const TileTask& task)
         : context_(context), task_(task), count_(task.width * task.height * task.count) {}
 
-    // The index of the next sample, with its sampler and ray. kNone: none is left.
+    // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is left.
     template <uint kFeatures>
-    uint next(RecordLanes<Sampler>& samplers, uint lane, Ray& ray) {
+    uint next(PathLanes& lanes, uint lane, Ray& ray) {
         if (next_ == count_) return kNone;
         const uint i = next_ % kLanes;
-        if (i == 0u) generateRays<kFeatures>();
-        set(samplers, lane, get(samplers_, i));
+        if (i == 0u) {
+            generateRays<kFeatures>();
+            traceRays();
+        }
+        set(lanes.samplers, lane, get(samplers_, i));
+        set(lanes.hits, lane, get(hits_, i));
         ray = get(rays_, i);
         return next_++;
     }
@@ -52,6 +56,12 @@ class TileSamples {
         }
     }
 
+    // One after the other: they are alike, and do not wait for each other.
+    void traceRays() {
+        const uint count = min(kLanes, count_ - next_);
+        for (uint i = 0u; i < count; ++i) set(hits_, i, traceRay(*context_.scene, get(rays_, i)));
+    }
+
     void nextPixel() {
         sampleInPixel_ = 0u;
         if (++x_ < task_.width) return;
@@ -69,6 +79,7 @@ class TileSamples {
     Sampler first_{}; // of the pixel's samples
     RecordLanes<Sampler> samplers_;
     RecordLanes<Ray> rays_;
+    RecordLanes<Hit> hits_;
 };
 
 } // namespace
