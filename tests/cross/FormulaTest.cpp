@@ -1,5 +1,4 @@
 // The shared formulas on the device against the C++ build of the same headers.
-#include <FormulaProbe.comp.h>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "FormulaProbe.comp.h"
 #include "tests/cross/Probe.h"
 #include "tests/cross/probes/FormulaProbe.h"
 

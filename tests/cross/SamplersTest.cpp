@@ -1,6 +1,5 @@
 // Every sampler proved on the host and on the device by the same tests, in single precision, against answers in double
 // precision that use no shared formula.
-#include <SamplerProbe.comp.h>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -13,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "SamplerProbe.comp.h"
 #include "tests/cross/Probe.h"
 #include "tests/cross/SamplerDomain.h"
 #include "tests/cross/probes/SamplerProbe.h"
