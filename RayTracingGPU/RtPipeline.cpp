@@ -1,6 +1,5 @@
 #include "RayTracingGPU/RtPipeline.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -66,16 +65,16 @@ class GroupList {
     std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups_;
 };
 
-// The samplers by projected solid angle are callable shaders: their code is as long as all the rest, and compilers would copy
-// it into ray generation several times.
-void addCallables(GroupList& list, const PipelineDecisions& decisions, ShaderGroups& groups, std::string& name) {
+// The samplers by projected solid angle are callable shaders: their code is as long as all the rest, and compilers
+// would copy it into ray generation several times.
+void addCallables(GroupList& list, const SpecializationConstants& constants, ShaderGroups& groups, std::string& name) {
     const auto isProjected = [&](std::uint32_t feature, std::uint32_t method) {
-        return shared::has(decisions.features, shared::kFeatureProjected) && shared::has(decisions.features, feature) &&
+        return shared::has(constants.features, shared::kFeatureProjected) && shared::has(constants.features, feature) &&
                method == shared::kShapeProjected;
     };
-    const bool sphere = isProjected(shared::kFeatureSphereLights, decisions.sphereLight);
-    const bool polygon = isProjected(shared::kFeatureQuadLights, decisions.quadLight) ||
-                         isProjected(shared::kFeatureTriangleLights, decisions.triangleLight);
+    const bool sphere = isProjected(shared::kFeatureSphereLights, constants.sphereLight);
+    const bool polygon = isProjected(shared::kFeatureQuadLights, constants.quadLight) ||
+                         isProjected(shared::kFeatureTriangleLights, constants.triangleLight);
     if (!sphere && !polygon) return;
     groups.callable.resize(shared::kCallableRecords);
     if (polygon) {
@@ -90,8 +89,9 @@ void addCallables(GroupList& list, const PipelineDecisions& decisions, ShaderGro
     }
 }
 
-ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shader rayGeneration, std::string& name) {
-    const std::uint32_t features = decisions.features;
+ShaderGroups addGroups(GroupList& list, const SpecializationConstants& constants, Shader rayGeneration,
+                       std::string& name) {
+    const std::uint32_t features = constants.features;
     ShaderGroups groups;
     groups.hit.resize(shared::kHitRecords);
     groups.rayGeneration = list.addGeneral(VK_SHADER_STAGE_RAYGEN_BIT_KHR, rayGeneration);
@@ -109,7 +109,7 @@ ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shad
         groups.hit[shared::kHitRecordSphere] = list.addProcedural(Shader::SphereHit, Shader::SphereIntersection);
         name += "+spheres";
     }
-    if (rayGeneration != Shader::AovGeneration) addCallables(list, decisions, groups, name); // that samples no lights
+    if (rayGeneration != Shader::AovGeneration) addCallables(list, constants, groups, name); // that samples no lights
     groups.count = static_cast<std::uint32_t>(list.groups().size());
     return groups;
 }
@@ -117,15 +117,11 @@ ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shad
 } // namespace
 
 RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
-                       const RenderBindings& bindings, const PipelineDecisions& decisions, Shader rayGeneration)
+                       const RenderBindings& bindings, const SpecializationConstants& constants, Shader rayGeneration)
     : bindings_(bindings) {
-    constexpr std::uint32_t kConstants = sizeof(PipelineDecisions) / sizeof(std::uint32_t);
-    std::array<VkSpecializationMapEntry, kConstants> entries;
-    for (std::uint32_t i = 0; i < kConstants; ++i) entries[i] = {i, i * 4, 4};
-    const VkSpecializationInfo constants{kConstants, entries.data(), sizeof decisions, &decisions};
-
-    GroupList list(context.device(), constants);
-    const ShaderGroups groups = addGroups(list, decisions, rayGeneration, name_);
+    const VkSpecializationInfo specialization = specializationInfo(constants);
+    GroupList list(context.device(), specialization);
+    const ShaderGroups groups = addGroups(list, constants, rayGeneration, name_);
     VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
     info.stageCount = static_cast<std::uint32_t>(list.stages().size());
     info.pStages = list.stages().data();

@@ -4,11 +4,11 @@
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
 
-layout(constant_id = 9) const uint kTreeDepth = 0u; // references that a traversal has to remember
-layout(constant_id = 10) const uint kIsFlat = 1u;   // there are the lists instead of a tree
-layout(constant_id = 11) const uint kFlatSpheres = 0u;
-layout(constant_id = 12) const uint kFlatQuads = 0u;
-layout(constant_id = 13) const uint kFlatTriangles = 0u;
+layout(constant_id = kTreeDepthId) const uint kTreeDepth = 0u; // references that a traversal has to remember
+layout(constant_id = kIsFlatId) const uint kIsFlat = 1u;   // there are the lists instead of a tree
+layout(constant_id = kFlatSpheresId) const uint kFlatSpheres = 0u;
+layout(constant_id = kFlatQuadsId) const uint kFlatQuads = 0u;
+layout(constant_id = kFlatTrianglesId) const uint kFlatTriangles = 0u;
 
 layout(set = 0, binding = 2, scalar) uniform FlatLists { vec4 flatVectors[kFlatVectors]; };
 
