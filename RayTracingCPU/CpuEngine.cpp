@@ -99,34 +99,11 @@ struct PreparedScene {
 
 CpuScene makeView(const PreparedScene& prepared, InstructionSet set) {
     const scene::CompiledScene& s = *prepared.compiled;
-    CpuScene view;
-    view.accel = prepared.accel->view();
+    CpuScene view{shared::viewOf(s, s.globals), prepared.accel->view(), {}, &prepared.lightBounds};
     view.tracer = accel::rayQuery(set)->tracer(view.accel.kinds);
-    view.spheres = s.spheres.data();
-    view.sphereMotions = s.sphereMotions.empty() ? nullptr : s.sphereMotions.data();
-    view.quads = s.quads.data();
-    view.positions = s.positions.data();
-    view.normals = s.normals.data();
-    view.uvs = s.uvs.data();
-    view.triangles = s.triangles.data();
-    view.meshes = s.meshes.data();
-    view.triangleMesh = s.triangleMesh.data();
-    view.instances = s.instances.data();
-    view.materials = s.materials.data();
-    view.textures = s.textures.data();
-    view.images = s.images.data();
-    view.texels = s.texels.data();
-    view.srgbToLinear = prepared.srgbToLinear.data();
-    view.perlinGradients = s.perlinGradients.data();
-    view.perlinPermutations = s.perlinPermutations.data();
-    view.media = s.media.data();
-    view.lights = prepared.lights.size() > 0 ? prepared.lights.data() : s.lights.data();
-    view.lightBounds = s.lightBounds.data();
-    view.lightBoundsSoa = &prepared.lightBounds;
+    if (prepared.lights.size() > 0) view.lights = prepared.lights.data();
     view.lightNodes = prepared.lightNodes.data();
-    view.lightPlaces = s.lightPlaces.data();
-    view.skyCdf = s.skyCdf.data();
-    view.globals = s.globals;
+    view.srgbToLinear = prepared.srgbToLinear.data();
     return view;
 }
 
@@ -144,7 +121,9 @@ class CpuEngine final : public app::Engine {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
-        prepared->accel = accel::CpuAccel::build(input, {}, cancel);
+        accel::BuildSettings build;
+        build.tree.threads = threads_;
+        prepared->accel = accel::CpuAccel::build(input, build, cancel);
         if (!prepared->accel) return false;
         prepared->lightBounds = makeLightBoundsSoa(s);
         if (!s.lightNodes.empty()) {

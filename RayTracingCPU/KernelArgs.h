@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "Common/Accel/Traverse/RayQuery.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::cpu {
@@ -34,35 +35,11 @@ RT_FN void setBound(LightBoundsSoa& bounds, std::size_t i, const shared::LightBo
     bounds.intensity[i] = bound.intensity;
 }
 
-// The compiled scene's arrays and its acceleration structure. Owned by the engine; null where the scene has none.
-struct CpuScene {
+// The scene and its acceleration structure. Owned by the engine.
+struct CpuScene : shared::SceneView {
     accel::AccelView accel;
-    accel::Tracer tracer; // for the primitives in `accel`
-    const shared::Sphere* spheres = nullptr;
-    const shared::vec3* sphereMotions = nullptr;
-    const shared::Quad* quads = nullptr;
-    const shared::vec3* positions = nullptr;
-    const shared::vec3* normals = nullptr;
-    const shared::vec2* uvs = nullptr;
-    const shared::uvec3* triangles = nullptr;
-    const shared::Mesh* meshes = nullptr;
-    const std::uint32_t* triangleMesh = nullptr;
-    const shared::Instance* instances = nullptr;
-    const shared::Material* materials = nullptr;
-    const shared::Texture* textures = nullptr;
-    const shared::Image* images = nullptr;
-    const std::uint32_t* texels = nullptr;
-    const float* srgbToLinear = nullptr; // 256 entries
-    const shared::vec3* perlinGradients = nullptr;
-    const std::uint32_t* perlinPermutations = nullptr;
-    const shared::Medium* media = nullptr;
-    const shared::Light* lights = nullptr;
-    const shared::LightBound* lightBounds = nullptr;
-    const LightBoundsSoa* lightBoundsSoa = nullptr;
-    const shared::LightNode* lightNodes = nullptr;
-    const std::uint32_t* lightPlaces = nullptr;
-    const float* skyCdf = nullptr;
-    shared::SceneGlobals globals{};
+    accel::Tracer tracer;                           // for the primitives in `accel`
+    const LightBoundsSoa* lightBoundsSoa = nullptr; // of a table that is chosen from light by light
 };
 
 struct KernelCounters {

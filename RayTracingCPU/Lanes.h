@@ -71,7 +71,7 @@ RT_FN Hit get(const HitLanes& lanes, uint i) {
 // Of the material what scattering depends on.
 struct VertexLanes {
     UintLanes index, inMedium, front, kind;
-    FloatLanes fuzz, ior;
+    FloatLanes parameter[kMaterialParameters];
     Vec3Lanes normal, shading, wo, albedo, position, error, origin;
     Vec2Lanes light, bsdf, choice, select; // the numbers, which set() leaves alone
 };
@@ -81,8 +81,7 @@ RT_FN void set(VertexLanes& lanes, uint i, const Vertex& v) {
     lanes.inMedium.at[i] = v.inMedium;
     lanes.front.at[i] = v.front;
     lanes.kind.at[i] = v.material.kind;
-    lanes.fuzz.at[i] = v.material.fuzz;
-    lanes.ior.at[i] = v.material.ior;
+    for (uint k = 0u; k < kMaterialParameters; ++k) lanes.parameter[k].at[i] = v.material.parameter[k];
     set(lanes.normal, i, v.normal);
     set(lanes.shading, i, v.shading);
     set(lanes.wo, i, v.wo);
@@ -106,8 +105,7 @@ RT_FN Vertex get(const VertexLanes& lanes, uint i) {
     v.front = lanes.front.at[i];
     v.material = blackMaterial();
     v.material.kind = lanes.kind.at[i];
-    v.material.fuzz = lanes.fuzz.at[i];
-    v.material.ior = lanes.ior.at[i];
+    for (uint k = 0u; k < kMaterialParameters; ++k) v.material.parameter[k] = lanes.parameter[k].at[i];
     v.normal = get(lanes.normal, i);
     v.shading = get(lanes.shading, i);
     v.wo = get(lanes.wo, i);

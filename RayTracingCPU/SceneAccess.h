@@ -1,98 +1,14 @@
-// Gives Common/Shared its access to the scene on the CPU: SceneRef, every load...(), tracing. Include it before the headers
-// that fetch; everything here has internal linkage.
+// What kernels do with a scene beyond Common/Shared/Base/SceneAccess.h: tracing, fetching lights ahead of their use, and the choice
+// by contribution in vectors. Everything here has internal linkage.
 #pragma once
 #include "Common/Accel/Simd/Prefetch.h"
 #include "Common/Accel/Simd/Simd.h"
 #include "Common/Shared/Light/LightContribution.h"
-#include "Common/Shared/Light/Lights.h"
 #include "RayTracingCPU/KernelArgs.h"
 
 RT_SHARED_BEGIN
 
-using SceneRef = const cpu::CpuScene&;
-
-const uint kFarLights = 4096u; // more than a core's own cache holds
-
-RT_FN const SceneGlobals& loadGlobals(SceneRef scene) {
-    return scene.globals;
-}
-RT_FN const Sphere& loadSphere(SceneRef scene, uint i) {
-    return scene.spheres[i];
-}
-RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
-    return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
-}
-RT_FN const Quad& loadQuad(SceneRef scene, uint i) {
-    return scene.quads[i];
-}
-RT_FN vec3 loadPosition(SceneRef scene, uint i) {
-    return scene.positions[i];
-}
-RT_FN vec3 loadNormal(SceneRef scene, uint i) {
-    return scene.normals[i];
-}
-RT_FN vec2 loadUv(SceneRef scene, uint i) {
-    return scene.uvs[i];
-}
-RT_FN uvec3 loadTriangle(SceneRef scene, uint i) {
-    return scene.triangles[i];
-}
-RT_FN const Mesh& loadMesh(SceneRef scene, uint i) {
-    return scene.meshes[i];
-}
-RT_FN uint loadTriangleMesh(SceneRef scene, uint i) {
-    return scene.triangleMesh[i];
-}
-RT_FN const Instance& loadInstance(SceneRef scene, uint i) {
-    return scene.instances[i];
-}
-RT_FN const Material& loadMaterial(SceneRef scene, uint i) {
-    return scene.materials[i];
-}
-RT_FN const Texture& loadTexture(SceneRef scene, uint i) {
-    return scene.textures[i];
-}
-RT_FN const Image& loadImage(SceneRef scene, uint i) {
-    return scene.images[i];
-}
-RT_FN vec3 loadPerlinGradient(SceneRef scene, uint i) {
-    return scene.perlinGradients[i];
-}
-RT_FN uint loadPerlinPermutation(SceneRef scene, uint i) {
-    return scene.perlinPermutations[i];
-}
-RT_FN const Medium& loadMedium(SceneRef scene, uint i) {
-    return scene.media[i];
-}
-RT_FN const Light& loadLight(SceneRef scene, uint i) {
-    return scene.lights[i];
-}
-RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) {
-    return scene.lightBounds[i];
-}
-RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
-    const LightNode& n = scene.lightNodes[node];
-    LightCluster c;
-    c.center = vec3(n.centerX[i], n.centerY[i], n.centerZ[i]);
-    c.radius = n.radius[i];
-    c.axis = vec3(n.axisX[i], n.axisY[i], n.axisZ[i]);
-    c.alignment = n.alignment[i];
-    c.spreadCosine = n.spreadCosine[i];
-    c.facing = n.facing[i];
-    c.around = n.around[i];
-    c.child = n.child[i];
-    return c;
-}
-RT_FN void expectLights(SceneRef scene, uint node) {
-    if (scene.globals.lightCount < kFarLights) return;
-    for (const uint child : scene.lightNodes[node].child) {
-        if ((child & kLightLeaf) == 0u) continue;
-        const char* light = reinterpret_cast<const char*>(scene.lights + (child & ~kLightLeaf));
-        accel::prefetch(light);
-        accel::prefetch(light + sizeof(Light) - 1);
-    }
-}
-// The same of what a descent has got to: a node's six lines, or a light.
+// Of what a descent through the light tree has got to: a node's six cache lines, or a light.
 RT_FN void expectLightChild(SceneRef scene, uint child) {
     const bool isNode = (child & kLightLeaf) == 0u;
     const char* record = isNode ? reinterpret_cast<const char*>(scene.lightNodes + child)
@@ -101,32 +17,12 @@ RT_FN void expectLightChild(SceneRef scene, uint child) {
     for (std::size_t i = 0; i < bytes; i += 64) accel::prefetch(record + i);
     accel::prefetch(record + bytes - 1);
 }
-RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
-    return scene.lightPlaces[scene.globals.lightCount + node];
-}
-RT_FN uint loadLightPlace(SceneRef scene, uint light) {
-    return scene.lightPlaces[light];
-}
-RT_FN float loadSkyCdf(SceneRef scene, uint i) {
-    return scene.skyCdf[i];
-}
 
-RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
-    const uint texel = y * image.width + x;
-    if (image.format == kTexelLinearF32) {
-        const uint* words = scene.texels + image.firstTexel + 3u * texel;
-        return vec3(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]));
-    }
-    const uint word = scene.texels[image.firstTexel + texel];
-    return vec3(scene.srgbToLinear[word & 255u], scene.srgbToLinear[word >> 8u & 255u],
-                scene.srgbToLinear[word >> 16u & 255u]);
-}
-
-RT_FN Hit traceRay(SceneRef scene, const Ray& ray) {
+RT_FN Hit traceRay(const cpu::CpuScene& scene, const Ray& ray) {
     return scene.tracer.closest(scene.accel, ray, kInfinity);
 }
 
-RT_FN bool isOccluded(SceneRef scene, const Ray& ray, float tMax) {
+RT_FN bool isOccluded(const cpu::CpuScene& scene, const Ray& ray, float tMax) {
     return scene.tracer.occluded(scene.accel, ray, tMax);
 }
 
@@ -146,7 +42,7 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
     static_assert(kContributionLights == 32);
     alignas(32) float weights[kContributionLights];
     alignas(32) float sums[kContributionLights];
-    const cpu::LightBoundsSoa& bounds = *scene.lightBoundsSoa;
+    const cpu::LightBoundsSoa& bounds = *static_cast<const cpu::CpuScene&>(scene).lightBoundsSoa;
     const uint padded = (count + 7u) & ~7u;
     for (uint i = 0u; i < padded; i++) {
         weights[i] = lightContribution(lightBoundAt(bounds, i), position, normal);

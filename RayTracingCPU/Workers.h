@@ -18,28 +18,32 @@
 namespace rt::cpu {
 
 // Calls work(i) once for each i below count. The policies know no number of threads: at most `count` calls run at a time, so
-// each call is a worker that pulls its share of the work itself.
+// each call is a worker that pulls its share of the work itself. The first exception of a worker is thrown again when all
+// are done.
 template <class Work>
 void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
-    if (policy == Policy::Seq || count == 1) {
+    if (policy == Policy::Seq || count == 1 || !accel::canStartThreads()) {
         for (std::uint32_t i = 0; i < count; ++i) work(i);
         return;
     }
+    accel::FirstFailure failure;
+    const auto guarded = [&](std::uint32_t i) { failure.guard([&] { work(i); }); };
 #if defined(RT_THREADS_SANITIZED)
-    accel::onThreads(count, [&work](std::size_t i) { work(static_cast<std::uint32_t>(i)); });
+    accel::onThreads(count, [&guarded](std::size_t i) { guarded(static_cast<std::uint32_t>(i)); });
 #else
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);
 #if !defined(__cpp_lib_execution)
-    tbb::parallel_for_each(indices.begin(), indices.end(), work);
+    tbb::parallel_for_each(indices.begin(), indices.end(), guarded);
 #else
     if (policy == Policy::Par) {
-        std::for_each(std::execution::par, indices.begin(), indices.end(), work);
+        std::for_each(std::execution::par, indices.begin(), indices.end(), guarded);
     } else {
-        std::for_each(std::execution::par_unseq, indices.begin(), indices.end(), work);
+        std::for_each(std::execution::par_unseq, indices.begin(), indices.end(), guarded);
     }
 #endif
 #endif
+    failure.rethrow();
 }
 
 } // namespace rt::cpu

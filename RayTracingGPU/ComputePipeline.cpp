@@ -6,12 +6,12 @@
 namespace rt::gpu {
 namespace {
 
-std::string describe(std::uint32_t features, bool isFlat) {
-    std::string name = isFlat ? "flat" : "tree";
+std::string describe(std::uint32_t features, bool isLinear) {
+    std::string name = isLinear ? "list" : "tree";
     if (shared::has(features, shared::kFeatureTriangles)) name += "+triangles";
     if (shared::has(features, shared::kFeatureQuads)) name += "+quads";
     if (shared::has(features, shared::kFeatureSpheres)) name += "+spheres";
-    if (!isFlat && shared::has(features, shared::kFeatureInstances)) name += "+instances";
+    if (!isLinear && shared::has(features, shared::kFeatureInstances)) name += "+instances";
     return name;
 }
 
@@ -21,7 +21,7 @@ ComputePipeline::ComputePipeline(vulkan::VulkanContext& context, const vulkan::P
                                  const RenderBindings& bindings, const SpecializationConstants& constants,
                                  Shader shader)
     : bindings_(bindings),
-      name_(describe(constants.features, constants.traversal.isFlat != 0)),
+      name_(describe(constants.features, constants.traversal.isLinear != 0)),
       groupSize_(constants.traversal.groupSize) {
     const VkSpecializationInfo specialization = specializationInfo(constants);
     const auto module = vulkan::makeShaderModule(context.device(), shaderCode(shader));

@@ -17,7 +17,7 @@ class ComputePipeline final : public Kernel {
                     const SpecializationConstants& constants, Shader shader);
 
     vulkan::Access access() const override { return vulkan::kComputeRead | vulkan::kComputeWrite; }
-    // How rays are traced and through what: "flat+quads+spheres", "tree+triangles+instances".
+    // How rays are traced and through what: "list+quads+spheres", "tree+triangles+instances".
     const std::string& name() const override { return name_; }
 
   private:

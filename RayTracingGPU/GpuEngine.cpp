@@ -118,7 +118,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
     uploadConstants(camera);
     if (engine_ == app::GpuEngineKind::Compute) {
-        bindings_.update(uniforms_, scene_->flatLists());
+        bindings_.update(uniforms_, scene_->linearLists());
     } else {
         bindings_.update(uniforms_, scene_->topLevel());
     }

@@ -20,31 +20,11 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
     : compiled_(std::move(compiled)) {
     const scene::CompiledScene& s = *compiled_;
     const bool pipeline = engine == app::GpuEngineKind::Pipeline;
-    const VkBufferUsageFlags buildInput =
+    const VkBufferUsageFlags usage = // vertices and triangles are built from
         pipeline ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR : 0;
-    arrays_.spheres = add(context, s.spheres, "spheres");
-    arrays_.sphereMotions = add(context, s.sphereMotions, "motion");
-    arrays_.quads = add(context, s.quads, "quads");
-    arrays_.positions = add(context, s.positions, "vertices", buildInput);
-    arrays_.normals = add(context, s.normals, "normals");
-    arrays_.uvs = add(context, s.uvs, "texture coordinates");
-    arrays_.triangles = add(context, s.triangles, "triangles", buildInput);
-    arrays_.meshes = add(context, s.meshes, "meshes");
-    arrays_.triangleMesh = add(context, s.triangleMesh, "triangles");
-    arrays_.geometries = add(context, s.geometries, "geometries");
-    arrays_.instances = add(context, s.instances, "instances");
-    arrays_.materials = add(context, s.materials, "materials");
-    arrays_.textures = add(context, s.textures, "textures");
-    arrays_.images = add(context, s.images, "images");
-    arrays_.texels = add(context, s.texels, "texels");
-    arrays_.perlinGradients = add(context, s.perlinGradients, "noise");
-    arrays_.perlinPermutations = add(context, s.perlinPermutations, "noise");
-    arrays_.media = add(context, s.media, "media");
-    arrays_.lights = add(context, s.lights, "lights");
-    arrays_.lightBounds = add(context, s.lightBounds, "lights");
-    arrays_.lightNodes = add(context, s.lightNodes, "the light tree");
-    arrays_.lightPlaces = add(context, s.lightPlaces, "the light tree");
-    arrays_.skyCdf = add(context, s.skyCdf, "sky");
+    shared::forEachArray([&](const char* name, const auto& records,
+                             std::uint64_t& address) { address = add(context, records, name, usage); },
+                         s, arrays_);
     if (!pipeline) {
         buildTree(context, cancel);
         return;
@@ -72,9 +52,9 @@ void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>
     tree_.instanceRoots = add(context, t.instanceRoots, "the tree's instances");
     tree_.root = t.root;
 
-    std::vector<shared::vec4> lists = bvh->flat.vectors;
-    lists.resize(shared::kFlatVectors);
-    flatLists_ = vulkan::deviceArray<shared::vec4>(context, lists, "primitives", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    std::vector<shared::vec4> lists = bvh->lists.vectors;
+    lists.resize(shared::kListVectors);
+    linearLists_ = vulkan::deviceArray<shared::vec4>(context, lists, "primitives", VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
 }
 
 void GpuScene::provideMotion(vulkan::VulkanContext& context) {

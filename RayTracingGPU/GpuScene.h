@@ -31,7 +31,7 @@ class GpuScene {
     // Of the pipeline engine.
     VkAccelerationStructureKHR topLevel() const { return accel_->topLevel(); }
     // Of the compute engine.
-    const vulkan::Buffer& flatLists() const { return flatLists_; }
+    const vulkan::Buffer& linearLists() const { return linearLists_; }
     const TraversalShape& shape() const { return shape_; }
 
   private:
@@ -45,7 +45,7 @@ class GpuScene {
     shared::SceneArrays arrays_{};
     shared::TreeArrays tree_{};
     std::unique_ptr<AccelStructure> accel_;
-    vulkan::Buffer flatLists_;
+    vulkan::Buffer linearLists_;
     TraversalShape shape_;
     double buildSeconds_ = 0;
 };

@@ -8,7 +8,7 @@ namespace {
 // As in the shaders.
 constexpr std::uint32_t kTopLevel = 0;
 constexpr std::uint32_t kConstants = 1;
-constexpr std::uint32_t kFlatLists = 2;
+constexpr std::uint32_t kLinearLists = 2;
 
 constexpr VkShaderStageFlags kComputeStage = VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr VkShaderStageFlags kRayGenerationStage = VK_SHADER_STAGE_RAYGEN_BIT_KHR;
@@ -26,7 +26,7 @@ RenderBindings::RenderBindings(vulkan::VulkanContext& context, app::GpuEngineKin
         compute ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     const std::array<VkDescriptorSetLayoutBinding, 2> bindings{{
         {kConstants, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, nullptr},
-        {compute ? kFlatLists : kTopLevel, traced, 1, pushStages_, nullptr},
+        {compute ? kLinearLists : kTopLevel, traced, 1, pushStages_, nullptr},
     }};
     set_ = vulkan::DescriptorSet(context.device(), bindings, "Creating bindings");
     layout_ =
@@ -38,9 +38,9 @@ void RenderBindings::update(const vulkan::Buffer& constants, VkAccelerationStruc
     set_.write(kTopLevel, topLevel);
 }
 
-void RenderBindings::update(const vulkan::Buffer& constants, const vulkan::Buffer& flatLists) const {
+void RenderBindings::update(const vulkan::Buffer& constants, const vulkan::Buffer& linearLists) const {
     set_.write(kConstants, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, constants.get());
-    set_.write(kFlatLists, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, flatLists.get());
+    set_.write(kLinearLists, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, linearLists.get());
 }
 
 void RenderBindings::bind(VkCommandBuffer commands, const void* push, std::uint32_t pushBytes) const {

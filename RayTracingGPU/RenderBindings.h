@@ -17,7 +17,7 @@ class RenderBindings {
     // The uniform buffer, and the top level of the acceleration structure: of the pipeline engine.
     void update(const vulkan::Buffer& constants, VkAccelerationStructureKHR topLevel) const;
     // The uniform buffers of Bindings.glsl and Traverse.glsl: of the compute engine.
-    void update(const vulkan::Buffer& constants, const vulkan::Buffer& flatLists) const;
+    void update(const vulkan::Buffer& constants, const vulkan::Buffer& linearLists) const;
 
     // Binds the set and sets push constants.
     void bind(VkCommandBuffer commands, const void* push, std::uint32_t pushBytes) const;

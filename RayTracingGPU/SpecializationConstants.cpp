@@ -21,10 +21,10 @@ constexpr std::array kEntries{
     entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
-    entry(shared::kIsFlatId, kTraversal + offsetof(TraversalShape, isFlat)),
-    entry(shared::kFlatSpheresId, kTraversal + offsetof(TraversalShape, flatSpheres)),
-    entry(shared::kFlatQuadsId, kTraversal + offsetof(TraversalShape, flatQuads)),
-    entry(shared::kFlatTrianglesId, kTraversal + offsetof(TraversalShape, flatTriangles)),
+    entry(shared::kIsLinearId, kTraversal + offsetof(TraversalShape, isLinear)),
+    entry(shared::kListedSpheresId, kTraversal + offsetof(TraversalShape, listedSpheres)),
+    entry(shared::kListedQuadsId, kTraversal + offsetof(TraversalShape, listedQuads)),
+    entry(shared::kListedTrianglesId, kTraversal + offsetof(TraversalShape, listedTriangles)),
 };
 
 // Whether every member has an entry, and no two entries an id or a member in common.
@@ -44,11 +44,11 @@ static_assert(areComplete());
 TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
     TraversalShape shape;
-    shape.treeDepth = bvh.isFlat ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
-    shape.isFlat = bvh.isFlat ? 1 : 0;
-    shape.flatSpheres = bvh.flat.spheres;
-    shape.flatQuads = bvh.flat.quads;
-    shape.flatTriangles = bvh.flat.triangles;
+    shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
+    shape.isLinear = bvh.isLinear ? 1 : 0;
+    shape.listedSpheres = bvh.lists.spheres;
+    shape.listedQuads = bvh.lists.quads;
+    shape.listedTriangles = bvh.lists.triangles;
     return shape;
 }
 

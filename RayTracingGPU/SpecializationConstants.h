@@ -17,10 +17,10 @@ namespace rt::gpu {
 struct TraversalShape {
     std::uint32_t groupSize = 64; // invocations of a work group
     std::uint32_t treeDepth = 0;
-    std::uint32_t isFlat = 0;
-    std::uint32_t flatSpheres = 0;
-    std::uint32_t flatQuads = 0;
-    std::uint32_t flatTriangles = 0;
+    std::uint32_t isLinear = 0;
+    std::uint32_t listedSpheres = 0;
+    std::uint32_t listedQuads = 0;
+    std::uint32_t listedTriangles = 0;
     bool operator==(const TraversalShape&) const = default;
 };
 

@@ -1,5 +1,5 @@
-// What every shader of a render is bound to, and its specialization constants: what is the same for all paths, so that nothing is
-// compiled that a render does not need.
+// What every shader of a render is bound to, and its specialization constants: what is the same for all paths, so that
+// nothing is compiled that a render does not need.
 #ifndef RT_SHADERS_BINDINGS_GLSL
 #define RT_SHADERS_BINDINGS_GLSL
 #extension GL_EXT_buffer_reference : require

@@ -2,6 +2,7 @@
 // the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
+#include "Common/Shared/Base/SceneArrays.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Shape/TreeRecords.h"
 
@@ -30,51 +31,18 @@ RT_SHARED_BEGIN
 
 // ---- scene -----------------------------------------------------------------------------------------------------------
 
-RT_ARRAY(SphereArray, Sphere)
-RT_ARRAY(QuadArray, Quad)
-RT_ARRAY(MeshArray, Mesh)
-RT_ARRAY(GeometryArray, Geometry)
-RT_ARRAY(InstanceArray, Instance)
-RT_ARRAY(MaterialArray, Material)
-RT_ARRAY(TextureArray, Texture)
-RT_ARRAY(ImageArray, Image)
-RT_ARRAY(MediumArray, Medium)
-RT_ARRAY(LightArray, Light)
-RT_ARRAY(LightBoundArray, LightBound)
-RT_ARRAY(LightNodeArray, LightNode)
-RT_ARRAY(VectorArray, vec3)
-RT_ARRAY(PairArray, vec2)
-RT_ARRAY(TripleArray, uvec3)
-RT_ARRAY(WordArray, uint)
-RT_ARRAY(FloatArray, float)
+#define RT_DECLARE(Type, name, load, title) RT_ARRAY(name##Array, Type)
+RT_SCENE_ARRAYS(RT_DECLARE, RT_DECLARE)
+#undef RT_DECLARE
 
-// The compiled scene's arrays; 0 where the scene has none.
+// Addresses of the compiled scene's arrays; 0 where the scene has none.
 struct SceneArrays {
-    SphereArray spheres;
-    VectorArray sphereMotions;
-    QuadArray quads;
-    VectorArray positions;
-    VectorArray normals;
-    PairArray uvs;
-    TripleArray triangles;
-    MeshArray meshes;
-    WordArray triangleMesh;
-    GeometryArray geometries;
-    InstanceArray instances;
-    MaterialArray materials;
-    TextureArray textures;
-    ImageArray images;
-    WordArray texels;
-    VectorArray perlinGradients;
-    WordArray perlinPermutations;
-    MediumArray media;
-    LightArray lights;
-    LightBoundArray lightBounds;
-    LightNodeArray lightNodes;
-    WordArray lightPlaces;
-    FloatArray skyCdf;
+#define RT_MEMBER(Type, name, load, title) name##Array name;
+    RT_SCENE_ARRAYS(RT_MEMBER, RT_MEMBER)
+#undef RT_MEMBER
 };
 
+RT_ARRAY(WordArray, uint)
 RT_VECTOR_ARRAY(TreeNodeArray, TreeNode)
 RT_VECTOR_ARRAY(TreeQuadArray, TreeQuad)
 RT_VECTOR_ARRAY(TreeTriangleArray, TreeTriangle)

@@ -1,38 +1,16 @@
-// Gives Common/Shared its access to the scene on the GPU: SceneRef and every load...().
+// Common/Shared/Base/SceneAccess.h for shaders: out of the buffers that Bindings.glsl names.
 #include "Bindings.glsl"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Texture/Color.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Light/Lights.h"
 
-struct SceneRef {
-    uint unused;
-};
-
 SceneGlobals loadGlobals(SceneRef scene) { return constants.globals; }
-Sphere loadSphere(SceneRef scene, uint i) { return constants.arrays.spheres.at[i]; }
+#define RT_LOAD(Type, name, load, title) Type load(SceneRef scene, uint i) { return constants.arrays.name.at[i]; }
+#define RT_DEFINED_BELOW(Type, name, load, title)
+RT_SCENE_ARRAYS(RT_LOAD, RT_DEFINED_BELOW)
+
 vec3 loadSphereMotion(SceneRef scene, uint i) { return constants.arrays.sphereMotions.at[i]; }
-Quad loadQuad(SceneRef scene, uint i) { return constants.arrays.quads.at[i]; }
-vec3 loadPosition(SceneRef scene, uint i) { return constants.arrays.positions.at[i]; }
-vec3 loadNormal(SceneRef scene, uint i) { return constants.arrays.normals.at[i]; }
-vec2 loadUv(SceneRef scene, uint i) { return constants.arrays.uvs.at[i]; }
-uvec3 loadTriangle(SceneRef scene, uint i) { return constants.arrays.triangles.at[i]; }
-Mesh loadMesh(SceneRef scene, uint i) { return constants.arrays.meshes.at[i]; }
-uint loadTriangleMesh(SceneRef scene, uint i) { return constants.arrays.triangleMesh.at[i]; }
-Instance loadInstance(SceneRef scene, uint i) { return constants.arrays.instances.at[i]; }
-Material loadMaterial(SceneRef scene, uint i) { return constants.arrays.materials.at[i]; }
-Texture loadTexture(SceneRef scene, uint i) { return constants.arrays.textures.at[i]; }
-Image loadImage(SceneRef scene, uint i) { return constants.arrays.images.at[i]; }
-vec3 loadPerlinGradient(SceneRef scene, uint i) { return constants.arrays.perlinGradients.at[i]; }
-uint loadPerlinPermutation(SceneRef scene, uint i) { return constants.arrays.perlinPermutations.at[i]; }
-Medium loadMedium(SceneRef scene, uint i) { return constants.arrays.media.at[i]; }
-Light loadLight(SceneRef scene, uint i) { return constants.arrays.lights.at[i]; }
-LightBound loadLightBound(SceneRef scene, uint i) { return constants.arrays.lightBounds.at[i]; }
-void expectLights(SceneRef scene, uint node) {} // nothing to be gained by fetching ahead
-uint loadLightNodeParent(SceneRef scene, uint node) {
-    return constants.arrays.lightPlaces.at[loadGlobals(scene).lightCount + node];
-}
-uint loadLightPlace(SceneRef scene, uint light) { return constants.arrays.lightPlaces.at[light]; }
-float loadSkyCdf(SceneRef scene, uint i) { return constants.arrays.skyCdf.at[i]; }
 
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     LightCluster c;
@@ -55,11 +33,4 @@ vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint first = image.firstTexel + 3u * texel;
     return vec3(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
                 uintBitsToFloat(constants.arrays.texels.at[first + 2u]));
-}
-
-LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
-    LightWeights weights;
-    uint count = min(constants.globals.lightCount, kContributionLights);
-    for (uint i = 0u; i < count; i++) weights.weight[i] = lightContribution(constants.arrays.lightBounds.at[i], position, normal);
-    return weights;
 }

@@ -17,10 +17,10 @@ const uint kRussianRouletteId = 7u;
 // Of compute shaders that trace rays, see Traverse.glsl.
 const uint kGroupSizeId = 8u;
 const uint kTreeDepthId = 9u;
-const uint kIsFlatId = 10u;
-const uint kFlatSpheresId = 11u;
-const uint kFlatQuadsId = 12u;
-const uint kFlatTrianglesId = 13u;
+const uint kIsLinearId = 10u;
+const uint kListedSpheresId = 11u;
+const uint kListedQuadsId = 12u;
+const uint kListedTrianglesId = 13u;
 // Of the preview, see Preview.glsl.
 const uint kShapeId = 14u;
 

@@ -5,12 +5,12 @@
 #include "Common/Shared/Shape/Shapes.h"
 
 layout(constant_id = kTreeDepthId) const uint kTreeDepth = 0u; // references that a traversal has to remember
-layout(constant_id = kIsFlatId) const uint kIsFlat = 1u;   // there are the lists instead of a tree
-layout(constant_id = kFlatSpheresId) const uint kFlatSpheres = 0u;
-layout(constant_id = kFlatQuadsId) const uint kFlatQuads = 0u;
-layout(constant_id = kFlatTrianglesId) const uint kFlatTriangles = 0u;
+layout(constant_id = kIsLinearId) const uint kIsLinear = 1u;   // there are the lists instead of a tree
+layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u;
+layout(constant_id = kListedQuadsId) const uint kListedQuads = 0u;
+layout(constant_id = kListedTrianglesId) const uint kListedTriangles = 0u;
 
-layout(set = 0, binding = 2, scalar) uniform FlatLists { vec4 flatVectors[kFlatVectors]; };
+layout(set = 0, binding = 2, scalar) uniform LinearLists { vec4 listVectors[kListVectors]; };
 
 // ---- shapes ----------------------------------------------------------------------------------------------------------
 
@@ -89,29 +89,29 @@ Nearest nothingWithin(float tMax) {
 // ---- lists -----------------------------------------------------------------------------------------------------------
 
 // Every primitive is tested, by all lanes together and without a branch that depends on one.
-Hit traceFlat(Ray ray, float tMax) {
+Hit traceLinear(Ray ray, float tMax) {
     TracedRay r = makeTracedRay(ray, true);
     Nearest nearest = nothingWithin(tMax);
     if (has(kFeatures, kFeatureSpheres)) {
-        for (uint i = 0u; i < kFlatSpheres; i++) {
-            vec4 motion = flatVectors[2u * i + 1u];
-            float t = testSphere(r, flatVectors[2u * i], motion.xyz, nearest.t);
+        for (uint i = 0u; i < kListedSpheres; i++) {
+            vec4 motion = listVectors[2u * i + 1u];
+            float t = testSphere(r, listVectors[2u * i], motion.xyz, nearest.t);
             acceptSphere(nearest, t, floatBitsToUint(motion.w));
         }
     }
     if (has(kFeatures, kFeatureQuads)) {
-        for (uint i = 0u; i < kFlatQuads; i++) {
-            uint at = 2u * kFlatSpheres + 4u * i;
-            vec4 normal = flatVectors[at + 1u];
-            ShapeHit hit = testQuad(r, flatVectors[at], normal, flatVectors[at + 2u], flatVectors[at + 3u], nearest.t);
+        for (uint i = 0u; i < kListedQuads; i++) {
+            uint at = 2u * kListedSpheres + 4u * i;
+            vec4 normal = listVectors[at + 1u];
+            ShapeHit hit = testQuad(r, listVectors[at], normal, listVectors[at + 2u], listVectors[at + 3u], nearest.t);
             accept(nearest, hit, kQuad, floatBitsToUint(normal.w));
         }
     }
     if (has(kFeatures, kFeatureTriangles)) {
-        for (uint i = 0u; i < kFlatTriangles; i++) {
-            uint at = 2u * kFlatSpheres + 4u * kFlatQuads + 3u * i;
-            vec4 vertex = flatVectors[at];
-            ShapeHit hit = testTriangle(r, vertex, flatVectors[at + 1u], flatVectors[at + 2u], nearest.t);
+        for (uint i = 0u; i < kListedTriangles; i++) {
+            uint at = 2u * kListedSpheres + 4u * kListedQuads + 3u * i;
+            vec4 vertex = listVectors[at];
+            ShapeHit hit = testTriangle(r, vertex, listVectors[at + 1u], listVectors[at + 2u], nearest.t);
             accept(nearest, hit, kTriangle, floatBitsToUint(vertex.w));
         }
     }
@@ -260,6 +260,6 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
 // What the ray, of unit direction, meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then only the
 // sign of t tells anything. A negative t if there is nothing.
 Hit traceRay(Ray ray, bool anyHit, float tMax) {
-    if (kIsFlat != 0u) return traceFlat(ray, tMax);
+    if (kIsLinear != 0u) return traceLinear(ray, tMax);
     return traceTree(ray, anyHit, tMax);
 }

@@ -7,16 +7,16 @@ namespace rt::accel {
 
 struct AccelStorage {
     LargeArray<WideNode> nodes;
-    LargeArray<SparseNode> sparseNodes;
+    LargeArray<QuantizedNode> quantizedNodes;
     LargeArray<SphereBlock> spheres;
     LargeArray<MovingSphereBlock> movingSpheres;
     LargeArray<QuadBlock> quads;
     LargeArray<TriangleBlock> triangles;
     LargeArray<PlacedGeometry> instances;
-    LargeArray<SphereBlock> flatSpheres;
-    LargeArray<MovingSphereBlock> flatMovingSpheres;
-    LargeArray<QuadBlock> flatQuads;
-    LargeArray<TriangleBlock> flatTriangles;
+    LargeArray<SphereBlock> listedSpheres;
+    LargeArray<MovingSphereBlock> listedMovingSpheres;
+    LargeArray<QuadBlock> listedQuads;
+    LargeArray<TriangleBlock> listedTriangles;
 };
 
 } // namespace rt::accel

@@ -36,15 +36,15 @@ struct alignas(64) WideNode {
     Reference child[kWidth];
 };
 
-// A node of a sparse tree, in which rays visit many nodes for each leaf that they enter, and no instances: half the
-// memory. Slabs as above, in steps of SparseGrid from its origin, rounded outwards. In place of a child that does not
+// A node in half the memory of a WideNode, for trees in which rays visit many nodes for each leaf that they enter, and
+// which hold no instances. Slabs like a WideNode's, in steps of QuantizationGrid from its origin, rounded outwards. In place of a child that does not
 // exist there is some leaf of the tree.
-struct alignas(64) SparseNode {
+struct alignas(64) QuantizedNode {
     std::uint16_t planes[6][kWidth];
     Reference child[kWidth];
 };
 
-struct SparseGrid {
+struct QuantizationGrid {
     shared::vec3 origin{0.0f};
     float stepsPerUnit = 1.0f; // a power of two
 };
@@ -84,36 +84,36 @@ struct PlacedGeometry {
     std::uint32_t instance;
 };
 
-// All primitives of one kind in a scene that is too small to gain from a tree. Their lanes hold flatName() in place of
+// All primitives of one kind in a scene that is too small to gain from a tree. Their lanes hold packPrimitive() in place of
 // the index of the primitive.
 template <class Block>
-struct FlatList {
+struct LinearList {
     const Block* blocks = nullptr;
     std::uint32_t count = 0; // of blocks; the last may have empty lanes
 };
 
-inline constexpr std::uint32_t kFlatKindShift = 30;
+inline constexpr std::uint32_t kPackedKindShift = 30;
 
-constexpr std::uint32_t flatName(std::uint32_t kind, std::uint32_t primitive) {
-    return kind << kFlatKindShift | primitive;
+constexpr std::uint32_t packPrimitive(std::uint32_t kind, std::uint32_t primitive) {
+    return kind << kPackedKindShift | primitive;
 }
 
 // ---- the whole ------------------------------------------------------------------------------------------------------
 
 struct AccelView {
     std::uint32_t kinds = 0; // feature bits of the primitives that exist
-    bool flat = false;       // the lists below hold everything; otherwise the tree does
+    bool isLinear = false;   // the lists below hold everything; otherwise the tree does
     bool isLarge = false;    // does not fit into a core's own cache: worth fetching ahead
 
-    FlatList<SphereBlock> flatSpheres;
-    FlatList<MovingSphereBlock> flatMovingSpheres;
-    FlatList<QuadBlock> flatQuads;
-    FlatList<TriangleBlock> flatTriangles;
+    LinearList<SphereBlock> listedSpheres;
+    LinearList<MovingSphereBlock> listedMovingSpheres;
+    LinearList<QuadBlock> listedQuads;
+    LinearList<TriangleBlock> listedTriangles;
 
     Reference root = 0; // of the world: its own primitives and the instances
     const WideNode* nodes = nullptr;
-    const SparseNode* sparseNodes = nullptr; // if not null, those of the world, the root first
-    SparseGrid sparseGrid;
+    const QuantizedNode* quantizedNodes = nullptr; // if not null, those of the world, the root first
+    QuantizationGrid quantizationGrid;
     const SphereBlock* spheres = nullptr;
     const MovingSphereBlock* movingSpheres = nullptr;
     const QuadBlock* quads = nullptr;

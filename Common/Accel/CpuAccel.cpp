@@ -8,7 +8,7 @@
 #include "Common/Accel/Build/BlockFill.h"
 #include "Common/Accel/Build/Parallel.h"
 #include "Common/Accel/Build/SceneTrees.h"
-#include "Common/Accel/SparseBvh.h"
+#include "Common/Accel/QuantizedBvh.h"
 #include "Common/Accel/WideBvh.h"
 #include "Common/Shared/Base/Features.h"
 
@@ -25,14 +25,14 @@ struct BuiltTree {
 };
 
 template <class Block>
-FlatList<Block> fillFlat(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
-                         std::uint32_t count) {
+LinearList<Block> fillList(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
+                           std::uint32_t count) {
     blocks = LargeArray<Block>((count + kWidth - 1) / kWidth);
     for (std::uint32_t i = 0; i < count; ++i) {
         Block& block = blocks[i / kWidth];
         if (i % kWidth == 0) block = emptyBlock<Block>();
         fillLane(block, i % kWidth, input, first + i);
-        block.primitive[i % kWidth] = flatName(kind, first + i);
+        block.primitive[i % kWidth] = packPrimitive(kind, first + i);
     }
     return {blocks.data(), (count + kWidth - 1) / kWidth};
 }
@@ -56,7 +56,7 @@ class Assembly {
     void fill(AccelStorage& storage);
     bool hasWorld() const { return hasWorld_; } // instances may all be of empty geometries
     Reference root() const { return roots_[0]; }
-    const SparseGrid& sparseGrid() const { return sparse_.grid; }
+    const QuantizationGrid& quantizationGrid() const { return quantized_.grid; }
 
   private:
     void fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const;
@@ -66,7 +66,7 @@ class Assembly {
     const std::atomic<bool>* cancel_;
     std::atomic<std::uint64_t>* primitivesDone_;
     std::vector<WideNode> nodes_;
-    SparseBvh sparse_; // the world, if it is sparse
+    QuantizedBvh quantized_; // the world, if it gains from that
     BlockCounts blocks_;
     std::vector<BuiltTree> trees_;
     std::vector<Reference> roots_; // of each geometry
@@ -78,8 +78,8 @@ bool Assembly::buildTrees() {
     return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
         LeafFilling filling;
         LeafMaker leafMaker(tree.bvh, tree.kinds, blocks_, filling);
-        if (input_.instances.empty() && isSparse(tree.bvh)) {
-            sparse_ = makeSparse(tree.bvh, leafMaker);
+        if (input_.instances.empty() && gainsFromQuantization(tree.bvh)) {
+            quantized_ = quantize(tree.bvh, leafMaker);
         } else {
             roots_[tree.geometry] = appendWide(tree.bvh, leafMaker, nodes_);
         }
@@ -125,8 +125,8 @@ void Assembly::fill(AccelStorage& storage) {
     const auto blocks = [&](LeafKind kind) { return blocks_.of[static_cast<std::uint32_t>(kind)]; };
     storage.nodes = LargeArray<WideNode>(nodes_.size());
     std::copy(nodes_.begin(), nodes_.end(), storage.nodes.data());
-    storage.sparseNodes = LargeArray<SparseNode>(sparse_.nodes.size());
-    std::copy(sparse_.nodes.begin(), sparse_.nodes.end(), storage.sparseNodes.data());
+    storage.quantizedNodes = LargeArray<QuantizedNode>(quantized_.nodes.size());
+    std::copy(quantized_.nodes.begin(), quantized_.nodes.end(), storage.quantizedNodes.data());
     storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
     storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));
     storage.quads = LargeArray<QuadBlock>(blocks(LeafKind::Quad));
@@ -162,18 +162,18 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 
     const shared::Geometry world = input.geometries[0];
     const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
-    view.flat = input.instances.empty() && (primitives == 0 || primitives <= settings.flatPrimitives);
-    if (view.flat) {
+    view.isLinear = input.instances.empty() && (primitives == 0 || primitives <= settings.maxLinear);
+    if (view.isLinear) {
         if (input.motions.empty()) {
-            view.flatSpheres =
-                fillFlat(storage.flatSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
+            view.listedSpheres =
+                fillList(storage.listedSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
         } else {
-            view.flatMovingSpheres =
-                fillFlat(storage.flatMovingSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
+            view.listedMovingSpheres =
+                fillList(storage.listedMovingSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
         }
-        view.flatQuads = fillFlat(storage.flatQuads, input, shared::kQuad, world.firstQuad, world.quadCount);
-        view.flatTriangles =
-            fillFlat(storage.flatTriangles, input, shared::kTriangle, world.firstTriangle, world.triangleCount);
+        view.listedQuads = fillList(storage.listedQuads, input, shared::kQuad, world.firstQuad, world.quadCount);
+        view.listedTriangles =
+            fillList(storage.listedTriangles, input, shared::kTriangle, world.firstTriangle, world.triangleCount);
         if (primitivesDone != nullptr) primitivesDone->fetch_add(primitives);
         return accel;
     }
@@ -181,11 +181,11 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     Assembly assembly(input, settings, cancel, primitivesDone);
     if (!assembly.buildTrees()) return nullptr;
     assembly.fill(storage);
-    view.flat = !assembly.hasWorld();
+    view.isLinear = !assembly.hasWorld();
     view.root = assembly.root();
     view.isLarge = accel->bytes() > kLargeBytes;
-    view.sparseNodes = storage.sparseNodes.data();
-    view.sparseGrid = assembly.sparseGrid();
+    view.quantizedNodes = storage.quantizedNodes.data();
+    view.quantizationGrid = assembly.quantizationGrid();
     view.nodes = storage.nodes.data();
     view.spheres = storage.spheres.data();
     view.movingSpheres = storage.movingSpheres.data();
@@ -197,9 +197,9 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 
 std::size_t CpuAccel::bytes() const {
     const AccelStorage& s = *storage_;
-    return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.sparseNodes.bytes() + s.spheres.bytes() +
+    return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.quantizedNodes.bytes() + s.spheres.bytes() +
            s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.instances.bytes() +
-           s.flatSpheres.bytes() + s.flatMovingSpheres.bytes() + s.flatQuads.bytes() + s.flatTriangles.bytes();
+           s.listedSpheres.bytes() + s.listedMovingSpheres.bytes() + s.listedQuads.bytes() + s.listedTriangles.bytes();
 }
 
 } // namespace rt::accel

@@ -43,8 +43,8 @@ shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index
 
 // ---- lists -----------------------------------------------------------------------------------------------------------
 
-FlatLists makeLists(const AccelInput& input, const shared::Geometry& world) {
-    FlatLists lists;
+LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
+    LinearLists lists;
     lists.spheres = world.sphereCount;
     lists.quads = world.quadCount;
     lists.triangles = world.triangleCount;
@@ -146,10 +146,10 @@ std::uint32_t Flattener::addNodes(const SceneTree& tree) {
         const std::uint32_t reference = node.isLeaf() ? addLeaf(tree, node) : index;
         if (next.binary != 0) trees_.nodes[next.parent].children[next.child] = reference;
         if (node.isLeaf()) continue;
-        shared::TreeNode flat{};
-        setSlabs(flat, 0, nodes[node.first].box);
-        setSlabs(flat, 1, nodes[node.first + 1].box);
-        trees_.nodes.push_back(flat);
+        shared::TreeNode record{};
+        setSlabs(record, 0, nodes[node.first].box);
+        setSlabs(record, 1, nodes[node.first + 1].box);
+        trees_.nodes.push_back(record);
         open.push_back({node.first + 1, index, 1});
         open.push_back({node.first, index, 0});
     }
@@ -192,7 +192,7 @@ GpuTrees Flattener::finish() {
 
 } // namespace
 
-GpuBvhSettings::GpuBvhSettings() : flatPrimitives(48) {
+GpuBvhSettings::GpuBvhSettings() : maxLinear(48) {
     tree.blockSize = 1;
     tree.maxLeafSize = 4;
     tree.nodeCost = 1.0f;
@@ -203,10 +203,10 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
     GpuBvh bvh;
     const shared::Geometry& world = input.geometries[0];
     const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
-    const std::uint32_t most = std::min(settings.flatPrimitives, shared::kFlatPrimitives);
-    bvh.isFlat = input.instances.empty() && primitives <= most;
-    if (bvh.isFlat) {
-        bvh.flat = makeLists(input, world);
+    const std::uint32_t most = std::min(settings.maxLinear, shared::kMaxListedPrimitives);
+    bvh.isLinear = input.instances.empty() && primitives <= most;
+    if (bvh.isLinear) {
+        bvh.lists = makeLists(input, world);
         return bvh;
     }
     BvhSettings tree = settings.tree;
@@ -219,7 +219,7 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
     };
     if (!buildSceneTrees(input, tree, cancel, nullptr, add)) return std::nullopt;
     bvh.trees = flattener.finish();
-    bvh.isFlat = !hasWorld; // instances may all be of empty geometries
+    bvh.isLinear = !hasWorld; // instances may all be of empty geometries
     return bvh;
 }
 

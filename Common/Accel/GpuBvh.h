@@ -6,7 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "Common/Accel/CpuAccel.h"
+#include "Common/Accel/AccelInput.h"
+#include "Common/Accel/Build/BvhBuilder.h"
 #include "Common/Shared/Shape/TreeRecords.h"
 
 namespace rt::accel {
@@ -25,7 +26,7 @@ struct GpuTrees {
 };
 
 // The primitives of a scene without instances, not sorted at all.
-struct FlatLists {
+struct LinearLists {
     std::vector<shared::vec4> vectors; // as in TreeRecords.h
     std::uint32_t spheres = 0;         // how many of each there are
     std::uint32_t quads = 0;
@@ -33,15 +34,15 @@ struct FlatLists {
 };
 
 struct GpuBvh {
-    bool isFlat = false; // the lists hold everything; otherwise the trees do
-    FlatLists flat;
+    bool isLinear = false; // the lists hold everything; otherwise the trees do
+    LinearLists lists;
     GpuTrees trees;
 };
 
 struct GpuBvhSettings {
     BvhSettings tree;
-    std::uint32_t flatPrimitives; // up to here, but at most kFlatPrimitives, there are lists instead of a tree
-    GpuBvhSettings();             // those that were measured best
+    std::uint32_t maxLinear; // up to here, but at most kMaxListedPrimitives, there are lists instead of a tree
+    GpuBvhSettings();        // those that were measured best
 };
 
 // Nothing when *cancel became true. Throws RenderError when there are more primitives of a kind than references can name.

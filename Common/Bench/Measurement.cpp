@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <functional>
-#include <ostream>
+#include <optional>
+#include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Session/RenderLoop.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/Summary.h"
 
 namespace rt::bench {
@@ -45,31 +46,22 @@ class Measurer {
   public:
     Measurer(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings,
              const std::atomic<bool>& stop, const EnergyCounter& deviceEnergy)
-        : engine_(engine),
-          scene_(scene),
-          stop_(stop),
-          deviceEnergy_(deviceEnergy),
-          silence_(nullptr),
-          progress_(silence_, app::Progress::Style::Silent) {
-        options_.settings = settings;
-    }
+        : engine_(engine), scene_(scene), settings_(settings), stop_(stop), deviceEnergy_(deviceEnergy) {}
 
     void warmUp() {
         const bool device = engine_.report().threads == 0;
-        app::Options options = options_;
-        options.settings.spp = device ? kUnknownSpp : kWarmUpSpp;
-        options.settings.sppIsKnown = !device;
-        options.timeLimit = device ? kDeviceSlice : kWarmUpSeconds;
-        engine_.reset(scene_.camera, options.settings);
-        std::uint64_t done = 0; // samples
+        app::RenderSettings settings = settings_;
+        settings.spp = device ? kUnknownSpp : kWarmUpSpp;
+        settings.sppIsKnown = !device;
+        app::FilmRun film(engine_, scene_.camera, settings);
         double rate = 0;
-        for (double seconds = 0; seconds < kMostDeviceWarmUpSeconds;) {
-            const app::RenderResult slice = app::renderUntilStopped(engine_, options, done, stop_, progress_, [] {});
-            if (!device || slice.stoppedBy == app::StopReason::Interrupted) return;
-            const double now = static_cast<double>(slice.progress.samplesDone - done) / slice.seconds;
-            done = slice.progress.samplesDone;
-            seconds += slice.seconds;
-            if (seconds >= kDeviceWarmUpSeconds && now < kStillRising * rate) return;
+        while (film.seconds() < kMostDeviceWarmUpSeconds) {
+            const std::uint64_t samples = film.status().samplesDone;
+            const double seconds = film.seconds();
+            film.limit({.seconds = device ? kDeviceSlice : kWarmUpSeconds});
+            if (film.untilStopped(stop_) == app::StopReason::Interrupted || !device) return;
+            const double now = static_cast<double>(film.status().samplesDone - samples) / (film.seconds() - seconds);
+            if (film.seconds() >= kDeviceWarmUpSeconds && now < kStillRising * rate) return;
             rate = now;
         }
     }
@@ -93,13 +85,12 @@ class Measurer {
     }
 
     void toSeconds(const Ladder& ladder) {
-        options_.settings.spp = kUnknownSpp;
-        options_.settings.sppIsKnown = false;
-        engine_.reset(scene_.camera, options_.settings);
+        settings_.spp = kUnknownSpp;
+        settings_.sppIsKnown = false;
+        film_.emplace(engine_, scene_.camera, settings_);
         for (const double seconds : ladder.seconds) {
             if (seconds > ladder.maxSeconds) return;
-            options_.timeLimit = seconds - done_.seconds;
-            if (*options_.timeLimit > 0 && !step()) return;
+            if (seconds > done_.seconds && !step(seconds - done_.seconds)) return;
             take(seconds);
         }
         run_.report = engine_.report();
@@ -110,7 +101,7 @@ class Measurer {
   private:
     // From the first sample on; `reached` is told the number of each step that was done in time.
     void climb(const Ladder& ladder, const std::function<void(std::size_t)>& reached) {
-        const bool anew = options_.settings.sampler == app::SamplerKind::Stratified;
+        const bool anew = settings_.sampler == app::SamplerKind::Stratified;
         done_ = {};
         for (std::size_t i = 0; i < ladder.spp.size(); ++i) {
             const std::uint32_t spp = ladder.spp[i];
@@ -118,33 +109,31 @@ class Measurer {
             if (perSample * spp > ladder.maxSeconds) return;
             image::Film film = anew || done_.spp == 0 ? image::Film() : engine_.film();
             if (anew) done_ = {};
-            options_.settings.spp = spp;
-            engine_.reset(scene_.camera, options_.settings);
-            if (done_.spp > 0) engine_.restore(std::move(film));
-            options_.timeLimit =
-                done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds); // nothing tells as yet
-            if (!step()) return;
+            settings_.spp = spp;
+            film_.emplace(engine_, scene_.camera, settings_, std::move(film));
+            if (!step(done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds))) return; // nothing tells as yet
             done_.spp = spp;
             reached(i);
         }
     }
 
     // False: interrupted, or not done in time.
-    bool step() {
+    bool step(std::optional<double> timeLimit) {
         const app::EngineReport before = engine_.report(); // a reset has set its counts to 0
         const EnergyMeter energy;
         const auto deviceJoules = [this] { return deviceEnergy_ ? deviceEnergy_() : std::nullopt; };
         const std::optional<double> deviceBefore = deviceJoules();
         const double processorBefore = app::processorSeconds();
-        const app::RenderResult result =
-            app::renderUntilStopped(engine_, options_, engine_.film().totalSamples(), stop_, progress_, [] {});
-        if (result.stoppedBy == app::StopReason::Interrupted) return false;
-        if (result.stoppedBy == app::StopReason::TimeLimit && options_.settings.sppIsKnown) return false;
+        const double secondsBefore = film_->seconds();
+        film_->limit({.seconds = timeLimit});
+        const app::StopReason reason = film_->untilStopped(stop_);
+        if (reason == app::StopReason::Interrupted) return false;
+        if (reason == app::StopReason::TimeLimit && settings_.sppIsKnown) return false;
         if (const auto joules = energy.joules()) done_.joules = done_.joules.value_or(0) + *joules;
         if (const auto joules = deviceJoules(); joules && deviceBefore)
             done_.joulesGpu = done_.joulesGpu.value_or(0) + *joules - *deviceBefore;
         const app::EngineReport after = engine_.report();
-        done_.seconds += result.seconds;
+        done_.seconds += film_->seconds() - secondsBefore;
         done_.processorSeconds += app::processorSeconds() - processorBefore;
         done_.deviceSeconds += after.renderDeviceSeconds - before.renderDeviceSeconds;
         done_.rays = done_.rays + app::RayCounts{after.rays.camera - before.rays.camera,
@@ -164,11 +153,10 @@ class Measurer {
 
     app::Engine& engine_;
     const scene::CompiledScene& scene_;
+    app::RenderSettings settings_;
     const std::atomic<bool>& stop_;
     const EnergyCounter& deviceEnergy_;
-    std::ostream silence_;
-    app::Progress progress_;
-    app::Options options_;
+    std::optional<app::FilmRun> film_;
     Snapshot done_; // so far; without image
     Run run_;
 };

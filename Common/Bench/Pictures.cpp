@@ -31,7 +31,7 @@ Image shrunk(const Image& image) {
 }
 
 Image shown(const Image& radiance) {
-    return shrunk(image::toDisplay(radiance, 0, shared::kTonemapNone));
+    return shrunk(image::toImage(image::toDisplay(radiance, 0, shared::kTonemapNone)));
 }
 
 // What tells this configuration from the others.

@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <ostream>
 
-#include "Common/App/Session/RenderLoop.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -113,11 +112,7 @@ std::optional<ReferenceResult> ReferenceStore::provide(const ReferenceRequest& r
                                                        std::span<const image::Image* const> measured,
                                                        app::Engine& engine, const std::atomic<bool>& stop) {
     const fs::path file = fileOf(request);
-    app::Options options;
-    options.settings = settingsFor(request);
-    std::ostream silence(nullptr);
-    app::Progress progress(silence, app::Progress::Style::Silent);
-
+    app::RenderSettings settings = settingsFor(request);
     Film film = fresh_ ? Film() : load(file, filmDesc(request)).value_or(Film());
     ReferenceResult result;
     result.cached = film.totalSamples() > 0;
@@ -132,12 +127,11 @@ std::optional<ReferenceResult> ReferenceStore::provide(const ReferenceRequest& r
             if (result.sufficient || stop || result.seconds >= request.maxSeconds || result.spp >= kMostSpp) break;
             target = static_cast<double>(result.spp) * std::clamp(1.2 * factor, 1.5, kMostGrowth);
         }
-        options.settings.spp = static_cast<std::uint32_t>(roundedUp(target));
-        options.timeLimit = request.maxSeconds - result.seconds;
-        engine.reset(request.scene->camera, options.settings);
-        const std::uint64_t restored = film.totalSamples();
-        if (restored > 0) engine.restore(std::move(film));
-        result.seconds += app::renderUntilStopped(engine, options, restored, stop, progress, [] {}).seconds;
+        settings.spp = static_cast<std::uint32_t>(roundedUp(target));
+        app::FilmRun run(engine, request.scene->camera, settings, std::move(film));
+        run.limit({.seconds = request.maxSeconds - result.seconds});
+        run.untilStopped(stop);
+        result.seconds += run.seconds();
         film = engine.film();
         if (film.totalSamples() == 0) return std::nullopt;
     }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/NewFile.h"
 
 namespace rt {
 
@@ -32,14 +33,24 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
     if (const fs::path followed = fs::canonical(path, ignored); !ignored) target_ = followed;
     const fs::file_status status = fs::status(target_, ignored);
     if (fs::is_directory(status)) fail(reasonOf(EISDIR));
-    if (!fs::exists(status) || fs::is_regular_file(status)) temporary_ = target_.parent_path() / temporaryName();
+    if (!fs::exists(status)) createTemporary(Access::Everybody);
+    if (fs::is_regular_file(status)) createTemporary(Access::OwnerOnly); // what it replaces may be private
     errno = 0;
     stream_.open(temporary_.empty() ? target_ : temporary_, std::ios::binary | std::ios::trunc);
     if (!stream_) {
         const int error = errno;
-        temporary_.clear();
+        fs::remove(temporary_, ignored);
         fail(reasonOf(error));
     }
+}
+
+void AtomicFile::createTemporary(Access access) {
+    std::error_code error = std::make_error_code(std::errc::file_exists);
+    while (error == std::errc::file_exists) {
+        temporary_ = target_.parent_path() / temporaryName();
+        error = createExclusively(temporary_, access);
+    }
+    if (error) fail(error.message());
 }
 
 AtomicFile::~AtomicFile() {
@@ -59,6 +70,7 @@ void AtomicFile::commit() {
     if (lost || stream_.fail()) fail(reasonOf(errno));
     if (temporary_.empty()) return;
     std::error_code error;
+    if (fs::is_regular_file(target_, error)) copyOwnerAndMode(target_, temporary_);
     fs::rename(temporary_, target_, error);
     if (error) fail(error.message());
     temporary_.clear();

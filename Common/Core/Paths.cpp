@@ -1,22 +1,47 @@
 #include "Common/Core/Paths.h"
 
 #include <cstdlib>
+#include <initializer_list>
 
 namespace rt {
 
 namespace fs = std::filesystem;
 
-fs::path userCacheFolder() {
-#if defined(_WIN32)
-    constexpr const char* kVariables[][2] = {{"LOCALAPPDATA", "ray-tracing/cache"}};
-#elif defined(__APPLE__)
-    constexpr const char* kVariables[][2] = {{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", "Library/Caches/ray-tracing"}};
-#else
-    constexpr const char* kVariables[][2] = {{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", ".cache/ray-tracing"}};
-#endif
-    for (const auto& [variable, folder] : kVariables)
+namespace {
+
+// A variable of the environment, and a folder below the one that it names.
+struct Place {
+    const char* variable;
+    const char* folder;
+};
+
+// The first whose variable is set.
+fs::path firstOf(std::initializer_list<Place> places) {
+    for (const auto& [variable, folder] : places)
         if (const char* value = std::getenv(variable); value && *value) return fs::path(value) / folder;
     return {};
+}
+
+} // namespace
+
+fs::path userCacheFolder() {
+#if defined(_WIN32)
+    return firstOf({{"LOCALAPPDATA", "ray-tracing/cache"}});
+#elif defined(__APPLE__)
+    return firstOf({{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", "Library/Caches/ray-tracing"}});
+#else
+    return firstOf({{"XDG_CACHE_HOME", "ray-tracing"}, {"HOME", ".cache/ray-tracing"}});
+#endif
+}
+
+fs::path userStateFolder() {
+#if defined(_WIN32)
+    return firstOf({{"LOCALAPPDATA", "ray-tracing/state"}});
+#elif defined(__APPLE__)
+    return firstOf({{"XDG_STATE_HOME", "ray-tracing"}, {"HOME", "Library/Application Support/ray-tracing"}});
+#else
+    return firstOf({{"XDG_STATE_HOME", "ray-tracing"}, {"HOME", ".local/state/ray-tracing"}});
+#endif
 }
 
 std::vector<fs::path> assetFolders() {

@@ -13,6 +13,10 @@ std::filesystem::path executablePath();
 // none.
 std::filesystem::path userCacheFolder();
 
+// $XDG_STATE_HOME/ray-tracing or the platform's place for what a program keeps of its work; empty when the environment
+// names none.
+std::filesystem::path userStateFolder();
+
 // Folders searched for assets, in order: $RT_ASSETS, the Assets folder of the source tree that the program was built
 // in, the install place. Only folders that exist.
 std::vector<std::filesystem::path> assetFolders();

@@ -231,18 +231,14 @@ void App::drawFrame(double seconds) {
 }
 
 void App::drawInterface() {
-    using Place = Panel::Place;
-    app::OpenPanels& open = settings_.openPanels;
-    const bool side = settings_.showPanels;
-    Panel panels[] = {
-        {"Scene", Place::Side, side, &open.scene, [this] { drawScenePanel(gui_); }},
-        {"Rendering", Place::Side, side, &open.rendering, [this] { drawRenderPanel(gui_); }},
-        {"Camera", Place::Side, side, &open.camera, [this] { drawCameraPanel(gui_); }},
-        {"View", Place::Side, side, &open.view, [this] { drawViewPanel(gui_); }},
-        {"Statistics", Place::Side, side && settings_.showStatistics, &open.statistics,
-         [this] { drawStatisticsPanel(gui_); }, std::exchange(gui_.revealStatistics, false)},
-        {"Comparison", Place::Bottom, settings_.showComparison, nullptr, [this] { drawComparisonPanel(gui_); }}};
-    panels[0].focus = std::exchange(gui_.focusPanels, false);
+    std::vector<Panel> panels;
+    const std::string revealed = std::exchange(gui_.revealPanel, {});
+    for (const PanelRow& row : panelTable()) {
+        bool& isOpen = settings_.openPanels.try_emplace(row.id, row.opensAtFirst).first->second;
+        panels.push_back({row.title, row.place, row.isShown(settings_), &isOpen, [this, &row] { row.draw(gui_); },
+                          revealed == row.id});
+    }
+    panels.front().focus = std::exchange(gui_.focusPanels, false);
     const Rect area = layOut(
         panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
     picture_.place(area);

@@ -54,9 +54,12 @@ void Gui::toggleHeatMap() {
 }
 
 void Gui::toggleStatistics() {
-    bool& isOpen = settings.openPanels.statistics;
+    bool& isOpen = settings.openPanels["statistics"];
     settings.showStatistics = !(settings.showPanels && settings.showStatistics && isOpen);
-    if (settings.showStatistics) settings.showPanels = isOpen = revealStatistics = true;
+    if (settings.showStatistics) {
+        settings.showPanels = isOpen = true;
+        revealPanel = "statistics";
+    }
 }
 
 void Gui::setRayTracing(bool on) {

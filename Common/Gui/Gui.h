@@ -47,10 +47,10 @@ struct Gui {
     bool chartRequested = false; // as a file
     UiFigures figures;
     bool showHelp = false;
-    bool revealStatistics = false; // where they are scrolled away
-    bool focusPanels = false;      // the keyboard is to go to the panels
-    bool focusOpen = false;        // the keyboard is to go to the field of the path
-    std::string path;              // in that field
+    std::string revealPanel;  // id of one to bring to where it is seen
+    bool focusPanels = false; // the keyboard is to go to the panels
+    bool focusOpen = false;   // the keyboard is to go to the field of the path
+    std::string path;         // in that field
     bool saveRequested = false;
     std::string toast; // shown for a while
     double toastTime = -1e9;

@@ -22,8 +22,8 @@ struct Rect {
     bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
-// Shows the panels of a frame, of which all that there may be are given; returns the rest of the window, in its units. `header` is drawn above the panels of the side,
-// `status` in a line at the bottom; `scale` is that of the interface.
+// Shows the panels of a frame, of which all that there may be are given; returns the rest of the window, in its units.
+// `header` is drawn above the panels of the side, `status` in a line at the bottom; `scale` is that of the interface.
 Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
             const std::function<void()>& status);
 

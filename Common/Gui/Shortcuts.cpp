@@ -36,7 +36,7 @@ void holdPicture(Gui& gui) {
 }
 
 void openFile(Gui& gui) {
-    gui.settings.showPanels = gui.settings.openPanels.scene = true;
+    gui.settings.showPanels = gui.settings.openPanels["scene"] = true;
     gui.focusOpen = true;
     gui.path.clear();
 }

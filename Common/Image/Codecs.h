@@ -1,5 +1,5 @@
 // Encoders and decoders of single formats, for ImageIo. Decoders throw InputError naming `name`; they allocate no more
-// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values.
+// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values, and hold no more than a few rows in memory; whether `out` took it all is asked of that.
 #pragma once
 #include <cstddef>
 #include <iosfwd>
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "Common/Image/ImageIo.h"
+#include "Common/Image/ImageRows.h"
 
 namespace rt::image {
 
@@ -21,17 +22,17 @@ void checkDimensions(const std::string& name, double width, double height, doubl
 Image decodeImage(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
 Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
-void encodePfm(const Image& image, std::ostream& out);
+void encodePfm(const ImageRows& rows, std::ostream& out);
 
 Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
-void encodeExr(const Image& image, std::ostream& out, const std::string& description = {});
+void encodeExr(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 std::optional<std::string> findExrText(std::span<const std::byte> bytes, const std::string& name); // its description
 
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
-void encodeHdr(const Image& image, std::ostream& out);
+void encodeHdr(const ImageRows& rows, std::ostream& out);
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, JPEG, BMP, TGA: sRGB bytes
 void checkJpeg(std::span<const std::byte> bytes, const std::string& name);   // before decoding one by stb
-void encodePng(const Image& image, std::ostream& out);
+void encodePng(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 
 } // namespace rt::image

@@ -271,7 +271,7 @@ std::string packed(const T&... values) {
     return text;
 }
 
-std::string makeHeader(const Image& image, const std::string& channels, const std::string& description) {
+std::string makeHeader(const ImageRows& image, const std::string& channels, const std::string& description) {
     std::string list;
     for (const char channel : channels)
         list += packed(channel, '\0', std::uint32_t{kFloat}, std::uint32_t{0}, std::int32_t{1}, std::int32_t{1});
@@ -295,7 +295,7 @@ std::string makeHeader(const Image& image, const std::string& channels, const st
 
 } // namespace
 
-void encodeExr(const Image& image, std::ostream& out, const std::string& description) {
+void encodeExr(const ImageRows& image, std::ostream& out, const std::string& description) {
     const std::string channels = image.channels == 3 ? "BGR" : "Y";
     const std::string header = makeHeader(image, channels, description);
     const std::uint32_t rowBytes = image.width * image.channels * sizeof(float);
@@ -306,10 +306,12 @@ void encodeExr(const Image& image, std::ostream& out, const std::string& descrip
     std::string offsets;
     for (std::uint32_t y = 0; y < image.height; ++y) append(offsets, firstBlock + y * blockBytes);
     out << offsets;
+    std::vector<float> row(image.rowValues());
     for (std::uint32_t y = 0; y < image.height; ++y) {
+        image.read(y, row);
         std::string block = packed(y, rowBytes);
         for (std::uint32_t c = image.channels; c-- > 0;) // B, G, R: the image's channels backwards
-            for (std::uint32_t x = 0; x < image.width; ++x) append(block, image.pixel(x, y)[c]);
+            for (std::uint32_t x = 0; x < image.width; ++x) append(block, row[std::size_t{x} * image.channels + c]);
         out << block;
     }
 }

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "Common/Core/Error.h"
+#include "Common/Image/FilmRows.h"
 
 namespace rt::image {
 
@@ -32,32 +33,6 @@ void checkSide(const char* what, std::uint32_t side) {
     if (side < 1 || side > kMaxImageSide)
         throw UsageError("image " + std::string(what) + " " + std::to_string(side) + " is not in 1 to " +
                          std::to_string(kMaxImageSide));
-}
-
-// Calls visit(tile, index of the pixel in the tile, pixel of the image) for every pixel that is inside of the image.
-template <class Visit>
-void forEachPixel(const Film& film, Image& image, Visit visit) {
-    for (std::uint32_t y = 0; y < image.height; ++y) {
-        for (std::uint32_t x = 0; x < image.width; ++x) {
-            const std::uint32_t tile = y / Film::kTile * film.tilesX() + x / Film::kTile;
-            visit(tile, y % Film::kTile * Film::kTile + x % Film::kTile, image.pixel(x, y));
-        }
-    }
-}
-
-// A sum of samples and how many they are.
-struct Sum {
-    double value = 0;
-    double count = 0;
-};
-
-// Groups g of n_g samples with sum s_g, N samples in all; the groups' means m_g are independent, of variance sigma^2 /
-// n_g. Returns the estimate of the variance of the overall mean m, sum n_g (m_g - m)^2 / (groups - 1) / N, given
-// sumOfSquares = sum s_g^2 / n_g = sum n_g m_g^2.
-double varianceAcross(double groups, double sumOfSquares, const Sum& total) {
-    if (groups < 2) return 0;
-    const double spread = sumOfSquares - total.value * total.value / total.count;
-    return std::max(spread, 0.0) / (groups - 1) / total.count;
 }
 
 } // namespace
@@ -150,60 +125,15 @@ void Film::assign(std::uint32_t tile, std::uint32_t replicate, const TileState& 
 }
 
 Image Film::resolve() const {
-    Image image(desc_.width, desc_.height);
-    forEachPixel(*this, image, [&](std::uint32_t tile, std::size_t index, float* pixel) {
-        const double count = static_cast<double>(samples(tile));
-        for (std::size_t c = 0; c < 3 && count > 0; ++c) {
-            double sum = 0;
-            for (std::uint32_t r = 0; r < desc_.replicates; ++r) {
-                const std::size_t at = slot(tile, r);
-                const auto open = openBlock(at);
-                sum += sums_[at * kTileValues + index * 3 + c] + (open.empty() ? 0.0 : double{open[index * 3 + c]});
-            }
-            pixel[c] = static_cast<float>(sum / count);
-        }
-    });
-    return image;
+    return toImage(meanRows(*this));
 }
 
 Image Film::varianceOfMean() const {
-    if (desc_.replicates < 2 && !desc_.secondMoments)
-        throw std::logic_error("the variance needs second moments or two replicates");
-    const auto variance = [this](std::uint32_t tile, std::size_t value) {
-        Sum total;
-        double groups = 0;
-        double sumOfSquares = 0;
-        for (std::uint32_t r = 0; r < desc_.replicates; ++r) {
-            const std::size_t at = slot(tile, r);
-            const double count = samples_[at];
-            const double openCount = samples_[at] % kBlock;
-            const double openSum = openCount > 0 ? double{openBlock(at)[value]} : 0.0;
-            const double sum = sums_[at * kTileValues + value] + openSum;
-            if (count == 0) continue;
-            if (desc_.replicates > 1) {
-                groups += 1;
-                sumOfSquares += sum * sum / count;
-            } else {
-                groups = (count - openCount) / kBlock + (openCount > 0 ? 1 : 0);
-                sumOfSquares = squares_[at * kTileValues + value] + (openCount > 0 ? openSum * openSum / openCount : 0);
-            }
-            total.value += sum;
-            total.count += count;
-        }
-        return varianceAcross(groups, sumOfSquares, total);
-    };
-    Image image(desc_.width, desc_.height);
-    forEachPixel(*this, image, [&](std::uint32_t tile, std::size_t index, float* pixel) {
-        for (std::size_t c = 0; c < 3; ++c) pixel[c] = static_cast<float>(variance(tile, index * 3 + c));
-    });
-    return image;
+    return toImage(varianceRows(*this));
 }
 
 Image Film::sampleCounts() const {
-    Image image(desc_.width, desc_.height, 1);
-    forEachPixel(*this, image,
-                 [&](std::uint32_t tile, std::size_t, float* pixel) { *pixel = static_cast<float>(samples(tile)); });
-    return image;
+    return toImage(sampleCountRows(*this));
 }
 
 std::uint64_t Film::bytes() const {

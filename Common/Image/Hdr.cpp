@@ -121,12 +121,16 @@ Image decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
     return image;
 }
 
-void encodeHdr(const Image& image, std::ostream& out) {
-    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << image.height << " +X " << image.width << '\n';
-    for (std::size_t i = 0; i < image.data.size(); i += image.channels) {
-        const float grey[3] = {image.data[i], image.data[i], image.data[i]};
-        const Rgbe rgbe = compress(image.channels == 3 ? &image.data[i] : grey);
-        out.write(reinterpret_cast<const char*>(rgbe.data()), rgbe.size());
+void encodeHdr(const ImageRows& rows, std::ostream& out) {
+    out << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y " << rows.height << " +X " << rows.width << '\n';
+    std::vector<float> row(rows.rowValues());
+    for (std::uint32_t y = 0; y < rows.height; ++y) {
+        rows.read(y, row);
+        for (std::size_t i = 0; i < row.size(); i += rows.channels) {
+            const float grey[3] = {row[i], row[i], row[i]};
+            const Rgbe rgbe = compress(rows.channels == 3 ? &row[i] : grey);
+            out.write(reinterpret_cast<const char*>(rgbe.data()), rgbe.size());
+        }
     }
 }
 

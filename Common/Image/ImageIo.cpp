@@ -5,7 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <new>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -75,11 +75,22 @@ bool isFinite(const Image& image) {
     return std::all_of(image.data.begin(), image.data.end(), [](float value) { return std::isfinite(value); });
 }
 
-Image withFiniteValues(const Image& image) {
+float finite(float value) {
     constexpr float kLargest = std::numeric_limits<float>::max();
-    Image finite = image;
-    for (float& value : finite.data) value = std::isnan(value) ? 0.0f : std::clamp(value, -kLargest, kLargest);
-    return finite;
+    return std::isnan(value) ? 0.0f : std::clamp(value, -kLargest, kLargest);
+}
+
+void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::string& description) {
+    switch (codec) {
+        case Codec::Exr:
+            return encodeExr(rows, out, description);
+        case Codec::Pfm:
+            return encodePfm(rows, out);
+        case Codec::Hdr:
+            return encodeHdr(rows, out);
+        default:
+            return encodePng(rows, out, description);
+    }
 }
 
 } // namespace
@@ -124,31 +135,13 @@ Texels loadTexels(const fs::path& path) {
     return texels;
 }
 
-void writeImage(const fs::path& path, const Image& image, const std::string& description) {
+void writeImage(const fs::path& path, const ImageRows& image, const std::string& description) try {
     const Codec codec = codecOf<UsageError>(path, true);
-    if (!isFinite(image)) return writeImage(path, withFiniteValues(image), description);
     AtomicFile file(path);
-    switch (codec) {
-        case Codec::Exr:
-            encodeExr(image, file.stream(), description);
-            break;
-        case Codec::Pfm:
-            encodePfm(image, file.stream());
-            break;
-        case Codec::Hdr:
-            encodeHdr(image, file.stream());
-            break;
-        default:
-            if (description.empty()) {
-                encodePng(image, file.stream());
-            } else {
-                std::ostringstream png;
-                encodePng(image, png);
-                file.stream() << withPngText(png.str(), kDescriptionKey, description);
-            }
-            break;
-    }
+    encode(codec, mapped(image, finite), file.stream(), description);
     file.commit();
+} catch (const std::bad_alloc&) {
+    throw RenderError("cannot write " + path.string() + ": not enough memory");
 }
 
 std::optional<std::string> readDescription(const fs::path& path) {

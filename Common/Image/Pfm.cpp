@@ -46,12 +46,13 @@ Image decodePfm(std::span<const std::byte> bytes, const std::string& name) {
     return image;
 }
 
-void encodePfm(const Image& image, std::ostream& out) {
-    out << (image.channels == 3 ? "PF\n" : "Pf\n") << image.width << ' ' << image.height << "\n-1.0\n";
-    const std::size_t rowValues = std::size_t{image.width} * image.channels;
-    for (std::size_t row = image.height; row-- > 0;)
-        out.write(reinterpret_cast<const char*>(&image.data[row * rowValues]),
-                  static_cast<std::streamsize>(rowValues * sizeof(float)));
+void encodePfm(const ImageRows& rows, std::ostream& out) {
+    out << (rows.channels == 3 ? "PF\n" : "Pf\n") << rows.width << ' ' << rows.height << "\n-1.0\n";
+    std::vector<float> row(rows.rowValues());
+    for (std::uint32_t y = rows.height; y-- > 0;) {
+        rows.read(y, row);
+        out.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float)));
+    }
 }
 
 } // namespace rt::image

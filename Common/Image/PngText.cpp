@@ -8,24 +8,7 @@ namespace {
 
 //   8 bytes of signature | chunks: length of the data, type, data, CRC of type and data; numbers are big-endian
 constexpr std::size_t kSignatureBytes = 8;
-constexpr std::size_t kHeaderBytes = 12 + 13; // the first chunk, IHDR
 constexpr std::string_view kType = "iTXt";
-
-// CRC-32 of ISO 3309, polynomial 0xedb88320 in reflected form (PNG specification, annex D).
-std::uint32_t crc(std::string_view bytes) {
-    std::uint32_t value = 0xffffffffu;
-    for (const char byte : bytes) {
-        value ^= static_cast<unsigned char>(byte);
-        for (int bit = 0; bit < 8; ++bit) value = value & 1u ? value >> 1 ^ 0xedb88320u : value >> 1;
-    }
-    return ~value;
-}
-
-std::string bigEndian(std::uint32_t value) {
-    std::string bytes;
-    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xff);
-    return bytes;
-}
 
 std::uint32_t fromBigEndian(std::string_view bytes) {
     std::uint32_t value = 0;
@@ -34,14 +17,6 @@ std::uint32_t fromBigEndian(std::string_view bytes) {
 }
 
 } // namespace
-
-std::string withPngText(const std::string& png, const std::string& keyword, const std::string& text) {
-    // Keyword, not compressed by method 0, no language, keyword not translated.
-    const std::string data = keyword + std::string(5, '\0') + text;
-    const std::string body = std::string(kType) + data;
-    const std::string chunk = bigEndian(static_cast<std::uint32_t>(data.size())) + body + bigEndian(crc(body));
-    return std::string(png).insert(kSignatureBytes + kHeaderBytes, chunk);
-}
 
 std::optional<std::string> findPngText(std::span<const std::byte> png, const std::string& keyword) {
     std::string_view rest(reinterpret_cast<const char*>(png.data()), png.size());

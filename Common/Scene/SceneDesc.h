@@ -1,6 +1,6 @@
 // The authoring scene: what a person writes, in code or in a scene file. Names, files and nesting are still there;
 // lengths are world units, angles degrees, colours linear RGB, everything in double precision. compileScene() turns it
-// into the flat scene.
+// into the compiled scene.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -12,6 +12,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include "Common/Shared/Material/Materials.h"
 
 namespace rt::scene {
 
@@ -84,17 +86,23 @@ struct ImageTexture {
 };
 using TextureDesc = std::variant<SolidTexture, CheckerTexture, NoiseTexture, ImageTexture>;
 
-enum class MaterialKind { Lambertian, Metal, Dielectric, Emitter };
+// Of the table Common/Shared/Material/Materials.h.
+enum class MaterialKind : std::uint32_t {
+#define RT_SURFACE(Name, kind, bit, name, help, parameters) Name = kind,
+#define RT_BLACK(Name, kind, name, help, parameters) Name = kind,
+    RT_MATERIALS(RT_SURFACE, RT_BLACK)
+#undef RT_SURFACE
+#undef RT_BLACK
+};
 enum class Sides { Front, Both };
 
 struct MaterialDesc {
     MaterialKind kind = MaterialKind::Lambertian;
-    ColorOrTexture albedo{glm::dvec3(1)}; // components in [0,1]; of a dielectric the tint; unused by an emitter
-    double fuzz = 0;                      // metal, [0,1]
-    double ior = 1.5;                     // dielectric, > 0
-    glm::dvec3 emission{0, 0, 0};         // radiance; any kind may emit
-    std::string emissionTexture;          // multiplies emission; empty: none
-    std::optional<Sides> sides;           // which emit; unset: as CompileOptions::oneSidedLights says
+    ColorOrTexture albedo{glm::dvec3(1)}; // the colour parameter of the kind, if it has one; components in [0,1]
+    std::array<std::optional<double>, shared::kMaterialParameters> parameters; // its numbers; unset: the usual value
+    glm::dvec3 emission{0, 0, 0};                                              // radiance; any kind may emit
+    std::string emissionTexture;                                               // multiplies emission; empty: none
+    std::optional<Sides> sides; // which emit; unset: as CompileOptions::oneSidedLights says
     bool operator==(const MaterialDesc&) const = default;
 };
 

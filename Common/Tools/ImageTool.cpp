@@ -96,13 +96,14 @@ int info(const Arguments& arguments) {
 
 int convert(const Arguments& arguments) {
     image::checkWritable(arguments.b);
-    image::Image image = image::readImage(arguments.a);
+    const image::Image image = image::readImage(arguments.a);
+    image::ImageRows rows = image;
     if (arguments.exposure != 0 || arguments.tonemap != "none") {
         if (!image::isDisplayReferred(arguments.b))
             throw UsageError(arguments.b + ": --exposure and --tonemap are for .png only");
-        image = image::toDisplay(image, arguments.exposure, rowOf(kCurves, arguments.tonemap).curve);
+        rows = image::toDisplay(image, arguments.exposure, rowOf(kCurves, arguments.tonemap).curve);
     }
-    image::writeImage(arguments.b, image);
+    image::writeImage(arguments.b, rows);
     return static_cast<int>(ExitCode::Done);
 }
 

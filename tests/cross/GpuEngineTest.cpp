@@ -104,7 +104,7 @@ TEST_P(GpuEngineTest, CountsWhatItDid) {
     EXPECT_GT(report.rays.shadow, 0u);
     const bool compute = GetParam() == app::GpuEngineKind::Compute;
     EXPECT_EQ(report.engine, compute ? "compute" : "pipeline");
-    EXPECT_EQ(report.kernel, compute ? "flat+quads+spheres" : "paths+quads+spheres");
+    EXPECT_EQ(report.kernel, compute ? "list+quads+spheres" : "paths+quads+spheres");
     EXPECT_GT(report.deviceBytes, 0u);
 }
 
@@ -273,11 +273,11 @@ TEST_P(GpuEngineTest, OnlyGroupsThatTheFeaturesNameExist) {
     app::RenderSettings settings = settingsFor(1);
     const bool compute = GetParam() == app::GpuEngineKind::Compute;
     const std::string tree = compute ? "tree" : "paths";
-    const std::string flat = compute ? "flat" : "paths";
+    const std::string way = compute ? "list" : "paths";
     EXPECT_EQ(kernel("one-weekend-final", settings), tree + "+spheres");
-    EXPECT_EQ(kernel("next-week-quads", settings), flat + "+quads");
+    EXPECT_EQ(kernel("next-week-quads", settings), way + "+quads");
     settings.features = shared::kFeatureAll;
-    EXPECT_EQ(kernel("next-week-quads", settings), flat + "+triangles+quads+spheres");
+    EXPECT_EQ(kernel("next-week-quads", settings), way + "+triangles+quads+spheres");
 }
 
 // Callable shaders as well: those of the shapes that are sampled so, in scenes with lights of that shape.

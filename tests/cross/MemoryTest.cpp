@@ -31,7 +31,7 @@ TEST(MemoryTest, ManyBuffersShareABlockAndDoNotOverlap) {
     const std::size_t blocks = context.memory().blockCount();
     const VkDeviceSize bytes = context.memory().deviceBytes();
     {
-        constexpr std::uint32_t kBuffers = 300;
+        constexpr std::uint32_t kBuffers = 60;
         std::vector<Buffer> buffers;
         for (std::uint32_t i = 0; i < kBuffers; ++i) {
             buffers.push_back(deviceArray<std::uint32_t>(context, numbers(1 + i % 100, 1000 * i), "a test"));

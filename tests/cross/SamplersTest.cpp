@@ -32,6 +32,20 @@ struct Case {
     std::uint32_t family, which;
 };
 
+// The lights that the probe's choices are made among.
+shared::SceneRef probeScene() {
+    static const auto arrays = [] {
+        shared::SceneArraysOf<std::vector> made;
+        for (std::uint32_t i = 0; i < shared::kProbeLights; ++i) {
+            made.lights.push_back(shared::probeTableLight(i));
+            made.lightBounds.push_back(shared::probeTableBound(i));
+        }
+        return made;
+    }();
+    static const shared::SceneView scene = shared::viewOf(arrays, {});
+    return scene;
+}
+
 // What a case draws. The functions of these classes are the proofs.
 class Sampler {
   public:
@@ -48,7 +62,7 @@ class Sampler {
 
     Words drawn(std::uint32_t mode, std::uint32_t i) const {
         if (where_ == Where::Device) return onDevice_[(std::size_t{which_} * shared::kProbeModes + mode) * kDraws + i];
-        const shared::uvec4 w = shared::probeSampler(family_, which_, mode, i);
+        const shared::uvec4 w = shared::probeSampler(probeScene(), family_, which_, mode, i);
         return {w.x, w.y, w.z, w.w};
     }
     static double number(const Words& words, std::size_t c) {

@@ -84,7 +84,7 @@ TEST(Furnace, RoughMetalLosesWhatLeavesItsHemisphere) {
             MaterialDesc metal;
             metal.kind = MaterialKind::Metal;
             metal.albedo = glm::dvec3(0.8, 0.6, 0.4);
-            metal.fuzz = fuzz;
+            metal.parameters[shared::kMetalFuzz] = fuzz;
             desc.materials["metal"] = metal;
             desc.objects.push_back({QuadDesc{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, "metal"}});
             const double kept = 1 - std::max(0.0, (1 - cosine / fuzz) / 2);

@@ -92,9 +92,11 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     std::string command =
         kEnterFolder + quoted(folder_.string()) + " && " + assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
     command += assignment("XDG_CACHE_HOME", cacheFolder().string());
+    command += assignment("XDG_STATE_HOME", (folder_ / "state").string());
     // No window opens by mistake.
     command += assignment("DISPLAY", "") + assignment("WAYLAND_DISPLAY", "");
     for (const auto& [name, value] : environment) command += assignment(name, value);
+    if (addressSpace_ > 0) command += "ulimit -v " + std::to_string(addressSpace_) + " && ";
     command += quoted(programPath(program));
     for (const std::string& argument : arguments) command += " " + quoted(argument);
     command += " > " + quoted(out) + " 2> " + quoted(err);

@@ -1,5 +1,6 @@
 // Runs the programs as a user would: arguments in; exit code, standard output and standard error out.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -40,6 +41,7 @@ class ProgramTest : public testing::Test {
     std::string pixels(const Arguments& arguments) const;
 
     std::filesystem::path folder_;
+    std::uint64_t addressSpace_ = 0; // KiB that a program may take; 0: no limit
 };
 
 std::filesystem::path cacheFolder();

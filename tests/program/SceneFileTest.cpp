@@ -89,6 +89,22 @@ TEST_F(SceneFile, Mistakes) {
     EXPECT_TRUE(failsWith(renderFile("deep.json", std::string(200'000, '[')), 3, "deep.json"));
 }
 
+TEST_F(SceneFile, NestedCheckers) {
+    const auto nested = [](int depth) {
+        std::string textures = R"("t0": {"type": "noise", "kind": "smooth"})";
+        for (int i = 1; i <= depth; ++i)
+            textures += ", \"t" + std::to_string(i) +
+                        R"(": {"type": "checker", "scale": 0.3, "odd": [1, 1, 1], "even": "t)" + std::to_string(i - 1) +
+                        "\"}";
+        return R"({"textures": {)" + textures + R"(}, "materials": {"squares": {"type": "lambertian", "albedo": "t)" +
+               std::to_string(depth) + R"("}},
+            "objects": [{"type": "sphere", "center": [0, 0, 0], "radius": 1, "material": "squares"}]})";
+    };
+    EXPECT_EQ(renderFile("eight.json", nested(8)).exitCode, 0);
+    EXPECT_TRUE(failsWith(renderFile("nine.json", nested(9)), 3, "nine.json: /textures/t"));
+    EXPECT_TRUE(failsWith(renderFile("many.json", nested(39)), 3, "many.json: /textures/t"));
+}
+
 TEST_F(SceneFile, ObjFiles) {
     EXPECT_EQ(renderFile("good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").exitCode, 0);
     EXPECT_TRUE(failsWith(renderFile("empty.obj", ""), 3, "empty.obj"));

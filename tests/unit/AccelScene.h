@@ -86,11 +86,11 @@ inline std::vector<std::uint8_t> anyHits(const RayQuery& query, const AccelView&
     return hits;
 }
 
-inline std::unique_ptr<CpuAccel> buildAccel(Geometry& geometry, std::uint32_t flatPrimitives = 0) {
+inline std::unique_ptr<CpuAccel> buildAccel(Geometry& geometry, std::uint32_t maxLinear = 0) {
     BuildSettings settings;
-    settings.flatPrimitives = flatPrimitives;
+    settings.maxLinear = maxLinear;
     return CpuAccel::build(geometry.input(), settings);
 }
-inline constexpr std::uint32_t kAlwaysFlat = 0xffffffff;
+inline constexpr std::uint32_t kAlwaysLinear = 0xffffffff;
 
 } // namespace rt::accel::testing

@@ -33,7 +33,7 @@ std::vector<std::pair<std::string, std::vector<float>>> sphereHits(const shared:
     }
     Geometry g;
     g.addSphere(sphere.center, sphere.radius);
-    const auto accel = buildAccel(g, kAlwaysFlat);
+    const auto accel = buildAccel(g, kAlwaysLinear);
     for (const NamedQuery& q : runnableQueries()) {
         results.push_back({q.name, {}});
         for (const Hit& hit : closestHits(*q.query, accel->view(), rays)) {
@@ -162,8 +162,8 @@ TEST(Shapes, BlocksAgreeWithTheSharedFormulas) {
     }
     const shared::Quad& quad = quads.quads[0];
     const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
-    const auto quadAccel = buildAccel(quads, kAlwaysFlat);
-    const auto triangleAccel = buildAccel(triangles, kAlwaysFlat);
+    const auto quadAccel = buildAccel(quads, kAlwaysLinear);
+    const auto triangleAccel = buildAccel(triangles, kAlwaysLinear);
     for (const NamedQuery& q : runnableQueries()) {
         SCOPED_TRACE(q.name);
         const std::vector<Hit> a = closestHits(*q.query, quadAccel->view(), rays);
@@ -202,7 +202,7 @@ TEST(Shapes, StripsEndWhereTheirEdgesAre) {
     Geometry strip;
     const vec3 corner(100.0f, 554.0f, 127.0f);
     strip.addQuad(corner, vec3(355.0f, 0.0f, 0.0f), vec3(0.0f, 0.0f, 10.0f));
-    const auto accel = buildAccel(strip, kAlwaysFlat);
+    const auto accel = buildAccel(strip, kAlwaysLinear);
     const float offset =
         8.0f * shared::kEpsilon * 1200.0f; // more than the errors of ray and strip at the greatest distance
     std::vector<Ray> outside, inside;
@@ -231,8 +231,8 @@ TEST(Shapes, MovingSpheresAreWhereTheyAreAtTheTimeOfTheRay) {
     Geometry g;
     g.addSphere(vec3(0.0f), 1.0f);
     g.motions.push_back(vec3(0.0f, 4.0f, 0.0f));
-    for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
-        const auto accel = buildAccel(g, flat);
+    for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+        const auto accel = buildAccel(g, maxLinear);
         for (const NamedQuery& q : runnableQueries()) {
             const auto hits = closestHits(*q.query, accel->view(),
                                           {{vec3(5.0f, 2.0f, 0.0f), vec3(-1.0f, 0.0f, 0.0f), 0.0f},

@@ -83,15 +83,15 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
     for (int count : {3, 40, 1000}) {
         for (NamedGeometry& scene : geometries(count)) {
             const auto tree = buildAccel(scene.geometry);
-            const auto flat = buildAccel(scene.geometry, kAlwaysFlat);
-            ASSERT_FALSE(tree->view().flat);
-            ASSERT_TRUE(flat->view().flat);
+            const auto linear = buildAccel(scene.geometry, kAlwaysLinear);
+            ASSERT_FALSE(tree->view().isLinear);
+            ASSERT_TRUE(linear->view().isLinear);
             Random random(11);
             const std::vector<Ray> rays = randomRays(scene.geometry, random, 4000);
             for (const NamedQuery& q : runnableQueries()) {
                 SCOPED_TRACE(scene.name + " " + std::to_string(count) + " " + q.name);
                 const std::vector<Hit> a = closestHits(*q.query, tree->view(), rays);
-                const std::vector<Hit> b = closestHits(*q.query, flat->view(), rays);
+                const std::vector<Hit> b = closestHits(*q.query, linear->view(), rays);
                 int hits = 0, different = 0;
                 for (std::size_t i = 0; i < rays.size(); ++i) {
                     hits += a[i].t >= 0.0f;
@@ -105,11 +105,11 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
                     ends[i] = b[i].t < 0.0f ? shared::kInfinity : b[i].t * (i % 2 == 0 ? 0.9999f : 1.0001f);
                 }
                 const auto anyTree = anyHits(*q.query, tree->view(), rays, ends);
-                const auto anyFlat = anyHits(*q.query, flat->view(), rays, ends);
+                const auto anyLinear = anyHits(*q.query, linear->view(), rays, ends);
                 int wrong = 0;
                 for (std::size_t i = 0; i < rays.size(); ++i) {
                     const std::uint8_t expected = b[i].t >= 0.0f && i % 2 == 1;
-                    wrong += anyTree[i] != expected || anyFlat[i] != expected;
+                    wrong += anyTree[i] != expected || anyLinear[i] != expected;
                 }
                 EXPECT_EQ(wrong, 0);
             }
@@ -119,13 +119,13 @@ TEST(AccelTraversal, TreeFindsExactlyWhatTestingEverythingFinds) {
 
 TEST(AccelTraversal, BothQuestionsAtOnceHaveTheSameAnswers) {
     for (NamedGeometry& scene : geometries(40)) {
-        for (std::uint32_t flatPrimitives : {0u, kAlwaysFlat}) {
-            const auto accel = buildAccel(scene.geometry, flatPrimitives);
+        for (std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+            const auto accel = buildAccel(scene.geometry, maxLinear);
             const AccelView& view = accel->view();
             Random random(13);
             const std::vector<Ray> rays = randomRays(scene.geometry, random, 2000);
             for (const NamedQuery& q : runnableQueries()) {
-                SCOPED_TRACE(scene.name + (view.flat ? ", flat, " : ", tree, ") + q.name);
+                SCOPED_TRACE(scene.name + (view.isLinear ? ", linear list, " : ", tree, ") + q.name);
                 const Tracer tracer = q.query->tracer(view.kinds);
                 int different = 0, wrong = 0, occluded = 0;
                 for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -149,7 +149,7 @@ TEST(AccelTraversal, BothQuestionsAtOnceHaveTheSameAnswers) {
 }
 
 // Small things of all kinds far from each other in a room.
-Geometry sparseCloud(Random& random) {
+Geometry scatteredCloud(Random& random) {
     Geometry g;
     for (int i = 0; i < 3000; ++i) {
         g.addSphere(random.inCube(10.0f), 0.02f);
@@ -177,13 +177,13 @@ Geometry emptyBoxes(Random& random) {
     return g;
 }
 
-TEST(AccelTraversal, SparseTreesFindWhatTestingEverythingFinds) {
+TEST(AccelTraversal, QuantizedTreesFindWhatTestingEverythingFinds) {
     Random random(17);
-    Geometry scenes[] = {sparseCloud(random), emptyBoxes(random)};
+    Geometry scenes[] = {scatteredCloud(random), emptyBoxes(random)};
     for (std::size_t scene = 0; scene < 2; ++scene) {
         Geometry& g = scenes[scene];
-        const auto tree = buildAccel(g), flat = buildAccel(g, kAlwaysFlat);
-        ASSERT_NE(tree->view().sparseNodes, nullptr);
+        const auto tree = buildAccel(g), linear = buildAccel(g, kAlwaysLinear);
+        ASSERT_NE(tree->view().quantizedNodes, nullptr);
         std::vector<Ray> rays = randomRays(g, random, 1000);
         if (scene == 1) {
             for (int i = 0; i < 200; ++i) { // along the axis, to the sphere at its end
@@ -194,7 +194,7 @@ TEST(AccelTraversal, SparseTreesFindWhatTestingEverythingFinds) {
         for (const NamedQuery& q : runnableQueries()) {
             SCOPED_TRACE(std::to_string(scene) + " " + q.name);
             const std::vector<Hit> a = closestHits(*q.query, tree->view(), rays);
-            const std::vector<Hit> b = closestHits(*q.query, flat->view(), rays);
+            const std::vector<Hit> b = closestHits(*q.query, linear->view(), rays);
             int hits = 0, different = 0;
             std::vector<float> ends(rays.size());
             for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -249,11 +249,11 @@ TEST(AccelTraversal, RaysInThePlanesOfBoxesMissNothing) {
         }
     }
     const auto tree = buildAccel(g);
-    const auto flat = buildAccel(g, kAlwaysFlat);
+    const auto linear = buildAccel(g, kAlwaysLinear);
     for (const NamedQuery& q : runnableQueries()) {
         SCOPED_TRACE(q.name);
         const std::vector<Hit> a = closestHits(*q.query, tree->view(), rays);
-        const std::vector<Hit> b = closestHits(*q.query, flat->view(), rays);
+        const std::vector<Hit> b = closestHits(*q.query, linear->view(), rays);
         int different = 0, hits = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             different += !sameBits(a[i], b[i]);
@@ -274,10 +274,10 @@ TEST(AccelTraversal, TheFirstOfEquallyNearPrimitivesWins) {
         }
         const std::vector<Ray> rays{{vec3(0.0f, 4.0f, 0.0f), vec3(0.0f, -1.0f, 0.0f), 0.0f},
                                     {vec3(0.25f, 4.0f, 0.25f), vec3(0.0f, -1.0f, 0.0f), 0.0f}};
-        for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
-            const auto accel = buildAccel(g, flat);
+        for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+            const auto accel = buildAccel(g, maxLinear);
             for (const NamedQuery& q : runnableQueries()) {
-                SCOPED_TRACE(q.name + " " + std::to_string(copies) + (flat != 0 ? " flat" : " tree"));
+                SCOPED_TRACE(q.name + " " + std::to_string(copies) + (maxLinear != 0 ? " linear list" : " tree"));
                 const std::vector<Hit> hits = closestHits(*q.query, accel->view(), rays);
                 EXPECT_EQ(hits[0].t, 4.0f);
                 EXPECT_EQ(hits[0].kind, shared::kSphere);
@@ -300,8 +300,8 @@ TEST(AccelTraversal, IntervalsAreOpenAtBothEnds) {
                                 {vec3(0.0f, -1.0f, 0.0f), down, 0.0f}};
     const std::vector<float> ends{2.0f, 2.0000002f, 10.0f, 10.0f};
     const std::vector<std::uint8_t> expected{0, 1, 0, 0};
-    for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
-        const auto accel = buildAccel(g, flat);
+    for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+        const auto accel = buildAccel(g, maxLinear);
         for (const NamedQuery& q : runnableQueries()) {
             EXPECT_EQ(anyHits(*q.query, accel->view(), rays, ends), expected);
             std::vector<Hit> hits(rays.size());

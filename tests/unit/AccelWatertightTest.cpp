@@ -160,8 +160,8 @@ TEST(Watertight, BoxesOfQuadsDoNotLeakAtEdgesAndCorners) {
                     const vec3 world = center + (axes[0] * target.x + axes[1] * target.y + axes[2] * target.z) * size;
                     rays.push_back({origin, shared::normalize(world - origin), 0.0f});
                 }
-                for (const std::uint32_t flat : {0u, kAlwaysFlat}) {
-                    const auto accel = buildAccel(g, flat);
+                for (const std::uint32_t maxLinear : {0u, kAlwaysLinear}) {
+                    const auto accel = buildAccel(g, maxLinear);
                     for (const NamedQuery& q : runnableQueries()) {
                         SCOPED_TRACE(q.name + " size " + std::to_string(size) + " shift " + std::to_string(shift));
                         EXPECT_EQ(countLeaks(*q.query, accel->view(), rays), 0);

@@ -25,13 +25,13 @@ Material lambertian() {
 Material metal(float fuzz) {
     Material m{};
     m.kind = kMaterialMetal;
-    m.fuzz = fuzz;
+    m.parameter[kMetalFuzz] = fuzz;
     return m;
 }
 Material glass(float ior) {
     Material m{};
     m.kind = kMaterialDielectric;
-    m.ior = ior;
+    m.parameter[kDielectricIor] = ior;
     return m;
 }
 

@@ -1,4 +1,4 @@
-// Every built-in scene: it compiles, keeps the promises of the flat scene, and survives a scene file bit for bit.
+// Every built-in scene: it compiles, keeps the promises of the compiled scene, and survives a scene file bit for bit.
 #include <algorithm>
 #include <bit>
 #include <cmath>

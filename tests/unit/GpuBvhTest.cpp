@@ -17,7 +17,7 @@ using testing::Random;
 
 GpuBvhSettings alwaysTrees() {
     GpuBvhSettings settings;
-    settings.flatPrimitives = 0;
+    settings.maxLinear = 0;
     return settings;
 }
 
@@ -128,7 +128,7 @@ bool allMet(const std::vector<int>& visits, int times) {
 }
 
 void expectComplete(const AccelInput& input, const GpuBvh& bvh) {
-    ASSERT_FALSE(bvh.isFlat);
+    ASSERT_FALSE(bvh.isLinear);
     const Walk walk(input, bvh.trees);
     EXPECT_TRUE(allMet(walk.spheres, 1));
     EXPECT_TRUE(allMet(walk.quads, 1));
@@ -164,23 +164,23 @@ TEST(GpuBvh, OfPrimitivesInOnePlace) {
 TEST(GpuBvh, SmallScenesAreLists) {
     Geometry geometry = mixture(20, 11);
     const GpuBvh bvh = *buildGpuBvh(geometry.input());
-    ASSERT_TRUE(bvh.isFlat);
-    EXPECT_EQ(bvh.flat.spheres, geometry.spheres.size());
-    EXPECT_EQ(bvh.flat.quads, geometry.quads.size());
-    EXPECT_EQ(bvh.flat.triangles, geometry.triangles.size());
-    ASSERT_EQ(bvh.flat.vectors.size(),
+    ASSERT_TRUE(bvh.isLinear);
+    EXPECT_EQ(bvh.lists.spheres, geometry.spheres.size());
+    EXPECT_EQ(bvh.lists.quads, geometry.quads.size());
+    EXPECT_EQ(bvh.lists.triangles, geometry.triangles.size());
+    ASSERT_EQ(bvh.lists.vectors.size(),
               2 * geometry.spheres.size() + 4 * geometry.quads.size() + 3 * geometry.triangles.size());
     const std::size_t quad = 2 * geometry.spheres.size() + 4; // the second one
-    EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.flat.vectors[quad + 1].w), 1u);
-    EXPECT_EQ(shared::vec3(bvh.flat.vectors[quad]), geometry.quads[1].corner);
-    EXPECT_FALSE(buildGpuBvh(mixture(shared::kFlatPrimitives + 1, 11).input())->isFlat);
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.lists.vectors[quad + 1].w), 1u);
+    EXPECT_EQ(shared::vec3(bvh.lists.vectors[quad]), geometry.quads[1].corner);
+    EXPECT_FALSE(buildGpuBvh(mixture(shared::kMaxListedPrimitives + 1, 11).input())->isLinear);
 }
 
 TEST(GpuBvh, OfNothingIsAnEmptyList) {
     Geometry geometry;
     const GpuBvh bvh = *buildGpuBvh(geometry.input(), alwaysTrees());
-    EXPECT_TRUE(bvh.isFlat);
-    EXPECT_TRUE(bvh.flat.vectors.empty());
+    EXPECT_TRUE(bvh.isLinear);
+    EXPECT_TRUE(bvh.lists.vectors.empty());
 }
 
 shared::Instance placedAt(std::uint32_t geometry, shared::vec3 at) {
@@ -204,7 +204,7 @@ TEST(GpuBvh, FollowsInstances) {
         geometry.instances.push_back(placedAt(i == 3 ? 2 : 1, shared::vec3(30.0f * static_cast<float>(i))));
     const AccelInput input = geometry.input();
     const GpuBvh bvh = *buildGpuBvh(input);
-    ASSERT_FALSE(bvh.isFlat); // however few primitives there are
+    ASSERT_FALSE(bvh.isLinear); // however few primitives there are
     const Walk walk(input, bvh.trees);
     EXPECT_EQ(walk.depth, bvh.trees.depth);
     for (std::size_t i = 0; i < walk.instances.size(); ++i) EXPECT_EQ(walk.instances[i], i == 3 ? 0 : 1);
@@ -219,8 +219,8 @@ TEST(GpuBvh, OfInstancesOfNothingIsAnEmptyList) {
     geometry.geometries = {{}, {}};
     geometry.instances = {placedAt(1, shared::vec3(0.0f))};
     const GpuBvh bvh = *buildGpuBvh(geometry.input());
-    EXPECT_TRUE(bvh.isFlat);
-    EXPECT_EQ(bvh.flat.spheres + bvh.flat.quads + bvh.flat.triangles, 0u);
+    EXPECT_TRUE(bvh.isLinear);
+    EXPECT_EQ(bvh.lists.spheres + bvh.lists.quads + bvh.lists.triangles, 0u);
 }
 
 TEST(GpuBvh, CanBeCancelled) {

@@ -36,7 +36,7 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.request.accumulate = false;
     s.engine.policy = Policy::Seq;
     s.rayTracing = false;
-    s.openPanels = {false, true, false, true, true};
+    s.openPanels = {{"scene", false}, {"view", true}, {"of_a_newer_version", true}};
     s.engine.threads = 3;
     s.engine.kind = GpuEngineKind::Compute;
     s.engine.device = "some GPU";

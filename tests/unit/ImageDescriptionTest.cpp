@@ -40,27 +40,27 @@ TEST(ImageDescription, IsKeptBesideThePixels) {
 }
 
 TEST(ImageDescription, PngIsAsTheSpecificationSays) {
-    std::ostringstream png;
-    encodePng(Image(1, 1), png);
-    const std::string with = withPngText(png.str(), "key", "abc");
-    // Behind signature and header: length 11, type, key, five zeros, text, and the CRC that zlib computes.
-    EXPECT_EQ(with.substr(33, 23), std::string("\0\0\0\x0biTXtkey\0\0\0\0\0abc", 19) + "\x7b\xa3\x78\x6c");
-    EXPECT_EQ(findPngText(bytesOf(with), "key"), "abc");
-    EXPECT_EQ(findPngText(bytesOf(with), "ke"), std::nullopt);
+    std::ostringstream out;
+    encodePng(Image(1, 1), out, "abc");
+    const std::string png = out.str();
+    // Behind signature and header: length 19, type, key, five zeros, text.
+    EXPECT_EQ(png.substr(33, 27), std::string("\0\0\0\x13iTXtray-tracing\0\0\0\0\0abc", 27));
+    EXPECT_EQ(findPngText(bytesOf(png), kDescriptionKey), "abc");
+    EXPECT_EQ(findPngText(bytesOf(png), "ray"), std::nullopt);
 }
 
 TEST(ImageDescription, OfADamagedPngIsNothing) {
     std::ostringstream png;
-    encodePng(Image(2, 2), png);
-    const std::string whole = withPngText(png.str(), "key", "text");
+    encodePng(Image(2, 2), png, "text");
+    const std::string whole = png.str();
     for (std::size_t size = 0; size < whole.size(); ++size) {
-        const auto found = findPngText(bytesOf(whole.substr(0, size)), "key");
+        const auto found = findPngText(bytesOf(whole.substr(0, size)), kDescriptionKey);
         EXPECT_TRUE(!found || *found == "text") << size;
     }
     std::string endless = whole;
     for (int i = 33; i < 37; ++i) endless[static_cast<std::size_t>(i)] = '\xff'; // the chunk's length
-    EXPECT_EQ(findPngText(bytesOf(endless), "key"), std::nullopt);
-    EXPECT_EQ(findPngText(bytesOf("no image"), "key"), std::nullopt);
+    EXPECT_EQ(findPngText(bytesOf(endless), kDescriptionKey), std::nullopt);
+    EXPECT_EQ(findPngText(bytesOf("no image"), kDescriptionKey), std::nullopt);
 }
 
 } // namespace

@@ -119,6 +119,38 @@ TEST(ImageIoAtomicFile, FollowsLinks) {
     EXPECT_EQ(filesIn(folder / "elsewhere"), 1u);
 }
 
+TEST(ImageIoAtomicFile, KeepsTheModeOfWhatItReplaces) {
+    const test::TempFolder folder;
+    constexpr fs::perms kPrivate = fs::perms::owner_read | fs::perms::owner_write;
+    write(folder / "a", "old");
+    EXPECT_NE(fs::status(folder / "a").permissions() & fs::perms::others_read, fs::perms::none);
+    for (const fs::perms mode : {kPrivate, fs::perms::owner_read, kPrivate | fs::perms::group_read}) {
+        fs::permissions(folder / "a", mode);
+        {
+            AtomicFile file(folder / "a");
+            for (const auto& entry : fs::directory_iterator(folder.path()))
+                EXPECT_EQ(entry.status().permissions() & fs::perms::others_all, fs::perms::none) << entry.path();
+            file.stream() << "new";
+            file.commit();
+        }
+        EXPECT_EQ(fs::status(folder / "a").permissions(), mode);
+    }
+}
+
+TEST(ImageIoAtomicFile, NewFilesAreNobodyElses) {
+    const test::TempFolder folder;
+    write(folder / "target", "old");
+    fs::create_symlink(folder / "target", folder / "link");
+    fs::create_symlink(folder / "nothing", folder / "dangling");
+    for (const char* name : {"target", "link", "dangling"})
+        EXPECT_EQ(createExclusively(folder / name, Access::Everybody), std::errc::file_exists) << name;
+    EXPECT_FALSE(fs::exists(folder / "nothing"));
+    EXPECT_EQ(createNumbered(folder.path(), "a.rtc"), folder / "a.rtc");
+    EXPECT_EQ(createNumbered(folder.path(), "a.rtc"), folder / "a.2.rtc");
+    EXPECT_EQ(createNumbered(folder.path(), "link"), folder / "link.2");
+    EXPECT_THROW(createNumbered(folder / "none", "a.rtc"), RenderError);
+}
+
 TEST(ImageIoAtomicFile, NamesAReadOnlyFolder) {
     const test::TempFolder folder;
     fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);

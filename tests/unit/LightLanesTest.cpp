@@ -98,7 +98,7 @@ Vertex randomVertex(Uniforms& uniform) {
     Vertex v{};
     v.material = blackMaterial();
     v.material.kind = uniform.word() % 4 == 0 ? kMaterialMetal : kMaterialLambertian;
-    v.material.fuzz = 0.3f;
+    v.material.parameter[kMetalFuzz] = 0.3f;
     v.position = pointWithin(uniform, 3);
     v.normal = normalize(pointWithin(uniform, 1));
     v.shading = normalize(v.normal + pointWithin(uniform, 0.2));

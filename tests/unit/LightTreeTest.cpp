@@ -4,36 +4,6 @@
 
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/Compiler/LightTree.h"
-
-namespace rt::shared {
-
-struct LightTable {
-    const scene::CompiledScene& scene;
-};
-using SceneRef = const LightTable&;
-
-RT_FN void expectLights(SceneRef, uint) {}
-RT_FN uint loadLightNodeParent(SceneRef table, uint node) {
-    return table.scene.lightPlaces[table.scene.globals.lightCount + node];
-}
-RT_FN uint loadLightPlace(SceneRef table, uint light) {
-    return table.scene.lightPlaces[light];
-}
-// Declared with LightCluster alone: LightTree.h below defines what uses it.
-static LightCluster loadLightCluster(SceneRef table, uint node, uint i) {
-    const LightNode& n = table.scene.lightNodes[node];
-    return {vec3(n.centerX[i], n.centerY[i], n.centerZ[i]),
-            n.radius[i],
-            vec3(n.axisX[i], n.axisY[i], n.axisZ[i]),
-            n.alignment[i],
-            n.spreadCosine[i],
-            n.facing[i],
-            n.around[i],
-            n.child[i]};
-}
-
-} // namespace rt::shared
-
 #include "Common/Shared/Light/LightTree.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"
@@ -108,7 +78,7 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
                 ++seen[light];
                 EXPECT_EQ(s.lightPlaces[light], node * kLightNodeChildren + i);
             } else {
-                EXPECT_EQ(loadLightNodeParent({s}, n.child[i]), node * kLightNodeChildren + i);
+                EXPECT_EQ(loadLightNodeParent(viewOf(s, s.globals), n.child[i]), node * kLightNodeChildren + i);
             }
         }
     }
@@ -116,9 +86,10 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
         const LightBound& bound = s.lightBounds[i];
         ASSERT_EQ(seen[i], bound.intensity > 0 ? 1 : 0) << i;
         if (!(bound.intensity > 0)) continue;
-        for (std::uint32_t place = loadLightNodeParent({s}, s.lightPlaces[i] / kLightNodeChildren); place != kNone;
-             place = loadLightNodeParent({s}, place / kLightNodeChildren)) {
-            const LightCluster c = loadLightCluster({s}, place / kLightNodeChildren, place % kLightNodeChildren);
+        for (std::uint32_t place = loadLightNodeParent(viewOf(s, s.globals), s.lightPlaces[i] / kLightNodeChildren);
+             place != kNone; place = loadLightNodeParent(viewOf(s, s.globals), place / kLightNodeChildren)) {
+            const LightCluster c =
+                loadLightCluster(viewOf(s, s.globals), place / kLightNodeChildren, place % kLightNodeChildren);
             ASSERT_LE(glm::length(dvec3(bound.center) - dvec3(c.center)) + double(bound.radius),
                       double(c.radius) * (1 + 1e-6));
             if (bound.axis == vec3(0) || bound.twoSided > 0) continue;
@@ -141,7 +112,7 @@ TEST_P(LightTree, NeverLeavesOutALightThatContributes) {
         const vec3 normal = medium ? vec3(0) : glm::normalize(vec3(inBox(uniform, 1)));
         double sum = 0;
         for (std::uint32_t i = 0; i < s.lights.size(); ++i) {
-            const float p = treeProbability({s}, i, position, normal);
+            const float p = treeProbability(viewOf(s, s.globals), i, position, normal);
             ASSERT_TRUE(isFinite(p) && p >= 0);
             sum += double(p);
             excluded += p == 0;
@@ -170,12 +141,12 @@ TEST_P(LightTree, DrawsWithTheProbabilitiesItStates) {
         std::vector<double> weights(s.lights.size() + 1);
         double sum = 0;
         for (std::uint32_t i = 0; i < s.lights.size(); ++i) {
-            weights[i] = double(treeProbability({s}, i, position, normal));
+            weights[i] = double(treeProbability(viewOf(s, s.globals), i, position, normal));
             sum += weights[i];
         }
         weights.back() = std::max(0.0, 1 - sum); // descents that end where nothing contributes
         for (int n = 0; n < 1 << 18; ++n) {
-            const TreeChoice choice = chooseFromTree({s}, uniform.pair(), position, normal);
+            const TreeChoice choice = chooseFromTree(viewOf(s, s.globals), uniform.pair(), position, normal);
             ++counts[choice.light == kNone ? s.lights.size() : choice.light];
             if (choice.light == kNone) continue;
             ASSERT_NEAR(choice.probability, weights[choice.light], 2e-6 * weights[choice.light]);
@@ -193,10 +164,10 @@ TEST(LightTreePower, ChiSquareSeesTwoPercent) {
     std::vector<std::uint64_t> counts(s.lights.size() + 1);
     std::vector<double> weights(s.lights.size() + 1);
     for (std::uint32_t i = 0; i < s.lights.size(); ++i)
-        weights[i] = double(treeProbability({s}, i, vec3(3, 1, 0), vec3(0, 0, 1)));
+        weights[i] = double(treeProbability(viewOf(s, s.globals), i, vec3(3, 1, 0), vec3(0, 0, 1)));
     weights.back() = 1e-12;
     for (int n = 0; n < 1 << 20; ++n) {
-        const TreeChoice choice = chooseFromTree({s}, uniform.pair(), vec3(3, 1, 0), vec3(0, 0, 1));
+        const TreeChoice choice = chooseFromTree(viewOf(s, s.globals), uniform.pair(), vec3(3, 1, 0), vec3(0, 0, 1));
         ++counts[choice.light == kNone ? s.lights.size() : choice.light];
     }
     weights.back() = double(counts.back()) / (1 << 20);
@@ -222,9 +193,10 @@ TEST(LightTree, HoldsTheSky) {
     for (int k = 0; k < 4; ++k) {
         const vec3 position = vec3(inBox(uniform, 4)), normal = glm::normalize(vec3(inBox(uniform, 1)));
         std::vector<std::uint64_t> counts(2);
-        const double probability = double(treeProbability({s}, 200, position, normal));
+        const double probability = double(treeProbability(viewOf(s, s.globals), 200, position, normal));
         EXPECT_GT(probability, 0.0);
-        for (int n = 0; n < 1 << 16; ++n) ++counts[chooseFromTree({s}, uniform.pair(), position, normal).light == 200];
+        for (int n = 0; n < 1 << 16; ++n)
+            ++counts[chooseFromTree(viewOf(s, s.globals), uniform.pair(), position, normal).light == 200];
         EXPECT_GT(chiSquareP(counts, {1 - probability, probability}), kSignificance) << k;
     }
 }
@@ -241,8 +213,10 @@ TEST(LightTree, OfLightsInOnePlaceAndOfDarkOnes) {
     }
     scene::finishLights(s);
     for (std::uint32_t i = 0; i < 200; ++i)
-        EXPECT_NEAR(treeProbability({s}, i, vec3(0, -1, 0), vec3(0, 1, 0)), i < 100 ? 0.01 : 0.0, 1e-6);
-    EXPECT_EQ(chooseFromTree({s}, vec2(0.5f), vec3(0, -1, 0), vec3(0, -1, 0)).light, kNone); // all below the horizon
+        EXPECT_NEAR(treeProbability(viewOf(s, s.globals), i, vec3(0, -1, 0), vec3(0, 1, 0)), i < 100 ? 0.01 : 0.0,
+                    1e-6);
+    EXPECT_EQ(chooseFromTree(viewOf(s, s.globals), vec2(0.5f), vec3(0, -1, 0), vec3(0, -1, 0)).light,
+              kNone); // all below the horizon
 }
 
 TEST(LightTree, ScalesExactly) {
@@ -258,8 +232,8 @@ TEST(LightTree, ScalesExactly) {
     for (int i = 0; i < 2000; ++i) {
         const vec3 position = vec3(inBox(uniform, 6));
         const vec2 u = uniform.pair();
-        const TreeChoice a = chooseFromTree({s}, u, position, vec3(0, 1, 0));
-        const TreeChoice b = chooseFromTree({scaled}, u, position * k, vec3(0, 1, 0));
+        const TreeChoice a = chooseFromTree(viewOf(s, s.globals), u, position, vec3(0, 1, 0));
+        const TreeChoice b = chooseFromTree(viewOf(scaled, scaled.globals), u, position * k, vec3(0, 1, 0));
         ASSERT_EQ(a.light, b.light);
         ASSERT_EQ(a.probability, b.probability);
     }

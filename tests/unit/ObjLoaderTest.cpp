@@ -102,10 +102,10 @@ TEST_F(ObjLoader, SplitsByMaterialAndUnderstandsThem) {
     EXPECT_NEAR(std::get<glm::dvec3>(model.materials.at("red").albedo).x, 0.8, 1e-6);
     EXPECT_EQ(model.materials.at("lamp").emission, glm::dvec3(5, 6, 7));
     EXPECT_EQ(model.materials.at("mirror").kind, MaterialKind::Metal);
-    EXPECT_EQ(model.materials.at("mirror").fuzz, 0.25);
+    EXPECT_EQ(model.materials.at("mirror").parameters[shared::kMetalFuzz], 0.25);
     EXPECT_NEAR(std::get<glm::dvec3>(model.materials.at("mirror").albedo).z, 0.7, 1e-6);
     EXPECT_EQ(model.materials.at("glass").kind, MaterialKind::Dielectric);
-    EXPECT_NEAR(model.materials.at("glass").ior, 1.33, 1e-6);
+    EXPECT_NEAR(model.materials.at("glass").parameters[shared::kDielectricIor].value(), 1.33, 1e-6);
     const auto& texture =
         std::get<ImageTexture>(model.textures.at(std::get<std::string>(model.materials.at("mapped").albedo)));
     EXPECT_EQ(fs::path(texture.file), folder_ / "tex" / "map.png");

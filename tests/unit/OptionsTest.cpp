@@ -13,20 +13,12 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/Core/Error.h"
 #include "Common/Shared/Base/Features.h"
+#include "tests/Environment.h"
 
 namespace rt::app {
 namespace {
 
-void setVariable(const char* name, const std::string& value) {
-#ifdef _WIN32
-    _putenv_s(name, value.c_str());
-#else
-    if (value.empty())
-        unsetenv(name);
-    else
-        setenv(name, value.c_str(), 1);
-#endif
-}
+using test::setVariable;
 
 // A user without configuration whose environment says nothing.
 class OptionsTest : public testing::Test {
@@ -307,7 +299,7 @@ TEST_F(OptionsTest, FeatureNames) {
     EXPECT_EQ(error({"--features", "spheres,teapots"}).rfind("--features teapots: must be spheres, ", 0), 0u);
     EXPECT_TRUE(absentFeatureNames(shared::kFeatureAll).empty());
     EXPECT_EQ(featureNames(shared::kFeatureNoise), (std::vector<std::string>{"textures", "noise"}));
-    for (std::uint32_t bit = 0; bit < shared::kFeatureBits; ++bit)
+    for (std::uint32_t bit = 0; bit < shared::kFirstFreeFeature; ++bit)
         EXPECT_EQ(parseFeatures(featureNames(1u << bit).back()), 1u << bit);
 }
 

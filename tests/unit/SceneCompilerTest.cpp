@@ -10,6 +10,7 @@
 
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Shared/Texture/Checker.h"
 #include "tests/unit/CompilerScenes.h"
 
 namespace rt::scene {
@@ -238,6 +239,40 @@ TEST(SceneCompiler, WrongIndicesInCodeAreErrors) {
     EXPECT_NE(errorOf(scene).find("refers to itself"), std::string::npos);
 }
 
+// ---- nested checkers ------------------------------------------------------------------------------------------------
+
+// Textures "1" to "`depth`": checkers of the one before them, the innermost of two colours.
+SceneDesc withNestedCheckers(int depth) {
+    SceneDesc scene = withMaterials();
+    const glm::dvec3 black(0), white(1);
+    scene.textures["1"] = CheckerTexture{1, black, white};
+    for (int i = 2; i <= depth; ++i)
+        scene.textures[std::to_string(i)] = CheckerTexture{1, std::to_string(i - 1), white};
+    scene.materials["matte"].albedo = std::to_string(depth);
+    add(scene, sphere({0, 0, 0}, 1, "matte"));
+    return scene;
+}
+
+TEST(SceneCompiler, CheckersNestToTheLimitOfTheKernels) {
+    constexpr int kMost = shared::kMaxCheckerDepth;
+    const std::string nine = "/textures/" + std::to_string(kMost + 1) + ": checkers are nested deeper than 8";
+    EXPECT_NO_THROW(compileScene(withNestedCheckers(kMost)));
+    EXPECT_NE(errorOf(withNestedCheckers(kMost + 1)).find(nine), std::string::npos);
+    for (const int depth : {kMost + 2, 39, 100'000}) // not by exhausting the stack
+        EXPECT_NE(errorOf(withNestedCheckers(depth)).find("nested deeper"), std::string::npos) << depth;
+    // Around textures that another material has needed already.
+    SceneDesc both = withNestedCheckers(kMost + 1);
+    both.materials["inner"] = both.materials["matte"];
+    both.materials["inner"].albedo = std::to_string(kMost);
+    both.objects.insert(both.objects.begin(), {sphere({0, 0, 0}, 1, "inner")});
+    EXPECT_NE(errorOf(both).find(nine), std::string::npos);
+    // A checker may end in any other texture.
+    SceneDesc noisy = withNestedCheckers(kMost);
+    noisy.textures["1"] = CheckerTexture{1, std::string("noise"), glm::dvec3(1)};
+    noisy.textures["noise"] = NoiseTexture{};
+    EXPECT_NO_THROW(compileScene(noisy));
+}
+
 // ---- the world's origin ---------------------------------------------------------------------------------------------
 
 // numerics.md N20: the authored camera position is subtracted in double, so that distance costs nothing.
@@ -287,7 +322,7 @@ TEST(SceneCompiler, TheHashTellsScenesApart) {
     changed.title = "Other";
     EXPECT_EQ(compileScene(changed)->hash, hash) << "neither camera angle nor title affects the scene";
     changed = scene;
-    changed.materials["glass"].ior = 1.5000002;
+    changed.materials["glass"].parameters[shared::kDielectricIor] = 1.5000002;
     EXPECT_NE(compileScene(changed)->hash, hash);
     changed = scene;
     changed.importanceTargets.clear();

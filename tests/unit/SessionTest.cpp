@@ -13,6 +13,7 @@
 
 #include "Common/App/Session/Session.h"
 #include "Common/Image/ImageIo.h"
+#include "tests/Environment.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/FakeEngine.h"
 
@@ -31,6 +32,9 @@ std::string bytesOf(const fs::path& path) {
 
 class SessionTest : public testing::Test {
   protected:
+    void SetUp() override { test::setVariable("XDG_STATE_HOME", path("state")); }
+    void TearDown() override { test::setVariable("XDG_STATE_HOME", ""); }
+
     std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
     // Of a 20x12 image.
@@ -350,17 +354,59 @@ TEST_F(SessionTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {
     fs::create_directories(folder_ / "gone");
     fs::create_directories(folder_ / "kept");
     const auto removeFolder = [&](std::uint32_t) { fs::remove_all(folder_ / "gone"); };
-    const std::string name = "rescued-by-the-session-test.pfm";
     const std::string message = error<RenderError>(
-        {"--spp", "9", "-o", path("gone/" + name), "-o", path("kept/b.pfm"), "--stats", path("stats.json")},
+        {"--spp", "9", "-o", path("gone/a.pfm"), "-o", path("kept/b.pfm"), "--stats", path("stats.json")},
         removeFolder);
-    const fs::path rescued = fs::temp_directory_path() / (name + ".rtc");
-    EXPECT_EQ(message.rfind("cannot write " + path("gone/" + name) + ": ", 0), 0u) << message;
-    EXPECT_NE(message.find(rescued.string()), std::string::npos) << message;
+    const std::string rescued = path("state/ray-tracing/a.pfm.rtc");
+    EXPECT_EQ(message.rfind("cannot write " + path("gone/a.pfm") + ": ", 0), 0u) << message;
+    EXPECT_NE(message.find(rescued), std::string::npos) << message;
     EXPECT_EQ(statistics()["outputs"], Json::array({path("kept/b.pfm")}));
-    run({"--spp", "9", "-o", path("a.pfm"), "--resume", rescued.string(), "--stats", path("stats.json")});
+    run({"--spp", "9", "-o", path("a.pfm"), "--resume", rescued, "--stats", path("stats.json")});
     EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("kept/b.pfm")));
-    fs::remove(rescued);
+}
+
+// Neither what lies beside the output, nor an earlier rescue, nor what a link in the place of one leads to.
+TEST_F(SessionTest, RescuedSamplesOverwriteNothing) {
+    fs::create_directories(folder_ / "gone");
+    fs::create_directories(folder_ / "state/ray-tracing");
+    std::ofstream(path("secret")) << "private";
+    fs::create_symlink(path("secret"), path("state/ray-tracing/a.pfm.rtc"));
+    const auto removeFolder = [&](std::uint32_t) { fs::remove_all(folder_ / "gone"); };
+    for (const char* name : {"a.pfm.2.rtc", "a.pfm.3.rtc"}) {
+        fs::create_directories(folder_ / "gone");
+        const std::string message = error<RenderError>({"--spp", "2", "-o", path("gone/a.pfm")}, removeFolder);
+        EXPECT_NE(message.find(path("state/ray-tracing/") + name), std::string::npos) << message;
+    }
+    EXPECT_EQ(bytesOf(path("secret")), "private");
+
+    fs::create_directories(folder_ / "blocked");
+    std::ofstream(path("blocked/a.pfm.rtc")) << "of an earlier render";
+    const auto blockOutput = [&](std::uint32_t) { fs::create_directories(path("blocked/a.pfm")); };
+    const std::string message = error<RenderError>({"--spp", "2", "-o", path("blocked/a.pfm")}, blockOutput);
+    EXPECT_NE(message.find(path("blocked/a.pfm.2.rtc")), std::string::npos) << message;
+    EXPECT_EQ(bytesOf(path("blocked/a.pfm.rtc")), "of an earlier render");
+}
+
+// A checkpoint that was asked for has the samples already.
+TEST_F(SessionTest, SamplesInACheckpointNeedNoRescue) {
+    fs::create_directories(folder_ / "gone");
+    const auto removeFolder = [&](std::uint32_t) { fs::remove_all(folder_ / "gone"); };
+    const std::string message =
+        error<RenderError>({"--spp", "2", "-o", path("gone/a.pfm"), "--checkpoint", path("c.rtc")}, removeFolder);
+    EXPECT_EQ(message.find("--resume"), std::string::npos) << message;
+    EXPECT_TRUE(fs::exists(path("c.rtc")));
+    EXPECT_FALSE(fs::exists(path("state")));
+}
+
+// Of whatever kind: want of memory must not lose what there is.
+TEST_F(SessionTest, ARenderWithoutMemoryIsWritten) {
+    const auto fail = [](std::uint32_t sample) {
+        if (sample == 3) throw std::bad_alloc();
+    };
+    EXPECT_THROW(run({"--spp", "9", "-o", path("a.pfm"), "--checkpoint", path("c.rtc")}, fail), std::bad_alloc);
+    run({"--spp", "3", "-o", path("b.pfm")});
+    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_TRUE(fs::exists(path("c.rtc")));
 }
 
 // A device that is lost in the middle: what had been rendered is written, the statistics say how far it came.

@@ -4,44 +4,8 @@
 #include <numeric>
 #include <vector>
 
-#include "Common/Shared/Base/Types.h"
-#include "tests/unit/Statistics.h"
-
-namespace rt::shared {
-
-// The smallest scene that textures can be fetched from.
-struct TextureScene {
-    std::vector<Texture> textures;
-    std::vector<Image> images;
-    std::vector<vec3> texels;
-    std::vector<vec3> gradients;
-    std::vector<uint> permutations;
-};
-using SceneRef = const TextureScene&;
-
-namespace {
-
-Texture loadTexture(SceneRef scene, uint texture) {
-    return scene.textures.at(texture);
-}
-Image loadImage(SceneRef scene, uint image) {
-    return scene.images.at(image);
-}
-vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
-    if (x >= image.width || y >= image.height) throw std::out_of_range("texel");
-    return scene.texels.at(image.firstTexel + y * image.width + x);
-}
-vec3 loadPerlinGradient(SceneRef scene, uint index) {
-    return scene.gradients.at(index);
-}
-uint loadPerlinPermutation(SceneRef scene, uint index) {
-    return scene.permutations.at(index);
-}
-
-} // namespace
-} // namespace rt::shared
-
 #include "Common/Shared/Texture/Textures.h"
+#include "tests/unit/Statistics.h"
 
 namespace rt::shared {
 namespace {
@@ -51,6 +15,10 @@ using test::Mean;
 using test::Uniforms;
 
 constexpr double kPiD = std::numbers::pi;
+
+struct TextureScene : SceneArraysOf<std::vector> {
+    operator SceneView() const { return viewOf(*this, {}); }
+};
 
 // In floats from the start: the oracle must see the very same point.
 vec3 pointWithin(Uniforms& uniform, float extent) {
@@ -63,37 +31,37 @@ TextureScene perlinScene(uint tables) {
     for (uint t = 0; t < tables; ++t) {
         for (uint i = 0; i < kPerlinSize; ++i) {
             const dvec3 v(uniform.between(-1, 1), uniform.between(-1, 1), uniform.between(-1, 1));
-            scene.gradients.push_back(vec3(glm::normalize(v)));
+            scene.perlinGradients.push_back(vec3(glm::normalize(v)));
         }
         for (int axis = 0; axis < 3; ++axis) {
             std::array<uint, kPerlinSize> p{};
             std::iota(p.begin(), p.end(), 0u);
             for (uint i = kPerlinSize - 1; i > 0; --i) std::swap(p[i], p[uniform.word() % (i + 1)]);
-            scene.permutations.insert(scene.permutations.end(), p.begin(), p.end());
+            scene.perlinPermutations.insert(scene.perlinPermutations.end(), p.begin(), p.end());
         }
     }
     return scene;
 }
 
 // Gradient noise as the book describes it, in double.
-double exactNoise(SceneRef scene, uint table, const dvec3& p) {
+double exactNoise(const TextureScene& scene, uint table, const dvec3& p) {
     const dvec3 cell = glm::floor(p), f = p - cell, s = f * f * (3.0 - 2.0 * f);
     double sum = 0;
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j)
             for (int k = 0; k < 2; ++k) {
                 const auto at = [&](int axis, double c) {
-                    return scene.permutations[table * 768 + axis * 256 + (static_cast<long>(c) & 255)];
+                    return scene.perlinPermutations[table * 768 + axis * 256 + (static_cast<long>(c) & 255)];
                 };
                 const uint hash = at(0, cell.x + i) ^ at(1, cell.y + j) ^ at(2, cell.z + k);
-                const dvec3 gradient(scene.gradients[table * 256 + hash]);
+                const dvec3 gradient(scene.perlinGradients[table * 256 + hash]);
                 const double weight = (i ? s.x : 1 - s.x) * (j ? s.y : 1 - s.y) * (k ? s.z : 1 - s.z);
                 sum += weight * glm::dot(gradient, f - dvec3(i, j, k));
             }
     return sum;
 }
 
-double exactTurbulence(SceneRef scene, uint table, dvec3 p) {
+double exactTurbulence(const TextureScene& scene, uint table, dvec3 p) {
     double sum = 0;
     for (int octave = 0; octave < 7; ++octave)
         sum += std::ldexp(exactNoise(scene, table, std::ldexp(1.0, octave) * p), -octave);
@@ -165,6 +133,17 @@ TEST(Textures, CheckersNestWithoutRecursion) {
     EXPECT_TRUE(isFinite(evalTexture(kFeatureChecker, cyclic, 0, vec3(0), vec2(0))));
 }
 
+// What the compiler refuses must not make a kernel read beyond a table: `first` of a checker is no Perlin table.
+TEST(Textures, CheckersNestedTooDeepAreNotTakenForNoise) {
+    TextureScene scene;
+    for (uint i = 0; i <= kMaxCheckerDepth; ++i)
+        scene.textures.push_back({kTextureChecker, vec3(0.25f), 1, 0, i + 1, i + 1});
+    scene.textures.push_back({kTextureSolid, vec3(1), 1, 0, 0, 0});
+    const uint features = kFeatureChecker | kFeatureNoise | kFeatureImages;
+    EXPECT_EQ(evalTexture(features, scene, 1, vec3(0.5f), vec2(0)), vec3(1)) << "as deep as is allowed";
+    EXPECT_EQ(evalTexture(features, scene, 0, vec3(0.5f), vec2(0)), vec3(0.25f)) << "one too deep";
+}
+
 // ---- noise ----------------------------------------------------------------------------------------------------------
 
 TEST(Textures, NoiseMatchesTheBook) {
@@ -223,7 +202,8 @@ TextureScene imageScene() {
     scene.images.push_back({2, 4, 3, kTexelLinearF32});
     scene.texels.resize(2);
     for (uint y = 0; y < 3; ++y)
-        for (uint x = 0; x < 4; ++x) scene.texels.push_back(vec3(float(x), float(y), 1));
+        for (uint x = 0; x < 4; ++x)
+            for (const float channel : {float(x), float(y), 1.0f}) scene.texels.push_back(floatBitsToUint(channel));
     scene.textures.push_back({kTextureImage, vec3(1, 1, 0.5f), 1, 0, 0, 0});
     return scene;
 }

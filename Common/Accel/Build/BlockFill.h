@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "Common/Accel/CpuAccel.h"
+#include "Common/Accel/AccelInput.h"
+#include "Common/Accel/AccelView.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::accel {

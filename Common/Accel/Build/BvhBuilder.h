@@ -18,7 +18,7 @@ struct BvhSettings {
     std::uint32_t singleGroup = 0xffffffff; // items of this group are alone in their leaf
     float nodeCost = 0.5f;                  // of visiting a binary node, in units of a block's test
     std::uint32_t maxDepth = 60; // of the tree; beyond half of it ranges are halved by count. At least 2 log2(items)
-    std::size_t threads = 0;     // 0: as many as the machine has
+    std::size_t threads = 0;     // 0: as many as the machine has. The tree does not depend on it
 };
 
 // A box of each item. Items of different groups never share a leaf; `groups` has one element for each box, or one for

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <exception>
+#include <mutex>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -28,6 +30,35 @@ inline std::size_t threadCount(std::size_t threads) {
     return threads != 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
 }
 
+// Whether threads can be had at all. The first call starts those of the library beneath std::execution, which would end
+// the program if one could not be started later, when memory has run short.
+bool canStartThreads();
+
+// The first exception of work on several threads, which must not leave a parallel algorithm: that would end the program.
+class FirstFailure {
+  public:
+    template <class Function>
+    void guard(const Function& function) {
+        try {
+            function();
+        } catch (...) {
+            const std::scoped_lock lock(mutex_);
+            if (!exception_) exception_ = std::current_exception();
+            happened_.store(true, std::memory_order_relaxed);
+        }
+    }
+    bool happened() const { return happened_.load(std::memory_order_relaxed); }
+    // To be called when all threads are done.
+    void rethrow() const {
+        if (exception_) std::rethrow_exception(exception_);
+    }
+
+  private:
+    std::mutex mutex_;
+    std::exception_ptr exception_;
+    std::atomic<bool> happened_{false};
+};
+
 #ifdef RT_THREADS_SANITIZED
 // Calls work(i) for each i in [0, count), each on a thread of its own. ThreadSanitizer cannot see how oneTBB's library, which
 // is not compiled with it, hands work from thread to thread and takes each hand-over for a race; it sees how these do.
@@ -41,21 +72,25 @@ void onThreads(std::size_t count, const Work& work) {
 #endif
 
 // Calls f(i) once for each i in [0, count), on up to `threads` threads (0: as many as the machine has). Calls start in
-// order of i, so the largest pieces of work belong first. f must not throw.
+// order of i, so the largest pieces of work belong first. When one throws, no more are started, and the first exception is
+// thrown again when those that run are done.
 template <class Function>
 void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
     const std::size_t workers = std::min(threadCount(threads), count);
-    if (workers <= 1) {
+    if (workers <= 1 || !canStartThreads()) {
         for (std::size_t i = 0; i < count; ++i) {
             f(i);
         }
         return;
     }
     std::atomic<std::size_t> next{0};
+    FirstFailure failure;
     const auto work = [&](std::size_t) {
-        for (std::size_t i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
-            f(i);
-        }
+        failure.guard([&] {
+            for (std::size_t i; !failure.happened() && (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+                f(i);
+            }
+        });
     };
 #if defined(RT_THREADS_SANITIZED)
     onThreads(workers, work);
@@ -66,6 +101,7 @@ void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
 #else
     tbb::parallel_for(std::size_t{0}, workers, work);
 #endif
+    failure.rethrow();
 }
 
 // The pieces of [0, count) that parallel loops work on: their number depends on count alone, never on the threads.

@@ -1,4 +1,4 @@
-// The binary trees of a flat scene, whatever layout they end up in: one for each geometry that instances place, and the world's
+// The binary trees of a compiled scene, whatever layout they end up in: one for each geometry that instances place, and the world's
 // over its own primitives and the instances.
 #pragma once
 #include <atomic>

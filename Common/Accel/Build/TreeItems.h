@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "Common/Accel/CpuAccel.h"
+#include "Common/Accel/AccelInput.h"
+#include "Common/Accel/AccelView.h"
+#include "Common/Accel/Box.h"
 
 namespace rt::accel {
 

@@ -19,14 +19,14 @@ bool anyHit(const AccelView& view, const shared::Ray& ray, float tMax) {
 template <shared::uint kFeatures>
 shared::Hit bothHits(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
                      float shadowEnd, bool& isOccluded) {
-    if (!view.flat) {
+    if (!view.isLinear) {
         isOccluded = anyHit<kFeatures>(view, {ray.origin, shadowDirection, ray.time}, shadowEnd);
         return closestHit<kFeatures>(view, ray, shared::kInfinity);
     }
     // Never in memory, so that a compiler sees that it starts where the other does.
     const shared::Ray shadow{ray.origin, shadowDirection, ray.time};
-    return traceFlatBoth(kFeatures, view, makeShapeRay(kFeatures, ray, true), makeShapeRay(kFeatures, shadow, true),
-                         shadowEnd, isOccluded);
+    return traceLinearWithShadow(kFeatures, view, makeShapeRay(kFeatures, ray, true),
+                                 makeShapeRay(kFeatures, shadow, true), shadowEnd, isOccluded);
 }
 
 template <shared::uint kFeatures>

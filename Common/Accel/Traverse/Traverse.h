@@ -8,7 +8,7 @@
 // Of hits at exactly the same t the one with the lowest (instance, kind, primitive) is reported, the world's own
 // geometry before all instances; so the answer depends neither on the tree nor on the order of traversal.
 #pragma once
-#include "Common/Accel/Traverse/TraverseFlat.h"
+#include "Common/Accel/Traverse/TraverseLinear.h"
 #include "Common/Accel/Traverse/TraverseTree.h"
 
 namespace rt::accel {
@@ -16,11 +16,11 @@ namespace {
 
 // The nearest hit with 0 < t < tMax; its t is negative if there is none.
 RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
-    if (view.flat) return traceFlat(features, view, makeShapeRay(features, ray, true), tMax);
+    if (view.isLinear) return traceLinear(features, view, makeShapeRay(features, ray, true), tMax);
     shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
-    if (view.sparseNodes != nullptr) {
+    if (view.quantizedNodes != nullptr) {
         const LeafRay leafRay = makeLeafRay(features, ray, true);
-        visitSparse(view, ray, best.t, [&](Reference leaf) {
+        visitQuantized(view, ray, best.t, [&](Reference leaf) {
             traceLeaf<false, true>(features, view, leaf, leafRay, shared::kNone, best);
             return false;
         });
@@ -35,11 +35,11 @@ RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, con
 
 // Whether anything is hit with 0 < t < tMax.
 RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
-    if (view.flat) return occludedFlat(features, view, makeShapeRay(features, ray, true), tMax);
-    if (view.sparseNodes != nullptr) {
+    if (view.isLinear) return occludedLinear(features, view, makeShapeRay(features, ray, true), tMax);
+    if (view.quantizedNodes != nullptr) {
         const LeafRay leafRay = makeLeafRay(features, ray, true);
         bool isHit = false;
-        visitSparse(view, ray, tMax, [&](Reference leaf) {
+        visitQuantized(view, ray, tMax, [&](Reference leaf) {
             isHit = occludedLeaf<false, true>(features, view, leaf, leafRay, tMax);
             return isHit;
         });

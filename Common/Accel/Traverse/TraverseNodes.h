@@ -63,7 +63,7 @@ RT_FN BoxRay makeBoxRay(const shared::Ray& ray) {
 RT_FN Float8 loadPlanes(const WideNode& node, unsigned i) {
     return load(node.planes[i]);
 }
-RT_FN Float8 loadPlanes(const SparseNode& node, unsigned i) {
+RT_FN Float8 loadPlanes(const QuantizedNode& node, unsigned i) {
     return fromWords(node.planes[i]);
 }
 

@@ -148,17 +148,17 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
     return false;
 }
 
-// ---- sparse trees ---------------------------------------------------------------------------------------------------
+// ---- quantized trees, breadth-first --------------------------------------------------------------------------------------------------
 
 // Calls testLeaf(reference) for the leaves of the world that the ray may meet before tMax, which it may lower, until it
 // returns true. Nodes are visited in the order in which they are found: which one is next does not depend on the last,
 // so a processor overlaps many. When too many wait, the last comes first.
 template <class TestLeaf>
-RT_FN void visitSparse(const AccelView& view, const shared::Ray& ray, const float& tMax, const TestLeaf& testLeaf) {
+RT_FN void visitQuantized(const AccelView& view, const shared::Ray& ray, const float& tMax, const TestLeaf& testLeaf) {
     constexpr unsigned kMany = 256;
     constexpr unsigned kAhead = 4; // nodes that are on their way from memory
-    const float scale = view.sparseGrid.stepsPerUnit;
-    const BoxRay boxRay = makeBoxRay({(ray.origin - view.sparseGrid.origin) * scale, ray.direction, ray.time});
+    const float scale = view.quantizationGrid.stepsPerUnit;
+    const BoxRay boxRay = makeBoxRay({(ray.origin - view.quantizationGrid.origin) * scale, ray.direction, ray.time});
     Reference queue[kMany + (kMaxTreeDepth + 2) * kWidth];
     Reference leaves[kMany];
     unsigned head = 0, tail = 1, found = 0;
@@ -167,10 +167,10 @@ RT_FN void visitSparse(const AccelView& view, const shared::Ray& ray, const floa
     while (head != tail) {
         const float end = tMax * scale;
         while (head != tail && head != pause && found + kWidth <= kMany) {
-            const SparseNode& node = view.sparseNodes[tail < kMany ? queue[head++] : queue[--tail]];
+            const QuantizedNode& node = view.quantizedNodes[tail < kMany ? queue[head++] : queue[--tail]];
             storeChildren(node, boxRay, end, queue, tail, leaves, found);
             const unsigned next = head + kAhead < tail ? head + kAhead : tail - 1;
-            prefetchBytes<sizeof(SparseNode)>(view.sparseNodes + queue[next]);
+            prefetchBytes<sizeof(QuantizedNode)>(view.quantizedNodes + queue[next]);
         }
         for (unsigned i = 0; i < found; ++i) {
             if (testLeaf(leaves[i])) return;

@@ -127,13 +127,9 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
     reader.read("show_panels", settings.showPanels);
     reader.read("show_comparison", settings.showComparison);
     reader.read("show_statistics", settings.showStatistics);
-    if (const auto* panels = reader.find("open_panels"); panels != nullptr) {
-        const Reader p(*panels);
-        p.read("scene", settings.openPanels.scene);
-        p.read("rendering", settings.openPanels.rendering);
-        p.read("camera", settings.openPanels.camera);
-        p.read("view", settings.openPanels.view);
-        p.read("statistics", settings.openPanels.statistics);
+    if (const auto* panels = reader.find("open_panels"); panels != nullptr && panels->is_object()) {
+        for (const auto& [id, isOpen] : panels->items())
+            if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
     reader.read("exposure", settings.exposure, -100, 100);
     reader.read("tonemap", kTonemaps, settings.tonemap);
@@ -170,12 +166,7 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                     {"show_panels", s.showPanels},
                     {"show_comparison", s.showComparison},
                     {"show_statistics", s.showStatistics},
-                    {"open_panels",
-                     {{"scene", s.openPanels.scene},
-                      {"rendering", s.openPanels.rendering},
-                      {"camera", s.openPanels.camera},
-                      {"view", s.openPanels.view},
-                      {"statistics", s.openPanels.statistics}}},
+                    {"open_panels", s.openPanels},
                     {"exposure", s.exposure},
                     {"tonemap", nameOf(kTonemaps, s.tonemap)},
                     {"save_folder", s.saveFolder},

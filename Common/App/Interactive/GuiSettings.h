@@ -1,6 +1,7 @@
 // What a window remembers from one time to the next.
 #pragma once
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,6 @@ inline constexpr float kMostUiScale = 3.0f;
 inline constexpr std::size_t kMostRecent = 10; // files
 
 // Of the panels at the side, those that are folded out.
-struct OpenPanels {
-    bool scene = true, rendering = true, camera = false, view = false, statistics = false;
-    bool operator==(const OpenPanels&) const = default;
-};
-
 struct GuiSettings {
     ColorMode colorMode = ColorMode::Dark;
     float uiScale = 1; // on top of the monitor's own
@@ -34,7 +30,8 @@ struct GuiSettings {
     bool showPanels = true;
     bool showComparison = false;
     bool showStatistics = true;
-    OpenPanels openPanels;
+    std::map<std::string, bool>
+        openPanels;     // whether each is folded out, by its id; others are as the table of panels says
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::string saveFolder;          // empty: chosen by the program

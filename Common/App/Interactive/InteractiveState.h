@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "Common/App/Interactive/RunHistory.h"
 #include "Common/App/Interactive/ViewImage.h"
 #include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/Engine.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Settings.h"
 #include "Common/App/Session/Statistics.h"
 
@@ -127,6 +129,22 @@ struct SaveRequest {
     float exposure = 0;
     Tonemap tonemap = Tonemap::None;
     bool operator==(const SaveRequest&) const = default;
+};
+
+// What a session begins with.
+struct SessionSetup {
+    Options options; // what the window does not change
+    EngineMaker makeEngine;
+    EngineChoice engine;
+    RenderRequest request;
+    SceneRequest scene;
+    std::string fallbackScene;        // opened where the first cannot be had; empty: that is fatal
+    std::optional<SaveRequest> atEnd; // as InteractiveSession::writeAtEnd()
+    bool preview = false;             // is shown from the beginning
+    double sliceSeconds = 0.03;       // of one call of the engine, at most
+    bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
+    RunHistory* history = nullptr;    // gets the runs that end; may be none
+    std::function<void()> onChange;   // called on other threads when there is something new to show
 };
 
 } // namespace rt::app

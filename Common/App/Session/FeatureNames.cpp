@@ -1,7 +1,7 @@
 #include "Common/App/Session/FeatureNames.h"
 
 #include "Common/App/Options/OptionValues.h"
-#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Material/Materials.h"
 
 namespace rt::app {
 namespace {
@@ -16,12 +16,14 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"triangles", kFeatureTriangles},
     {"instances", kFeatureInstances},
     {"smooth-normals", kFeatureSmoothNormals},
-    {"lambertian", kFeatureLambertian},
-    {"metal", kFeatureMetal},
-    {"fuzz", kFeatureFuzz},
-    {"dielectric", kFeatureDielectric},
+#define RT_SURFACE(Name, kind, bit, name, help, parameters) {name, kFeature##Name},
+#define RT_BLACK(Name, kind, name, help, parameters)
+    RT_MATERIALS(RT_SURFACE, RT_BLACK)
+#undef RT_SURFACE
+#undef RT_BLACK
+        {"fuzz", kFeatureFuzz},
     {"emissive", kFeatureEmissive},
-    {"textures", kFeatureChecker | kFeatureNoise | kFeatureImages},
+    {"textures", kTexturedFeatures},
     {"checker", kFeatureChecker},
     {"noise", kFeatureNoise},
     {"images", kFeatureImages},
@@ -41,12 +43,17 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"projected", kFeatureProjected},
 };
 
-constexpr std::uint32_t namedBits() {
-    std::uint32_t bits = 0;
-    for (const auto& row : kFeatures) bits |= row.value;
-    return bits;
+constexpr bool haveOneNameEach() {
+    std::uint32_t named = 0;
+    for (const auto& row : kFeatures) {
+        if (row.value == kTexturedFeatures) continue;
+        if ((named & row.value) != 0 || (row.value & ~kFeatureAll) != 0) return false;
+        named |= row.value;
+    }
+    constexpr std::uint32_t kTaken = (1u << kFirstFreeFeature) - 1u;
+    return (named & kTaken) == kTaken;
 }
-static_assert(namedBits() == kFeatureAll, "every feature bit has a name");
+static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
 
 std::vector<std::string> namesWhere(std::uint32_t features, bool present) {
     std::vector<std::string> names;

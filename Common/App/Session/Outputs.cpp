@@ -1,14 +1,15 @@
 #include "Common/App/Session/Outputs.h"
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
-#include <map>
+#include <limits>
 
+#include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/RenderNote.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Display.h"
+#include "Common/Image/FilmRows.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Shared/Tonemap.h"
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr std::uint32_t kAovSamples = 16; // of each pixel, or fewer when the render has fewer
 
-using image::Image;
+using image::ImageRows;
 
 bool hasExtension(const std::filesystem::path& path, const std::string& lower) {
     std::string extension = path.extension().string();
@@ -26,35 +27,45 @@ bool hasExtension(const std::filesystem::path& path, const std::string& lower) {
     return extension == lower;
 }
 
-void forEachValue(Image& image, const std::function<float(float)>& change) {
-    std::transform(image.data.begin(), image.data.end(), image.data.begin(), change);
+float largestValue(const ImageRows& image) {
+    float most = -std::numeric_limits<float>::infinity();
+    std::vector<float> row(image.rowValues());
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        image.read(y, row);
+        most = std::max(most, *std::max_element(row.begin(), row.end()));
+    }
+    return most;
 }
 
 // Into the range that the format of `path` can hold.
-Image fitted(Image image, Aov aov, const std::filesystem::path& path) {
+ImageRows fitted(const ImageRows& image, Aov aov, const std::filesystem::path& path) {
     const bool png = hasExtension(path, ".png");
     if (aov == Aov::Normal && (png || hasExtension(path, ".hdr"))) {
-        forEachValue(image, [](float value) { return 0.5f * value + 0.5f; });
-        if (png) forEachValue(image, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
-    } else if (png && aov != Aov::Albedo) {
-        const float most = *std::max_element(image.data.begin(), image.data.end());
-        if (most > 0) forEachValue(image, [most](float value) { return value / most; });
+        const ImageRows positive = mapped(image, [](float value) { return 0.5f * value + 0.5f; });
+        if (!png) return positive;
+        return mapped(positive, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
     }
+    if (png && aov != Aov::Albedo)
+        if (const float most = largestValue(image); most > 0)
+            return mapped(image, [most](float value) { return value / most; });
     return image;
 }
 
-std::map<Aov, Image> makeAovs(const Options& options, const image::Film& film, Engine& engine) {
-    const AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
-    std::map<Aov, Image> images;
-    if (request.any()) {
-        AovImages features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
-        images = {{Aov::Albedo, std::move(features.albedo)},
-                  {Aov::Normal, std::move(features.normal)},
-                  {Aov::Depth, std::move(features.depth)}};
+// Of the film, or of what the engine made; both must outlive the rows.
+ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features) {
+    switch (aov) {
+        case Aov::Albedo:
+            return features.albedo;
+        case Aov::Normal:
+            return features.normal;
+        case Aov::Depth:
+            return features.depth;
+        case Aov::Variance:
+            return varianceRows(film);
+        case Aov::Samples:
+            break;
     }
-    if (options.wants(Aov::Variance)) images[Aov::Variance] = film.varianceOfMean();
-    if (options.wants(Aov::Samples)) images[Aov::Samples] = film.sampleCounts();
-    return images;
+    return sampleCountRows(film);
 }
 
 void probe(const std::filesystem::path& path) {
@@ -88,27 +99,28 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
     OutputResult result;
     if (options.outputs.empty()) return result;
     const std::string note = renderNote(options, camera, engine.report(), film);
-    const auto write = [&result, &note](const std::filesystem::path& path, const Image& image) {
-        try {
-            image::writeImage(path, image, note);
-            result.written.push_back(path.string());
-        } catch (const Error& error) {
-            result.failures.emplace_back(error.what());
-        }
+    const auto write = [&result, &note](const std::filesystem::path& path, const auto& makeRows) {
+        const auto action = [&] { image::writeImage(path, makeRows(), note); };
+        if (attempt(result.failures, "cannot write " + path.string(), action)) result.written.push_back(path.string());
     };
-    const Image radiance = film.resolve();
     const auto curve = static_cast<std::uint32_t>(options.tonemap);
     for (const std::filesystem::path output : options.outputs)
-        write(output, hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance);
-    std::map<Aov, Image> aovs;
-    try {
-        aovs = makeAovs(options, film, engine);
-    } catch (const Error& error) { // of the engine; the picture and the statistics are not lost for that
-        result.failures.emplace_back(error.what());
-        return result;
-    }
+        write(output, [&] {
+            const ImageRows radiance = meanRows(film);
+            return hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance;
+        });
+
+    const AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
+    AovImages features;
+    const auto renderFeatures = [&] {
+        if (request.any()) features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
+    };
+    const bool hasFeatures = attempt(result.failures, "albedo, normal and depth cannot be made", renderFeatures);
+    const auto isOfFilm = [](Aov aov) { return aov == Aov::Variance || aov == Aov::Samples; };
     for (const std::filesystem::path output : options.outputs)
-        for (const Aov aov : options.aovs) write(aovPath(output, aov), fitted(aovs.at(aov), aov, output));
+        for (const Aov aov : options.aovs)
+            if (hasFeatures || isOfFilm(aov))
+                write(aovPath(output, aov), [&] { return fitted(rowsOf(aov, film, features), aov, output); });
     return result;
 }
 

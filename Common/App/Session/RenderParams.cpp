@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Material/Bsdf.h"
 
 namespace rt::app {
 namespace {
@@ -28,8 +29,12 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
 }
 
-// What sends light on into a range of directions, and what is of use only there.
-constexpr std::uint32_t kScattersWidely = shared::kFeatureLambertian | shared::kFeatureFuzz | shared::kFeatureVolumes;
+// Whether anything sends light on into a range of directions, and what is of use only there.
+bool scattersWidely(const scene::CompiledScene& scene) {
+    return !scene.media.empty() || std::ranges::any_of(scene.materials, [](const shared::Material& material) {
+        return shared::scattersWidely(material);
+    });
+}
 constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |
                                          shared::kFeatureSphereLights | shared::kFeatureQuadLights |
                                          shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights |
@@ -72,7 +77,7 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
         if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
     // Mirrors, glass and emitters alone leave light sampling nothing to do.
-    if (!shared::has(features, kScattersWidely)) features &= ~kLightSampling;
+    if (!scattersWidely(scene)) features &= ~kLightSampling;
     return features | settings.features.value_or(0u);
 }
 

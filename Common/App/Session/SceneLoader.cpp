@@ -40,10 +40,28 @@ SceneLoader::~SceneLoader() {
 void SceneLoader::request(SceneRequest request) {
     {
         const std::scoped_lock lock(mutex_);
+        last_ = request;
         next_ = std::move(request);
         callOff_ = true;
     }
     wake_.notify_one();
+}
+
+void SceneLoader::open(const std::string& source) {
+    request({source, lastRequest().oneSidedLights});
+}
+
+bool SceneLoader::setOneSidedLights(bool on) {
+    SceneRequest last = lastRequest();
+    if (last.oneSidedLights == on) return false;
+    last.oneSidedLights = on;
+    request(std::move(last));
+    return true;
+}
+
+SceneRequest SceneLoader::lastRequest() const {
+    const std::scoped_lock lock(mutex_);
+    return last_;
 }
 
 std::optional<std::string> SceneLoader::busyWith() const {

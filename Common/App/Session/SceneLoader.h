@@ -29,6 +29,9 @@ class SceneLoader {
 
     // Replaces a request that has not begun; one that has begun is called off.
     void request(SceneRequest request);
+    void open(const std::string& source); // as what was requested last, but for the camera: the scene's own
+    bool setOneSidedLights(bool on);      // loads anew what was requested last; false: it is loaded so
+    SceneRequest lastRequest() const;
     // What is being loaded, if anything.
     std::optional<std::string> busyWith() const;
 
@@ -38,6 +41,7 @@ class SceneLoader {
     std::function<void(LoadedScene)> onLoaded_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
+    SceneRequest last_; // requested
     std::optional<SceneRequest> next_;
     std::optional<SceneRequest> current_;
     bool quit_ = false;

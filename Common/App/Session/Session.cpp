@@ -2,23 +2,30 @@
 
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "Common/App/Platform.h"
+#include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Reference.h"
-#include "Common/App/Session/RenderLoop.h"
 #include "Common/App/Session/Resume.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Log.h"
+#include "Common/Core/NewFile.h"
+#include "Common/Core/Paths.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
 namespace {
+
+constexpr std::size_t kMemoryForWriting = std::size_t{4} << 20; // bytes
 
 void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
     const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
@@ -49,10 +56,10 @@ class HeadlessRender {
         engine_ = makeEngine();
         interrupt_.defer(); // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
-        startFilm();
+        beginFilm();
         try {
             sample();
-        } catch (const RenderError&) {
+        } catch (const std::exception&) { // of the engine, or want of memory
             logWarning("the render failed; what there is of it is written");
             statistics_.stoppedBy = StopReason::Failure;
             write();
@@ -64,19 +71,22 @@ class HeadlessRender {
 
   private:
     void load();
-    void startFilm();
+    void beginFilm();
     void sample();
     void write();
     void save(const std::string& file) const;
     std::string rescue() const;
-    const image::Film& keptFilm(std::string& lost);
 
     Options options_;
     Interrupt interrupt_;
     std::shared_ptr<const scene::CompiledScene> scene_;
     std::optional<image::Image> reference_;
     std::unique_ptr<Engine> engine_;
+    std::optional<FilmRun> run_;
     Statistics statistics_;
+    std::vector<std::string> failures_; // of what is done with the samples, one line each
+    // Kept from the render, so that what it leaves can be written when it has taken all other memory.
+    std::unique_ptr<std::byte[]> memoryForWriting_ = std::make_unique_for_overwrite<std::byte[]>(kMemoryForWriting);
 };
 
 // Also settles what the options leave to the scene.
@@ -91,14 +101,16 @@ void HeadlessRender::load() {
     statistics_.seconds.load = watch.seconds();
 }
 
-void HeadlessRender::startFilm() {
-    if (options_.resume.empty()) return engine_->reset(scene_->camera, options_.settings);
-    image::Film film = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
-    if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !film.desc().secondMoments)
-        throw InputError(options_.resume + ": second_moments is false in the checkpoint but --aov variance needs them");
-    statistics_.samplesRestored = film.totalSamples();
-    engine_->reset(scene_->camera, options_.settings);
-    engine_->restore(std::move(film));
+void HeadlessRender::beginFilm() {
+    image::Film kept;
+    if (!options_.resume.empty()) {
+        kept = loadCheckpoint(options_.resume, options_.settings, *scene_, engine_->report());
+        if (options_.wants(Aov::Variance) && options_.settings.replicates < 2 && !kept.desc().secondMoments)
+            throw InputError(options_.resume +
+                             ": second_moments is false in the checkpoint but --aov variance needs them");
+    }
+    run_.emplace(*engine_, scene_->camera, options_.settings, std::move(kept));
+    statistics_.samplesRestored = run_->samplesRestored();
 }
 
 void HeadlessRender::sample() {
@@ -107,73 +119,73 @@ void HeadlessRender::sample() {
                                                    : Progress::Style::Lines;
     Progress progress(std::cerr, style);
     const auto saveOrWarn = [this] {
-        try {
-            save(options_.checkpoint);
-        } catch (const Error& error) {
-            logWarning(error.what()); // the render itself is well
-        }
+        std::vector<std::string> failures;
+        attempt(failures, "cannot write " + options_.checkpoint, [this] { save(options_.checkpoint); });
+        if (!failures.empty()) logWarning(failures.front()); // the render itself is well
     };
-    const RenderResult result = renderUntilStopped(*engine_, options_, statistics_.samplesRestored,
-                                                   interrupt_.requested(), progress, saveOrWarn);
-    statistics_.stoppedBy = result.stoppedBy;
-    statistics_.seconds.render = result.seconds;
-    if (reference_) statistics_.error = image::compare(engine_->film().resolve(), *reference_);
-    progress.finish(result.progress, describeEnd(statistics_));
+    run_->limit({options_.timeLimit, options_.targetError, options_.saveEvery, saveOrWarn});
+    std::optional<StopReason> reason;
+    while (!reason) {
+        reason = run_->slice(FilmRun::kSliceSeconds, interrupt_.requested());
+        progress.update(run_->progress());
+    }
+    statistics_.stoppedBy = *reason;
+    if (reference_)
+        attempt(failures_, options_.reference + ": cannot be compared with",
+                [this] { statistics_.error = image::compare(engine_->film().resolve(), *reference_); });
+    progress.finish(run_->progress(), describeEnd(statistics_));
 }
 
-// Everything that can be written is written; after that the first failure counts.
+// The checkpoint first, as all else can be made again from it. Whatever can be written is; then the first failure counts.
 void HeadlessRender::write() {
+    memoryForWriting_.reset();
     const Stopwatch watch;
     std::string lost;
-    const image::Film& film = keptFilm(lost);
-    OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
-    const bool outputsFailed = !outputs.failures.empty();
-    if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
-    const auto attempt = [&outputs](const auto& action) {
-        try {
-            action();
-        } catch (const Error& error) {
-            outputs.failures.emplace_back(error.what());
-        }
-    };
-    if (!options_.checkpoint.empty()) attempt([this] { save(options_.checkpoint); });
+    const image::Film& film = run_->keptFilm(lost);
+    if (!lost.empty()) failures_.push_back(lost);
+    statistics_.seconds.render = run_->seconds();
+    const auto saveCheckpoint = [this] { save(options_.checkpoint); };
+    const bool isSaved =
+        !options_.checkpoint.empty() && attempt(failures_, "cannot write " + options_.checkpoint, saveCheckpoint);
+    const OutputResult outputs = writeOutputs(options_, scene_->camera, film, *engine_);
+    failures_.insert(failures_.end(), outputs.failures.begin(), outputs.failures.end());
     statistics_.seconds.write = watch.seconds();
     statistics_.outputs = outputs.written;
     if (!options_.stats.empty())
-        attempt([&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });
+        attempt(failures_, "cannot write " + options_.stats,
+                [&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });
     if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
         logWarning(std::to_string(bad) + " samples were not finite and count as black");
-    if (outputs.failures.empty()) return;
-    for (std::size_t i = 1; i < outputs.failures.size(); ++i) logWarning(outputs.failures[i]);
-    throw RenderError(outputs.failures.front() + (outputsFailed ? rescue() : ""));
-}
-
-// The film as it is, or as the engine last copied it when it cannot be read any more; `lost` then says why.
-const image::Film& HeadlessRender::keptFilm(std::string& lost) {
-    try {
-        return engine_->film();
-    } catch (const RenderError& error) {
-        lost = error.what();
-        return engine_->film();
-    }
+    if (failures_.empty()) return;
+    for (std::size_t i = 1; i < failures_.size(); ++i) logWarning(failures_[i]);
+    throw RenderError(failures_.front() + (outputs.failures.empty() || isSaved ? "" : rescue()));
 }
 
 void HeadlessRender::save(const std::string& file) const {
     saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->film());
 }
 
-// Samples that no output took must not be lost: they go to a checkpoint in the first place that takes it.
+// Samples that no output took must not be lost: they go to a new checkpoint in the first folder that takes it.
 std::string HeadlessRender::rescue() const {
     namespace fs = std::filesystem;
-    std::error_code none;
-    const std::string beside = checkpointBeside(options_.outputs.front());
-    for (const fs::path& place : {fs::path(beside), fs::temp_directory_path(none) / fs::path(beside).filename()}) {
-        try {
+    const fs::path beside = checkpointBeside(options_.outputs.front());
+    std::vector<fs::path> folders = {beside.parent_path()};
+    std::error_code ignored; // what cannot be made shows when the checkpoint is
+    if (const fs::path state = userStateFolder(); !state.empty()) {
+        if (fs::create_directories(state, ignored)) fs::permissions(state, fs::perms::owner_all, ignored);
+        folders.push_back(state);
+    }
+    for (const fs::path& folder : folders) {
+        std::vector<std::string> failures;
+        fs::path place;
+        const auto saveNew = [&] {
+            place = createNumbered(folder, beside.filename());
             save(place.string());
+        };
+        if (attempt(failures, "cannot write a checkpoint to " + folder.string(), saveNew))
             return "; its samples are in " + place.string() + " for --resume";
-        } catch (const Error& error) {
-            logWarning(error.what());
-        }
+        if (!place.empty()) fs::remove(place, ignored);
+        logWarning(failures.front());
     }
     return {};
 }

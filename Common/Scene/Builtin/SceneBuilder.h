@@ -57,13 +57,13 @@ inline MaterialDesc metal(const glm::dvec3& albedo, double fuzz) {
     MaterialDesc material;
     material.kind = MaterialKind::Metal;
     material.albedo = albedo;
-    material.fuzz = fuzz;
+    material.parameters[shared::kMetalFuzz] = fuzz;
     return material;
 }
 inline MaterialDesc glass(double ior) {
     MaterialDesc material;
     material.kind = MaterialKind::Dielectric;
-    material.ior = ior;
+    material.parameters[shared::kDielectricIor] = ior;
     return material;
 }
 inline MaterialDesc emitter(const glm::dvec3& radiance, std::optional<Sides> sides = std::nullopt) {

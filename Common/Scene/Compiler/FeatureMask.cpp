@@ -1,24 +1,16 @@
 #include "Common/Scene/Compiler/FeatureMask.h"
 
+#include "Common/Scene/MaterialTypes.h"
+#include "Common/Shared/Material/Bsdf.h"
+
 namespace rt::scene {
 
 namespace {
 
 std::uint32_t ofMaterial(const shared::Material& material) {
-    std::uint32_t mask = 0;
-    switch (material.kind) {
-        case shared::kMaterialLambertian:
-            mask = shared::kFeatureLambertian;
-            break;
-        case shared::kMaterialMetal:
-            mask = shared::kFeatureMetal | (material.fuzz > shared::kMirrorFuzz ? shared::kFeatureFuzz : 0u);
-            break;
-        case shared::kMaterialDielectric:
-            mask = shared::kFeatureDielectric;
-            break;
-        default:
-            break;
-    }
+    std::uint32_t mask = materialType(static_cast<MaterialKind>(material.kind)).feature;
+    if (shared::isMetal(mask, material) && shared::isFuzzy(shared::kFeatureFuzz, material))
+        mask |= shared::kFeatureFuzz;
     const shared::vec3 e = material.emission;
     return e.x > 0 || e.y > 0 || e.z > 0 ? mask | shared::kFeatureEmissive : mask;
 }

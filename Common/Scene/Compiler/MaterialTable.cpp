@@ -1,26 +1,9 @@
 #include "Common/Scene/Compiler/MaterialTable.h"
 
 #include "Common/Core/Error.h"
+#include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
-
-namespace {
-
-std::uint32_t materialKind(MaterialKind kind) {
-    switch (kind) {
-        case MaterialKind::Lambertian:
-            return shared::kMaterialLambertian;
-        case MaterialKind::Metal:
-            return shared::kMaterialMetal;
-        case MaterialKind::Dielectric:
-            return shared::kMaterialDielectric;
-        case MaterialKind::Emitter:
-            break;
-    }
-    return shared::kMaterialEmitter;
-}
-
-} // namespace
 
 MaterialTable::MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out,
                              TextureTable& textures)
@@ -36,11 +19,13 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
     const auto [entry, isNew] = indices_.try_emplace(&desc, static_cast<std::uint32_t>(out_.materials.size()));
     if (!isNew) return entry->second;
     shared::Material material{};
-    material.kind = materialKind(desc.kind);
+    const MaterialType& type = materialType(desc.kind);
+    material.kind = static_cast<std::uint32_t>(desc.kind);
     material.texture = shared::kNone;
-    if (desc.kind != MaterialKind::Emitter) material.texture = textures_.resolve(desc.albedo, material.albedo);
-    material.fuzz = static_cast<float>(desc.fuzz);
-    material.ior = static_cast<float>(desc.ior);
+    if (colorOf(type)) material.texture = textures_.resolve(desc.albedo, material.albedo);
+    forEachNumber(type, [&](const MaterialParameter& parameter, std::size_t i) {
+        material.parameter[i] = static_cast<float>(desc.parameters[i].value_or(parameter.usual));
+    });
     material.emission = shared::vec3(desc.emission);
     material.emissionTexture = shared::kNone;
     const bool front = desc.sides ? *desc.sides == Sides::Front : options_.oneSidedLights;

@@ -1,4 +1,4 @@
-// Materials of the flat scene, made when a primitive first refers to them: what nothing uses leaves no trace in the
+// Materials of the compiled scene, made when a primitive first refers to them: what nothing uses leaves no trace in the
 // features.
 #pragma once
 #include <cstdint>

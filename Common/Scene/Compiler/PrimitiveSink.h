@@ -1,4 +1,4 @@
-// Turns authored objects into primitives of the flat scene: transforms in double, one rounding to float, nothing
+// Turns authored objects into primitives of the compiled scene: transforms in double, one rounding to float, nothing
 // degenerate, lights for what emits.
 #pragma once
 #include <cstdint>

@@ -1,4 +1,4 @@
-// From the authoring scene to the flat scene.
+// From the authoring scene to the compiled scene.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -23,7 +23,7 @@ struct TexelData {
 struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
-    std::optional<CameraDesc> camera; // in place of the scene's, which the flat scene's origin stays at
+    std::optional<CameraDesc> camera; // in place of the scene's, which the compiled scene's origin stays at
     // Reads an image file; throws InputError. A scene with image files needs it.
     std::function<TexelData(const std::filesystem::path&)> loadTexels;
 };

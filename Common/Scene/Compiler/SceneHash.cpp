@@ -41,25 +41,7 @@ class Hasher {
 
 std::uint64_t sceneHash(const CompiledScene& scene) {
     Hasher hash;
-    hash.array(scene.spheres);
-    hash.array(scene.sphereMotions);
-    hash.array(scene.quads);
-    hash.array(scene.positions);
-    hash.array(scene.normals);
-    hash.array(scene.uvs);
-    hash.array(scene.triangles);
-    hash.array(scene.meshes);
-    hash.array(scene.geometries);
-    hash.array(scene.instances);
-    hash.array(scene.materials);
-    hash.array(scene.textures);
-    hash.array(scene.images);
-    hash.array(scene.texels);
-    hash.array(scene.perlinGradients);
-    hash.array(scene.perlinPermutations);
-    hash.array(scene.media);
-    hash.array(scene.lights);
-    hash.array(scene.skyCdf);
+    shared::forEachSourceArray([&hash](const char*, const auto& records) { hash.array(records); }, scene);
     hash.bytes(&scene.globals, sizeof scene.globals);
     return hash.result();
 }

@@ -1,5 +1,6 @@
 #include "Common/Scene/Compiler/TextureTable.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -11,8 +12,6 @@
 namespace rt::scene {
 
 namespace {
-
-constexpr int kMaxDepth = 64;
 
 // IEC 61966-2-1, of every byte.
 const std::array<double, 256>& srgbTable() {
@@ -80,11 +79,22 @@ std::uint32_t TextureTable::named(const std::string& name) {
         if (entry->second == shared::kNone) throw InputError(id_ + ": /textures/" + name + ": refers to itself");
         return entry->second;
     }
-    if (++depth_ > kMaxDepth) throw InputError(id_ + ": /textures/" + name + ": checkers are nested deeper than 64");
+    const auto tooDeep = [&] {
+        return InputError(id_ + ": /textures/" + name + ": checkers are nested deeper than " +
+                          std::to_string(shared::kMaxCheckerDepth));
+    };
+    // Bounds the recursion; what lies below the innermost checker is one more.
+    if (++depth_ > shared::kMaxCheckerDepth + 1) throw tooDeep();
     const shared::Texture made = record(desc->second);
     --depth_;
+    if (nesting(made) > shared::kMaxCheckerDepth) throw tooDeep(); // also through textures made for something else
     out_.textures.push_back(made);
     return entry->second = static_cast<std::uint32_t>(out_.textures.size() - 1);
+}
+
+int TextureTable::nesting(const shared::Texture& texture) const {
+    if (texture.kind != shared::kTextureChecker) return 0;
+    return 1 + std::max(nesting(out_.textures[texture.first]), nesting(out_.textures[texture.second]));
 }
 
 // A checker refers to textures only, so its constants become solid ones.

@@ -1,4 +1,4 @@
-// Textures, images and Perlin tables of the flat scene; each is made when something first refers to it.
+// Textures, images and Perlin tables of the compiled scene; each is made when something first refers to it.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -7,6 +7,7 @@
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "Common/Scene/SceneDesc.h"
+#include "Common/Shared/Texture/Checker.h"
 
 namespace rt::scene {
 
@@ -23,13 +24,14 @@ class TextureTable {
     std::uint32_t image(const std::string& file, const std::string& standIn);
     // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
     // `depth`).
-    bool mayShowImage(const std::string& name, int depth = 8) const;
+    bool mayShowImage(const std::string& name, int depth = shared::kMaxCheckerDepth) const;
     // Mean colour of a texture: exact over an image or a checker, 0.5 of the tint for noise.
     glm::dvec3 mean(std::uint32_t texture) const;
 
   private:
     std::uint32_t named(const std::string& name);
     std::uint32_t child(const ColorOrTexture& source);
+    int nesting(const shared::Texture& texture) const; // checkers on the longest way down from it, itself included
     shared::Texture record(const TextureDesc& desc);
     TexelData load(const std::string& file, const std::string& standIn);
 

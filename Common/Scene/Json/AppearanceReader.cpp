@@ -1,7 +1,9 @@
 // Reading of scene files: textures and materials.
+#include <algorithm>
 
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Json/SceneReader.h"
+#include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
 
@@ -29,27 +31,6 @@ ImageTexture readImage(const JsonNode& node, const SceneReferences& references) 
     return image;
 }
 
-// The keys that only this kind of material has, and a check for unknown ones.
-MaterialDesc readKind(const JsonNode& node) {
-    MaterialDesc material;
-    const std::string type = node.at("type").oneOf({"lambertian", "metal", "dielectric", "emitter"});
-    if (type == "lambertian") {
-        node.expectKeys({"type", "albedo", "emission", "emission_texture", "sides"});
-    } else if (type == "metal") {
-        node.expectKeys({"type", "albedo", "fuzz", "emission", "emission_texture", "sides"});
-        material.kind = MaterialKind::Metal;
-        if (const auto fuzz = node.find("fuzz")) material.fuzz = fuzz->within(0, 1);
-    } else if (type == "dielectric") {
-        node.expectKeys({"type", "albedo", "ior", "emission", "emission_texture", "sides"});
-        material.kind = MaterialKind::Dielectric;
-        material.ior = node.at("ior").positive();
-    } else {
-        node.expectKeys({"type", "emission", "emission_texture", "sides"});
-        material.kind = MaterialKind::Emitter;
-    }
-    return material;
-}
-
 } // namespace
 
 TextureDesc readTexture(const JsonNode& node, const SceneReferences& references) {
@@ -66,11 +47,26 @@ TextureDesc readTexture(const JsonNode& node, const SceneReferences& references)
 }
 
 MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& references) {
-    MaterialDesc material = readKind(node);
-    const bool needsAlbedo = material.kind == MaterialKind::Lambertian || material.kind == MaterialKind::Metal;
-    if (needsAlbedo || node.has("albedo")) material.albedo = references.colorOrTexture(node.at("albedo"));
-    if (material.kind == MaterialKind::Emitter || node.has("emission"))
-        material.emission = node.at("emission").vectorWithin(0, kLargest);
+    std::vector<std::string> names;
+    for (const MaterialType& type : materialTypes()) names.emplace_back(type.name);
+    const std::string name = readChoice(node.at("type"), names);
+    const MaterialType& type =
+        *std::ranges::find_if(materialTypes(), [&](const MaterialType& t) { return name == t.name; });
+    std::vector<const char*> keys = {"type"};
+    for (const MaterialParameter& parameter : type.parameters) keys.push_back(parameter.name);
+    keys.insert(keys.end(), {"emission", "emission_texture", "sides"});
+    node.expectKeys(keys);
+
+    MaterialDesc material;
+    material.kind = type.kind;
+    const MaterialParameter* color = colorOf(type);
+    if (color && (color->isRequired || node.has(color->name)))
+        material.albedo = references.colorOrTexture(node.at(color->name));
+    forEachNumber(type, [&](const MaterialParameter& parameter, std::size_t i) {
+        if (parameter.isRequired || node.has(parameter.name))
+            material.parameters[i] = node.at(parameter.name).within(parameter.least, parameter.most);
+    });
+    if (!type.scatters || node.has("emission")) material.emission = node.at("emission").vectorWithin(0, kLargest);
     if (const auto texture = node.find("emission_texture"))
         material.emissionTexture = references.name(*texture, "textures");
     if (const auto sides = node.find("sides"))

@@ -41,7 +41,7 @@ std::string excerpt(const Json& value) {
     return text.size() <= 60 ? text : text.substr(0, 57) + "...";
 }
 
-std::string listed(std::initializer_list<const char*> names) {
+std::string listed(std::span<const char* const> names) {
     std::string text;
     for (const char* name : names) text.append(text.empty() ? "" : ", ").append(name);
     return text;
@@ -115,7 +115,7 @@ void JsonNode::failValue(const std::string& expected) const {
     fail(excerpt(*value_) + ": must be " + expected);
 }
 
-void JsonNode::expectKeys(std::initializer_list<const char*> allowed) const {
+void JsonNode::expectKeys(std::span<const char* const> allowed) const {
     if (!value_->is_object()) failValue("an object with " + listed(allowed));
     for (const auto& member : value_->items()) {
         const auto matches = [&](const char* name) { return member.key() == name; };
@@ -158,7 +158,7 @@ std::string JsonNode::string() const {
 std::string JsonNode::oneOf(std::initializer_list<const char*> allowed) const {
     std::string text = value_->is_string() ? value_->get<std::string>() : std::string();
     if (std::none_of(allowed.begin(), allowed.end(), [&](const char* name) { return text == name; }))
-        failValue("one of " + listed(allowed));
+        failValue("one of " + listed({allowed.begin(), allowed.size()}));
     return text;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,10 @@ class JsonNode {
 
     // ---- structure
     // An object with none but these keys.
-    void expectKeys(std::initializer_list<const char*> allowed) const;
+    void expectKeys(std::span<const char* const> allowed) const;
+    void expectKeys(std::initializer_list<const char*> allowed) const {
+        expectKeys(std::span(allowed.begin(), allowed.size()));
+    }
     JsonNode at(const char* key) const; // must exist
     std::optional<JsonNode> find(const char* key) const;
     bool has(const char* key) const { return value_->is_object() && value_->contains(key); }

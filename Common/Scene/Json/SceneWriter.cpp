@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
 
@@ -169,23 +170,15 @@ Json json(const TextureDesc& texture) {
 
 Json json(const MaterialDesc& material) {
     const MaterialDesc usual;
-    Json out;
-    switch (material.kind) {
-        case MaterialKind::Lambertian:
-            out = {{"type", "lambertian"}, {"albedo", json(material.albedo)}};
-            break;
-        case MaterialKind::Metal:
-            out = {{"type", "metal"}, {"albedo", json(material.albedo)}, {"fuzz", material.fuzz}};
-            break;
-        case MaterialKind::Dielectric:
-            out = {{"type", "dielectric"}, {"ior", material.ior}};
-            setUnless(out, "albedo", material.albedo, usual.albedo);
-            break;
-        case MaterialKind::Emitter:
-            out = {{"type", "emitter"}, {"emission", json(material.emission)}};
-            break;
-    }
-    if (material.kind != MaterialKind::Emitter) setUnless(out, "emission", material.emission, usual.emission);
+    const MaterialType& type = materialType(material.kind);
+    Json out = {{"type", type.name}};
+    if (const MaterialParameter* color = colorOf(type))
+        if (color->isRequired || material.albedo != usual.albedo) out[color->name] = json(material.albedo);
+    forEachNumber(type, [&](const MaterialParameter& parameter, std::size_t i) {
+        const std::optional<double>& value = material.parameters[i];
+        if (parameter.isRequired || value) out[parameter.name] = value.value_or(parameter.usual);
+    });
+    if (!type.scatters || material.emission != usual.emission) out["emission"] = json(material.emission);
     setUnless(out, "emission_texture", material.emissionTexture, std::string());
     if (material.sides) out["sides"] = *material.sides == Sides::Front ? "front" : "both";
     return out;

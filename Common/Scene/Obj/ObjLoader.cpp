@@ -85,7 +85,7 @@ MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& ke
         case 8:
             material.kind = MaterialKind::Metal;
             material.albedo = color(source.specular, 1);
-            material.fuzz = std::clamp(double(source.roughness), 0.0, 1.0);
+            material.parameters[shared::kMetalFuzz] = std::clamp(double(source.roughness), 0.0, 1.0);
             break;
         case 4:
         case 6:
@@ -94,7 +94,7 @@ MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& ke
             const glm::dvec3 filter = color(source.transmittance, 1);
             material.kind = MaterialKind::Dielectric;
             material.albedo = filter == glm::dvec3(0) ? glm::dvec3(1) : filter; // the format's default is 0 here
-            material.ior = source.ior > 1 ? source.ior : 1.5;
+            material.parameters[shared::kDielectricIor] = source.ior > 1 ? double(source.ior) : 1.5;
             break;
         }
         default:

@@ -12,9 +12,7 @@ const uint kFeatureMovingSpheres = 1u << 1u;
 const uint kFeatureQuads = 1u << 2u;
 const uint kFeatureTriangles = 1u << 3u;
 const uint kFeatureInstances = 1u << 4u;
-const uint kFeatureLambertian = 1u << 5u;
-const uint kFeatureMetal = 1u << 6u; // any metal; fuzz 0 is a mirror
-const uint kFeatureDielectric = 1u << 7u;
+// Bits of materials: see their table, Common/Shared/Material/Materials.h. 5, 6 and 7 are taken.
 const uint kFeatureEmissive = 1u << 8u; // some surface emits
 const uint kFeatureChecker = 1u << 9u;
 const uint kFeatureNoise = 1u << 10u;   // Perlin textures of every kind
@@ -35,7 +33,8 @@ const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
 const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
 const uint kFeatureEllipsoidLights = 1u << 27u;
-const uint kFeatureBits = 28u;
+const uint kFirstFreeFeature = 28u; // bits from here on are free for materials
+const uint kFeatureBits = 31u;
 const uint kFeatureAll = (1u << kFeatureBits) - 1u;
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 

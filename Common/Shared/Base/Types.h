@@ -1,4 +1,4 @@
-// The flat scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
+// The compiled scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
 // relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
 #ifndef RT_SHARED_TYPES_H
 #define RT_SHARED_TYPES_H
@@ -69,25 +69,20 @@ struct Instance {
 
 // ---- appearance ------------------------------------------------------------------------------------------------------
 
-const uint kMaterialLambertian = 0u;
-const uint kMaterialMetal = 1u;
-const uint kMaterialDielectric = 2u;
-const uint kMaterialEmitter = 3u; // emits only, absorbs what arrives
-
 const uint kSidesFront = 1u;
 const uint kSidesBoth = 3u;
 
-const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
+const uint kMaterialParameters = 2u;
 
+// What kinds there are and what their parameters mean: Common/Shared/Material/Materials.h.
 struct Material {
-    uint kind;
-    vec3 albedo;          // reflectance of lambertian and metal, tint of dielectric; the texture replaces it
-    uint texture;         // kNone: constant
-    float fuzz;           // metal, [0,1]
-    float ior;            // dielectric, inside over outside, > 0
-    vec3 emission;        // emitted radiance; zero for most. Any material may emit as well as scatter
-    uint emissionTexture; // multiplies emission; kNone: constant
-    uint emissionSides;   // kSidesFront or kSidesBoth
+    uint kind;                            // kMaterial...
+    vec3 albedo;                          // the colour parameter; the texture replaces it
+    uint texture;                         // kNone: constant
+    float parameter[kMaterialParameters]; // the numbers
+    vec3 emission;                        // emitted radiance; zero for most. Any material may emit as well as scatter
+    uint emissionTexture;                 // multiplies emission; kNone: constant
+    uint emissionSides;                   // kSidesFront or kSidesBoth
 };
 
 const uint kTextureSolid = 0u;

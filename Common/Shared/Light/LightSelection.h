@@ -1,13 +1,9 @@
 // Which light a vertex samples, and with what probability.
-// The includer provides SceneRef, loadGlobals, loadLight and
-//   LightWeights loadContributions(scene, position, normal): lightContribution() of each light of a table of at most
-//   kContributionLights;
-// and what LightTree.h names, for longer tables. With RT_PICKS_CONTRIBUTIONS it provides pickContribution() in place of
-// loadContributions().
 #ifndef RT_SHARED_LIGHT_SELECTION_H
 #define RT_SHARED_LIGHT_SELECTION_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Random.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Light/LightTree.h"
 
@@ -48,11 +44,12 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
 #ifndef RT_PICKS_CONTRIBUTIONS
 // The share u of the way along the contributions of `count` lights, at least one.
 RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3 normal, float u) {
-    LightWeights weights = loadContributions(scene, position, normal);
+    LightWeights weights;
     LightWeights sums;
     LightPick pick;
     pick.total = 0.0f;
     for (uint i = 0u; i < count; i++) {
+        weights.weight[i] = lightContribution(loadLightBound(scene, i), position, normal);
         pick.total += weights.weight[i];
         sums.weight[i] = pick.total;
     }

@@ -1,14 +1,10 @@
 // Choice among many lights: descent through a tree of bounds, after the importance sampling of Conty Estevez & Kulla,
 // "Importance Sampling of Many Lights with Adaptive Tree Splitting", 2018, with eight children a node and estimates of
 // means where they use upper bounds.
-// The includer provides SceneRef and
-//   LightCluster loadLightCluster(scene, node, i)   child i of a node
-//   void expectLights(scene, node)                  a hint: lights among the node's children may be loaded soon
-//   uint loadLightNodeParent(scene, node)           place of the node in its parent, kNone: the root
-//   uint loadLightPlace(scene, light)               node * kLightNodeChildren + child, kNone: not in the tree
 #ifndef RT_SHARED_LIGHT_TREE_H
 #define RT_SHARED_LIGHT_TREE_H
 #include "Common/Shared/Base/Random.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Light/LightClusters.h"
 
 RT_SHARED_BEGIN
@@ -118,10 +114,7 @@ RT_FN TreeChoice endDescent(RT_IN(TreeDescent) d) {
 
 RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 numbers, vec3 position, vec3 normal) {
     TreeDescent d = beginDescent(numbers);
-    while (isAtNode(d)) {
-        expectLights(scene, d.child);
-        descend(scene, position, normal, d);
-    }
+    while (isAtNode(d)) descend(scene, position, normal, d);
     return endDescent(d);
 }
 

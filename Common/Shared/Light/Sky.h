@@ -1,6 +1,4 @@
 // What a ray that leaves the scene meets, and its importance sampling when it is an image.
-// The includer provides SceneRef, loadGlobals, loadImage, loadTexel and loadSkyCdf(scene, i): the distribution function
-// of rows (height + 1 values) followed by that of the columns of each row (width + 1 values each).
 #ifndef RT_SHARED_SKY_H
 #define RT_SHARED_SKY_H
 #include "Common/Shared/Base/Features.h"

@@ -7,8 +7,7 @@
 //               v    next ray from the bsdf, or from a light   (mixture)
 //
 // The engine traces. For each step it finds the nearest hit of PathState::ray, calls pathVertex, and looks whether anything
-// lies in the way of the shadow ray that the step may leave. The includer provides SceneRef, every load...() that the
-// included headers name, loadMaterial and loadMedium.
+// lies in the way of the shadow ray that the step may leave.
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"

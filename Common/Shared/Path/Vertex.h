@@ -1,5 +1,4 @@
-// The vertices of a path: how one comes about, and how it scatters. The includer provides SceneRef, loadGlobals, loadMedium, and what
-// the included headers name.
+// The vertices of a path: how one comes about, and how it scatters.
 #ifndef RT_SHARED_VERTEX_H
 #define RT_SHARED_VERTEX_H
 #include "Common/Shared/Base/Features.h"
@@ -37,8 +36,7 @@ RT_FN Material blackMaterial() {
     m.kind = kMaterialEmitter;
     m.albedo = vec3(0.0f, 0.0f, 0.0f);
     m.texture = kNone;
-    m.fuzz = 0.0f;
-    m.ior = 1.0f;
+    for (uint i = 0u; i < kMaterialParameters; i++) m.parameter[i] = 0.0f;
     m.emission = vec3(0.0f, 0.0f, 0.0f);
     m.emissionTexture = kNone;
     m.emissionSides = kSidesFront;

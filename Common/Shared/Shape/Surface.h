@@ -1,10 +1,9 @@
 // From a hit to the surface there: position with its rounding error, normals, texture coordinates, material, light.
-// The includer provides SceneRef and loadSphere, loadSphereMotion, loadQuad, loadTriangle, loadPosition, loadNormal,
-// loadUv, loadMesh, loadTriangleMesh, loadInstance.
 #ifndef RT_SHARED_SURFACE_H
 #define RT_SHARED_SURFACE_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Sampling.h"
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Ellipsoids.h"

@@ -61,8 +61,8 @@ struct TreeTriangle {
 // Vectors of one array: two a sphere (center, radius; motion, index of the primitive), then four a quad, three a triangle, as
 // above.
 
-const uint kFlatPrimitives = 64u; // most that lists may hold
-const uint kFlatVectors = 4u * kFlatPrimitives;
+const uint kMaxListedPrimitives = 64u; // most that lists may hold
+const uint kListVectors = 4u * kMaxListedPrimitives;
 
 RT_SHARED_END
 

@@ -1,14 +1,10 @@
-// Procedural and image textures. The includer defines a type SceneRef and, before including, the fetches
-//     Texture loadTexture(SceneRef scene, uint texture)
-//     Image loadImage(SceneRef scene, uint image)
-//     vec3 loadTexel(SceneRef scene, Image image, uint x, uint y)         linear RGB; Color.h decodes
-//     vec3 loadPerlinGradient(SceneRef scene, uint index)
-//     uint loadPerlinPermutation(SceneRef scene, uint index)
-// In C++ they stand in namespace rt::shared.
+// Procedural and image textures.
 #ifndef RT_SHARED_TEXTURES_H
 #define RT_SHARED_TEXTURES_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Sampling.h"
+#include "Common/Shared/Base/SceneAccess.h"
+#include "Common/Shared/Texture/Checker.h"
 
 RT_SHARED_BEGIN
 
@@ -61,6 +57,10 @@ RT_FN float perlinTurbulence(SceneRef scene, uint table, vec3 p) {
     return abs(sum);
 }
 
+RT_FN bool isNoise(uint kind) {
+    return kind >= kTextureMarble && kind <= kTextureNoise;
+}
+
 // Brightness of the noise kinds.
 RT_FN float noiseValue(SceneRef scene, RT_IN(Texture) t, vec3 point) {
     vec3 p = point * t.scale;
@@ -104,15 +104,6 @@ RT_FN vec3 imageColor(SceneRef scene, RT_IN(Image) image, vec2 uv) {
 
 // ---- any texture ----------------------------------------------------------------------------------------------------
 
-// Whether the cell of the solid checker that holds p, cells of edge `scale`, is one of the even ones.
-RT_FN bool isEvenCell(vec3 p, float scale) {
-    vec3 cell = floor(p / scale);
-    float sum = cell.x + cell.y + cell.z;
-    return sum - 2.0f * floor(0.5f * sum) == 0.0f;
-}
-
-const int kMaxCheckerDepth = 8; // checkers within checkers
-
 // `point` in authored world coordinates (SceneGlobals::origin added back), `uv` the surface's.
 RT_FN vec3 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv) {
     Texture t = loadTexture(scene, texture);
@@ -124,7 +115,7 @@ RT_FN vec3 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, 
     vec3 color = t.color;
     if (has(features, kFeatureImages) && t.kind == kTextureImage) {
         color = color * imageColor(scene, loadImage(scene, t.first), uv);
-    } else if (has(features, kFeatureNoise) && t.kind != kTextureSolid) {
+    } else if (has(features, kFeatureNoise) && isNoise(t.kind)) {
         color = color * noiseValue(scene, t, point);
     }
     return color;

@@ -78,13 +78,13 @@ RT_FN uvec4 probeSampler(uint i) {
     return uvec4(words.x, words.y, 0u, 0u);
 }
 
-RT_FN Material probeMaterial(uint kind, float fuzz, float ior) {
+RT_FN Material probeMaterial(uint kind, float parameter) {
     Material m;
     m.kind = kind;
     m.albedo = vec3(0.8f, 0.6f, 0.4f);
     m.texture = kNone;
-    m.fuzz = fuzz;
-    m.ior = ior;
+    m.parameter[0] = parameter;
+    m.parameter[1] = 0.0f;
     m.emission = vec3(0.0f, 0.0f, 0.0f);
     m.emissionTexture = kNone;
     m.emissionSides = kSidesFront;
@@ -237,12 +237,12 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
         return floatWords(f.x, f.y, 0.0f, 0.0f);
     }
     float fuzz = 0.05f + 0.9f * uniformNumber(a);
-    if (which == kProbeDielectric) return probeBsdf(a, probeMaterial(kMaterialDielectric, 0.0f, 1.5f));
-    if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz, 1.0f));
+    if (which == kProbeDielectric) return probeBsdf(a, probeMaterial(kMaterialDielectric, 1.5f));
+    if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz));
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
     vec4 f =
-        evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz, 1.0f), vec3(1.0f), n, wo, hemisphereVector(a, n));
+        evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz), vec3(1.0f), n, wo, hemisphereVector(a, n));
     return floatWords(vec3(f), f.w);
 }
 

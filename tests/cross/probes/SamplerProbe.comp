@@ -6,6 +6,18 @@
 #define RT_PROJECTED
 #include "SamplerProbe.h"
 
+Light loadLight(SceneRef scene, uint i) { return probeTableLight(i); }
+LightBound loadLightBound(SceneRef scene, uint i) { return probeTableBound(i); }
+LightCluster loadLightCluster(SceneRef scene, uint node, uint i) { // there is no tree
+    LightCluster none;
+    return none;
+}
+uint loadLightPlace(SceneRef scene, uint light) { return kNone; }
+SceneGlobals loadGlobals(SceneRef scene) {
+    SceneGlobals none;
+    return none;
+}
+
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kFamily = 0u;
 layout(buffer_reference, scalar) buffer Results { uvec4 at[]; };
@@ -18,5 +30,6 @@ void main() {
     uint part = gl_WorkGroupID.y;
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;
-    results.at[part * count + i] = probeSampler(kFamily, part / kProbeModes, part % kProbeModes, i);
+    SceneRef scene;
+    results.at[part * count + i] = probeSampler(scene, kFamily, part / kProbeModes, part % kProbeModes, i);
 }

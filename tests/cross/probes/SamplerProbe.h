@@ -2,25 +2,11 @@
 // GLSL: tests/cross/SamplersTest.cpp proves the same things of what both sides draw.
 #ifndef RT_SHADERS_SAMPLER_PROBE_H
 #define RT_SHADERS_SAMPLER_PROBE_H
-#include "Common/Shared/Base/Types.h"
-#include "Common/Shared/Material/Bsdf.h"
-#include "ProbeArguments.h"
-
-RT_SHARED_BEGIN
-
-#define SceneRef uint
-RT_FN Light loadLight(SceneRef scene, uint i);
-RT_FN LightBound loadLightBound(SceneRef scene, uint i);
-RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal);
-RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i);
-RT_FN void expectLights(SceneRef scene, uint node);
-RT_FN uint loadLightNodeParent(SceneRef scene, uint node);
-RT_FN uint loadLightPlace(SceneRef scene, uint light);
-
-RT_SHARED_END
-
+#include "Common/Shared/Base/SceneAccess.h"
 #include "Common/Shared/Light/LightSelection.h"
 #include "Common/Shared/Light/Lights.h"
+#include "Common/Shared/Material/Bsdf.h"
+#include "ProbeArguments.h"
 
 RT_SHARED_BEGIN
 
@@ -237,8 +223,8 @@ RT_FN Material probeCaseMaterial(uint which) {
     m.kind = which == 0u ? kMaterialLambertian : kMaterialMetal;
     m.albedo = vec3(1.0f);
     m.texture = kNone;
-    m.fuzz = which == 2u ? 0.1f : 0.6f;
-    m.ior = 1.0f;
+    m.parameter[kMetalFuzz] = which == 2u ? 0.1f : 0.6f;
+    m.parameter[1] = 0.0f;
     m.emission = vec3(0.0f);
     m.emissionTexture = kNone;
     m.emissionSides = kSidesFront;
@@ -250,7 +236,7 @@ const vec3 kProbeOutwards = vec3(0.34202014f, 0.93969262f, 0.0f);
 RT_FN vec4 probeCone(uint which) {
     if (which == 0u) return vec4(0.0f, 1.0f, 0.0f, 0.0f);
     if (which == 1u) return vec4(0.0f, 1.0f, 0.0f, -1.0f);
-    float fuzz = probeCaseMaterial(which).fuzz;
+    float fuzz = probeCaseMaterial(which).parameter[kMetalFuzz];
     return vec4(-kProbeOutwards.x, kProbeOutwards.y, 0.0f, sqrt((1.0f - fuzz) * (1.0f + fuzz)));
 }
 
@@ -266,7 +252,7 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     if (stress) { // grazing directions and the smallest lobes
         n = probeUnit(a);
         wo = normalize(makeFrame(n).tangent + n * probeDecades(a, -7.0f, 3.0f));
-        m.fuzz = min(probeDecades(a, -7.0f, 0.1f), 1.0f);
+        m.parameter[kMetalFuzz] = min(probeDecades(a, -7.0f, 0.1f), 1.0f);
     }
     vec2 u = probeSquare(a, mode, i);
     if (stress && (i & 7u) < 4u) u = vec2(float(i & 1u), float(i >> 1u & 1u)) * 0.99999994f;
@@ -291,10 +277,11 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
 
 // ---- choice among lights --------------------------------------------------------------------------------------------
 
-RT_FN Light loadLight(SceneRef scene, uint i) {
+// The scene whose lights these are, which the includer provides.
+RT_FN Light probeTableLight(uint i) {
     Arguments a;
     a.key = i;
-    a.next = scene;
+    a.next = 1u;
     vec3 place = probeUnit(a);
     place *= 0.5f + 3.0f * uniformNumber(a);
     vec3 u = probeUnit(a) * 0.2f;
@@ -306,8 +293,8 @@ RT_FN Light loadLight(SceneRef scene, uint i) {
     return light;
 }
 
-RT_FN LightBound loadLightBound(SceneRef scene, uint i) {
-    Light light = loadLight(scene, i);
+RT_FN LightBound probeTableBound(uint i) {
+    Light light = probeTableLight(i);
     LightBound bound;
     bound.center = light.position + 0.5f * (light.edgeU + light.edgeV);
     bound.radius = 0.5f * length(abs(light.edgeU) + abs(light.edgeV));
@@ -315,34 +302,6 @@ RT_FN LightBound loadLightBound(SceneRef scene, uint i) {
     bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
     bound.intensity = light.area * float(1u + i % 4u);
     return bound;
-}
-
-RT_FN LightWeights loadContributions(SceneRef scene, vec3 position, vec3 normal) {
-    LightWeights w;
-    for (uint i = 0u; i < kProbeLights; i++)
-        w.weight[i] = lightContribution(loadLightBound(scene, i), position, normal);
-    return w;
-}
-
-// There is no tree.
-RT_FN LightCluster loadLightCluster(SceneRef, uint, uint) {
-    LightCluster c;
-    c.center = vec3(0.0f);
-    c.radius = 0.0f;
-    c.axis = vec3(0.0f);
-    c.alignment = 0.0f;
-    c.spreadCosine = 0.0f;
-    c.facing = 0.0f;
-    c.around = 0.0f;
-    c.child = kNone;
-    return c;
-}
-RT_FN void expectLights(SceneRef, uint) {}
-RT_FN uint loadLightNodeParent(SceneRef, uint) {
-    return kNone;
-}
-RT_FN uint loadLightPlace(SceneRef, uint) {
-    return kNone;
 }
 
 RT_FN LightContext probeContext(uint which) {
@@ -356,7 +315,7 @@ RT_FN LightContext probeContext(uint which) {
 
 // kProbeDraws, kProbeStrata: the light, its probability and that asked for again. kProbeDensity: the sum of all lights'
 // probabilities. kProbeStress, bits: 0 not finite, 1 no positive probability, 2 a number outside of [0,1).
-RT_FN uvec4 probeChoice(uint which, uint mode, uint i) {
+RT_FN uvec4 probeChoice(SceneRef scene, uint which, uint mode, uint i) {
     Arguments a;
     a.key = i;
     a.next = ((kProbeChoice * kProbeCases + which) * kProbeModes + mode) << 8u;
@@ -370,11 +329,11 @@ RT_FN uvec4 probeChoice(uint which, uint mode, uint i) {
         if (which != 3u) context.normal = probeUnit(a);
         if ((i & 7u) < 2u) u.x = float(i & 1u) * 0.99999994f;
     }
-    LightChoice c = chooseLight(kFeatureQuadLights, 1u, kProbeLights, u, context);
+    LightChoice c = chooseLight(kFeatureQuadLights, scene, kProbeLights, u, context);
     float sum = 0.0f;
     float again = 0.0f;
     for (uint k = 0u; k < kProbeLights; k++) {
-        float p = lightProbability(kFeatureQuadLights, 1u, kProbeLights, k, context);
+        float p = lightProbability(kFeatureQuadLights, scene, kProbeLights, k, context);
         sum += p;
         again = k == c.light ? p : again;
     }
@@ -386,9 +345,10 @@ RT_FN uvec4 probeChoice(uint which, uint mode, uint i) {
     return uvec4(flags, 0u, 0u, 0u);
 }
 
-RT_FN uvec4 probeSampler(uint family, uint which, uint mode, uint i) {
+// `scene` has the lights of probeTableLight() and their bounds.
+RT_FN uvec4 probeSampler(SceneRef scene, uint family, uint which, uint mode, uint i) {
     if (family == kProbeScattering) return probeScattering(which, mode, i);
-    if (family == kProbeChoice) return probeChoice(which, mode, i);
+    if (family == kProbeChoice) return probeChoice(scene, which, mode, i);
     return probeLight(family, which, mode, i);
 }
 

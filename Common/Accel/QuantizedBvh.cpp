@@ -1,4 +1,4 @@
-#include "Common/Accel/SparseBvh.h"
+#include "Common/Accel/QuantizedBvh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,15 +9,15 @@ namespace rt::accel {
 namespace {
 
 constexpr std::size_t kManyNodes = 1u << 11; // binary ones, of a tree for which it pays
-constexpr double kSparseShare = 0.1;         // surface of the leaves in that of the inner nodes
+constexpr double kLeafShare = 0.1;           // surface of the leaves in that of the inner nodes
 
 constexpr double kSteps = 65535;
 // What planes are moved outwards before they are rounded: more than the rounding of a ray's origin relative to the grid,
 // 2^-24 of its extent. (That of an origin outside the grid is in proportion to the distance, as is the margin of slabs.)
 constexpr double kMargin = 1.0 / 64;
 
-SparseGrid makeGrid(const Box& box) {
-    SparseGrid grid;
+QuantizationGrid makeGrid(const Box& box) {
+    QuantizationGrid grid;
     grid.origin = box.lower;
     const shared::vec3 size = box.size();
     const double extent = static_cast<double>(std::max({size.x, size.y, size.z}));
@@ -35,8 +35,8 @@ std::uint16_t above(double steps) {
     return static_cast<std::uint16_t>(std::clamp(std::ceil(steps + kMargin), 0.0, kSteps));
 }
 
-SparseNode convert(const WideNode& wide, const SparseGrid& grid, Reference anyLeaf) {
-    SparseNode node;
+QuantizedNode convert(const WideNode& wide, const QuantizationGrid& grid, Reference anyLeaf) {
+    QuantizedNode node;
     for (std::uint32_t i = 0; i < kWidth; ++i) {
         const bool exists = wide.planes[0][i] <= wide.planes[1][i];
         node.child[i] = exists ? wide.child[i] : anyLeaf;
@@ -54,25 +54,25 @@ SparseNode convert(const WideNode& wide, const SparseGrid& grid, Reference anyLe
 
 } // namespace
 
-bool isSparse(const Bvh& bvh) {
+bool gainsFromQuantization(const Bvh& bvh) {
     if (bvh.nodes.size() < kManyNodes) return false;
     double leaves = 0, inner = 0;
     for (const BvhNode& node : bvh.nodes) (node.isLeaf() ? leaves : inner) += static_cast<double>(node.box.halfArea());
-    return leaves < kSparseShare * inner;
+    return leaves < kLeafShare * inner;
 }
 
-SparseBvh makeSparse(const Bvh& bvh, LeafMaker& leafMaker) {
+QuantizedBvh quantize(const Bvh& bvh, LeafMaker& leafMaker) {
     std::vector<WideNode> wide;
     appendWide(bvh, leafMaker, wide);
-    SparseBvh sparse;
-    sparse.grid = makeGrid(bvh.nodes[0].box);
+    QuantizedBvh quantized;
+    quantized.grid = makeGrid(bvh.nodes[0].box);
     Reference anyLeaf = 0;
     for (const WideNode& node : wide)
         for (const Reference child : node.child)
             if ((child & kLeafBit) != 0) anyLeaf = child;
-    sparse.nodes.reserve(wide.size());
-    for (const WideNode& node : wide) sparse.nodes.push_back(convert(node, sparse.grid, anyLeaf));
-    return sparse;
+    quantized.nodes.reserve(wide.size());
+    for (const WideNode& node : wide) quantized.nodes.push_back(convert(node, quantized.grid, anyLeaf));
+    return quantized;
 }
 
 } // namespace rt::accel

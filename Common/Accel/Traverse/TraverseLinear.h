@@ -9,18 +9,18 @@ namespace rt::accel {
 namespace {
 
 // The nearest hit in each lane, over all blocks so far.
-struct FlatBest {
+struct LaneBest {
     Float8 t, u, v;
     Index8 name;
 };
 
-RT_FN FlatBest noFlatHit(float tMax) {
+RT_FN LaneBest noLaneHit(float tMax) {
     const Float8 zero = broadcast(0.0f);
-    const FlatBest best{broadcast(tMax), zero, zero, {}};
+    const LaneBest best{broadcast(tMax), zero, zero, {}};
     return best;
 }
 
-RT_FN void acceptFlat(const LaneHits& lanes, const std::uint32_t* names, FlatBest& best) {
+RT_FN void acceptLanes(const LaneHits& lanes, const std::uint32_t* names, LaneBest& best) {
     const Mask8 nearer = lanes.mask & (lanes.t < best.t);
     best.t = select(nearer, lanes.t, best.t);
     best.u = select(nearer, lanes.u, best.u);
@@ -28,7 +28,7 @@ RT_FN void acceptFlat(const LaneHits& lanes, const std::uint32_t* names, FlatBes
     best.name = select(nearer, loadIndex(names), best.name);
 }
 
-RT_FN shared::Hit nearestFlat(const FlatBest& best, float tMax) {
+RT_FN shared::Hit nearestOfLanes(const LaneBest& best, float tMax) {
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
     const float t = least(best.t);
     if (!(t < tMax)) return hit;
@@ -46,36 +46,36 @@ RT_FN shared::Hit nearestFlat(const FlatBest& best, float tMax) {
         hit.u = lane(best.u, i);
         hit.v = lane(best.v, i);
     }
-    hit.kind = name >> kFlatKindShift;
-    hit.primitive = name & ((1u << kFlatKindShift) - 1);
+    hit.kind = name >> kPackedKindShift;
+    hit.primitive = name & ((1u << kPackedKindShift) - 1);
     return hit;
 }
 
 template <class Block, class Test>
-RT_FN void eachFlatBlock(const FlatList<Block>& list, const Test& test) {
+RT_FN void forEachListedBlock(const LinearList<Block>& list, const Test& test) {
     for (const Block* block = list.blocks; block != list.blocks + list.count; ++block) test(*block);
 }
 
 // Calls test(block) for every block of the scene.
 template <class Test>
-RT_FN void eachFlatBlock(shared::uint features, const AccelView& view, const Test& test) {
-    if (shared::has(features, shared::kFeatureSpheres)) eachFlatBlock(view.flatSpheres, test);
-    if (shared::has(features, shared::kFeatureMovingSpheres)) eachFlatBlock(view.flatMovingSpheres, test);
-    if (shared::has(features, shared::kFeatureQuads)) eachFlatBlock(view.flatQuads, test);
-    if (shared::has(features, shared::kFeatureTriangles)) eachFlatBlock(view.flatTriangles, test);
+RT_FN void forEachListedBlock(shared::uint features, const AccelView& view, const Test& test) {
+    if (shared::has(features, shared::kFeatureSpheres)) forEachListedBlock(view.listedSpheres, test);
+    if (shared::has(features, shared::kFeatureMovingSpheres)) forEachListedBlock(view.listedMovingSpheres, test);
+    if (shared::has(features, shared::kFeatureQuads)) forEachListedBlock(view.listedQuads, test);
+    if (shared::has(features, shared::kFeatureTriangles)) forEachListedBlock(view.listedTriangles, test);
 }
 
-RT_FN shared::Hit traceFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
-    FlatBest best = noFlatHit(tMax);
-    eachFlatBlock(features, view,
-                  [&](const auto& block) { acceptFlat(intersectBlock(ray, block), block.primitive, best); });
-    return nearestFlat(best, tMax);
+RT_FN shared::Hit traceLinear(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+    LaneBest best = noLaneHit(tMax);
+    forEachListedBlock(features, view,
+                       [&](const auto& block) { acceptLanes(intersectBlock(ray, block), block.primitive, best); });
+    return nearestOfLanes(best, tMax);
 }
 
-RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+RT_FN bool occludedLinear(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
     const Float8 end = broadcast(tMax);
     Mask8 hits = end < end;
-    eachFlatBlock(features, view, [&](const auto& block) {
+    forEachListedBlock(features, view, [&](const auto& block) {
         const LaneHits lanes = intersectBlock(ray, block);
         hits = hits | (lanes.mask & (lanes.t < end));
     });
@@ -84,18 +84,18 @@ RT_FN bool occludedFlat(shared::uint features, const AccelView& view, const Shap
 
 // Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether anything lies
 // along `shadow` before shadowEnd.
-RT_FN shared::Hit traceFlatBoth(shared::uint features, const AccelView& view, const ShapeRay& ray,
-                                const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
+RT_FN shared::Hit traceLinearWithShadow(shared::uint features, const AccelView& view, const ShapeRay& ray,
+                                        const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
     const Float8 end = broadcast(shadowEnd);
     Mask8 hits = end < end;
-    FlatBest best = noFlatHit(shared::kInfinity);
-    eachFlatBlock(features, view, [&](const auto& block) {
+    LaneBest best = noLaneHit(shared::kInfinity);
+    forEachListedBlock(features, view, [&](const auto& block) {
         const LaneHits lanes = intersectBlock(shadow, block);
         hits = hits | (lanes.mask & (lanes.t < end));
-        acceptFlat(intersectBlock(ray, block), block.primitive, best);
+        acceptLanes(intersectBlock(ray, block), block.primitive, best);
     });
     isOccluded = bits(hits) != 0;
-    return nearestFlat(best, shared::kInfinity);
+    return nearestOfLanes(best, shared::kInfinity);
 }
 
 } // namespace

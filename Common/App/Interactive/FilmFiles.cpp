@@ -1,0 +1,92 @@
+#include "Common/App/Interactive/FilmFiles.h"
+
+#include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/Outputs.h"
+#include "Common/Core/Error.h"
+#include "Common/Image/Display.h"
+#include "Common/Image/ImageIo.h"
+
+namespace rt::app {
+
+std::vector<std::string> writeFilm(const SaveRequest& request, Options options, const LoadedScene& scene,
+                                   const FilmRun& film, const FilmReference& reference, StopReason reason,
+                                   PublishedState& state) {
+    const Stopwatch watch;
+    options.scene = scene.request.source;
+    options.settings = film.settings();
+    options.outputs = request.files;
+    options.aovs = request.aovs;
+    options.stats = request.stats;
+    options.exposure = request.exposure;
+    options.tonemap = request.tonemap;
+    std::string lost;
+    OutputResult outputs;
+    try {
+        const image::Film& kept = film.keptFilm(lost);
+        outputs = writeOutputs(options, film.camera(), kept, film.engine());
+        if (!options.stats.empty()) {
+            Statistics statistics;
+            statistics.stoppedBy = reason;
+            statistics.seconds = {scene.seconds, film.seconds(), watch.seconds()};
+            statistics.outputs = outputs.written;
+            statistics.error = reference.compare(kept.resolve());
+            statistics.window = state.windowFigures();
+            writeText(options.stats, statistics.toJson(options, *scene.scene, film.engine().report(), kept));
+        }
+    } catch (const Error& error) {
+        outputs.failures.emplace_back(error.what());
+    }
+    if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
+    for (const std::string& file : outputs.written) state.say("Saved " + file);
+    return outputs.failures;
+}
+
+void writePreview(const SaveRequest& request, const Preview& preview, PublishedState& state) {
+    for (const std::string& file : request.files) {
+        try {
+            if (preview.picture.data.empty()) throw RenderError("nothing to save yet: the preview is being drawn");
+            const auto curve = static_cast<std::uint32_t>(request.tonemap);
+            const image::ImageRows picture = preview.picture;
+            image::writeImage(
+                file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
+            state.say("Saved the preview as " + file);
+        } catch (...) {
+            state.fail(std::current_exception());
+        }
+    }
+}
+
+RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const FilmRun& film,
+                     const FilmReference& reference) {
+    const EngineReport report = film.engine().report();
+    const RenderSettings& settings = film.settings();
+    RunRecord record;
+    record.time = utcNow();
+    record.app = program;
+    record.engine = report.engine;
+    record.device = report.device;
+    record.scene = scene.scene->id;
+    record.lightSampling = nameOf(kLightSamplings, settings.lightSampling);
+    record.sampler = nameOf(kSamplers, settings.sampler);
+    record.width = settings.width;
+    record.height = settings.height;
+    record.maxDepth = settings.maxDepth;
+    record.threads = report.threads;
+    record.spp = film.engine().film().minSamples();
+    record.loadSeconds = scene.seconds;
+    record.buildSeconds = report.accelBuildSeconds;
+    record.pipelineSeconds = report.pipelineSeconds;
+    record.renderSeconds = film.seconds();
+    if (film.seconds() > 0) {
+        const double rays = static_cast<double>(report.rays.camera + report.rays.scattered + report.rays.shadow);
+        record.samplesPerSecond = static_cast<double>(film.status().samplesDone) / film.seconds();
+        record.raysPerSecond = rays / film.seconds();
+    }
+    record.hasReference = !reference.curve().empty();
+    record.relmse =
+        record.hasReference ? reference.curve().back().relmse : estimate(film.engine().film()).relmse.value_or(0);
+    for (const ErrorPoint& point : reference.curve()) record.curve.push_back({point.seconds, point.relmse});
+    return record;
+}
+
+} // namespace rt::app

@@ -1,0 +1,77 @@
+#include "Common/App/Interactive/FilmPlan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rt::app {
+namespace {
+
+constexpr double kFrameSeconds = 1.0 / 30; // of a frame that is not accumulated and as large as there is time for
+constexpr double kDraftSeconds = 0.02; // of what is shown first after a change, which may wait for the end of another
+constexpr std::uint32_t kDraftSpp = 4; // at most
+
+double pixelsOf(const RenderSettings& settings) {
+    return static_cast<double>(settings.width) * settings.height;
+}
+
+} // namespace
+
+void RenderSpeed::learn(std::uint64_t samples, double seconds, double weight) {
+    perSecond_ = (1 - weight) * perSecond_ + weight * static_cast<double>(samples) / std::max(seconds, 1e-4);
+}
+
+std::uint32_t RenderSpeed::sppIn(double seconds, const RenderSettings& size, double most) const {
+    return static_cast<std::uint32_t>(std::clamp(samplesIn(seconds) / pixelsOf(size), 1.0, most));
+}
+
+RenderSettings sizedSettings(const RenderRequest& request, const scene::CompiledScene& scene) {
+    Options options;
+    options.size = request.size;
+    options.settings = request.settings;
+    settleImageSize(options, scene.defaults.aspect);
+    return options.settings;
+}
+
+RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledScene& scene, std::uint32_t round,
+                            bool wantsVariance, const RenderSpeed& speed) {
+    RenderSettings settings = sizedSettings(request, scene);
+    settings.seed += round;
+    settings.sppIsKnown = !request.timeLimit;
+    settings.secondMoments = settings.replicates < 2 && (request.accumulate || wantsVariance);
+    if (!request.accumulate)
+        settings.spp =
+            request.samplesPerFrame > 0 ? request.samplesPerFrame : speed.sppIn(kFrameSeconds, settings, 65536);
+    settings.replicates = std::min(settings.replicates, settings.spp);
+    return settings;
+}
+
+RenderSettings referenceSettings(RenderSettings film, std::uint32_t spp) {
+    film.spp = spp;
+    film.sppIsKnown = true;
+    film.seed ^= 0x5f3759dfu;
+    film.lightSampling = LightSampling::Mis;
+    film.sampler = SamplerKind::Sobol;
+    film.replicates = 1;
+    film.secondMoments = false;
+    return film;
+}
+
+std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed) {
+    const double affordable = speed.samplesIn(kDraftSeconds);
+    if (affordable >= static_cast<double>(firstPass(film))) return std::nullopt;
+    const double scale = std::sqrt(std::min(1.0, affordable / pixelsOf(film)));
+    const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
+    RenderSettings draft = film;
+    draft.width = scaled(film.width);
+    draft.height = scaled(film.height);
+    draft.spp = speed.sppIn(kDraftSeconds, film, kDraftSpp);
+    draft.replicates = 1;
+    draft.secondMoments = false;
+    return draft;
+}
+
+std::uint64_t firstPass(const RenderSettings& film) {
+    return std::uint64_t{film.width} * film.height * std::min(film.spp, image::Film::kBlock);
+}
+
+} // namespace rt::app

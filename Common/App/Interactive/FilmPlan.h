@@ -1,0 +1,38 @@
+// Which film, and which draft before it, a request comes to.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "Common/App/Interactive/InteractiveState.h"
+
+namespace rt::app {
+
+// What an engine renders in a second, learnt as it goes: how large drafts and frames may be.
+class RenderSpeed {
+  public:
+    void learn(std::uint64_t samples, double seconds, double weight = 0.5);
+    double samplesIn(double seconds) const { return perSecond_ * seconds; }
+    // Of each pixel; 1 to `most`.
+    std::uint32_t sppIn(double seconds, const RenderSettings& size, double most) const;
+
+  private:
+    double perSecond_ = 2e5; // a cautious guess at first
+};
+
+// With the size in pixels.
+RenderSettings sizedSettings(const RenderRequest& request, const scene::CompiledScene& scene);
+
+// `round`: films since the last change, each with a seed of its own. `wantsVariance`: of a frame that is not accumulated.
+RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledScene& scene, std::uint32_t round,
+                            bool wantsVariance, const RenderSpeed& speed);
+
+// Quiet, and independent of what it will be compared with.
+RenderSettings referenceSettings(RenderSettings film, std::uint32_t spp);
+
+// Of low resolution, to be shown until the film has samples; none where its first pass takes no longer.
+std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed);
+
+// Samples until every pixel of a film has a block of them, or all.
+std::uint64_t firstPass(const RenderSettings& film);
+
+} // namespace rt::app

@@ -1,0 +1,32 @@
+#include "Common/App/Interactive/FilmReference.h"
+
+#include <utility>
+
+namespace rt::app {
+
+void FilmReference::begin(std::uint64_t sceneHash, const scene::CameraDesc& camera, const RenderSettings& settings) {
+    filmKey_ = {sceneHash, camera, settings.width, settings.height, settings.maxDepth};
+    curve_.clear();
+}
+
+void FilmReference::set(image::Image image) {
+    image_ = std::move(image);
+    key_ = filmKey_;
+    curve_.clear();
+}
+
+std::optional<image::ErrorFigures> FilmReference::compare(const image::Image& picture) const {
+    if (!fits()) return std::nullopt;
+    return image::compare(picture, *image_);
+}
+
+void FilmReference::follow(const FilmRun& film, const image::Image& picture) {
+    if (!fits()) return;
+    const double seconds = film.seconds();
+    const double last = curve_.empty() ? 0 : curve_.back().seconds;
+    if (seconds <= last || (!film.status().finished && seconds < 1.1 * last)) return;
+    const double spp = static_cast<double>(film.status().samplesDone) / static_cast<double>(film.pixels());
+    curve_.push_back({seconds, spp, image::compare(picture, *image_).relmse});
+}
+
+} // namespace rt::app

@@ -1,0 +1,49 @@
+// The image that the films of one view are compared with, and the error of the present film over time.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/InteractiveState.h"
+#include "Common/App/Session/FilmRun.h"
+#include "Common/Image/Image.h"
+#include "Common/Image/Metrics.h"
+
+namespace rt::app {
+
+class FilmReference {
+  public:
+    // A film that is to become the reference; the one before stays until then.
+    void render(std::uint32_t spp) { renderedSpp_ = spp; }
+    void giveUp() { renderedSpp_.reset(); }
+    std::optional<std::uint32_t> renderedSpp() const { return renderedSpp_; } // none: another film is rendered
+
+    // Another film, with an error curve of its own.
+    void begin(std::uint64_t sceneHash, const scene::CameraDesc& camera, const RenderSettings& settings);
+    // A linear image of the present film's scene, camera, size and depth becomes the reference.
+    void set(image::Image image);
+    // Whether the present film is to be compared: it agrees with the reference in scene, camera, size and depth.
+    bool fits() const { return image_ && !renderedSpp_ && key_ == filmKey_; }
+    const image::Image& image() const { return *image_; }                          // requires fits()
+    std::optional<image::ErrorFigures> compare(const image::Image& picture) const; // none unless it fits
+
+    // The error of a picture of the film, at times that grow by a tenth; of the last picture always.
+    void follow(const FilmRun& film, const image::Image& picture);
+    const std::vector<ErrorPoint>& curve() const { return curve_; }
+
+  private:
+    // What a film must agree in with the reference.
+    struct Key {
+        std::uint64_t sceneHash = 0;
+        scene::CameraDesc camera;
+        std::uint32_t width = 0, height = 0, maxDepth = 0;
+        bool operator==(const Key&) const = default;
+    };
+    std::optional<std::uint32_t> renderedSpp_;
+    std::optional<image::Image> image_;
+    Key key_, filmKey_;
+    std::vector<ErrorPoint> curve_;
+};
+
+} // namespace rt::app

@@ -1,0 +1,76 @@
+// What a window asks of its session, until the session's thread has time for it. Nobody who asks waits.
+#pragma once
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "Common/App/Interactive/InteractiveState.h"
+#include "Common/App/Session/SceneLoader.h"
+#include "Common/App/Session/Stopwatch.h"
+
+namespace rt::app {
+
+// The last request of a kind counts, of files each. InteractiveSession says what they mean.
+struct Requests {
+    enum class Command { Render, Pause, Stop, Reset };
+    bool quit = false;
+    std::optional<EngineChoice> engine{};
+    std::optional<RenderRequest> request{};
+    std::optional<LoadedScene> scene{};
+    std::optional<std::pair<std::uint64_t, scene::CameraDesc>> camera{}; // and the serial of its scene
+    std::optional<Command> command{};
+    std::vector<SaveRequest> saves{};
+    std::optional<SaveRequest> atEnd{};
+    std::optional<ViewRequest> view{};
+    std::optional<bool> preview{};
+    std::optional<std::uint32_t> referenceSpp{};
+    std::optional<std::string> referenceFile{};
+    std::optional<std::array<std::uint32_t, 2>> focus{}; // pixel
+    std::optional<Stopwatch> changed{};                  // since the first change of camera or settings
+
+    bool any() const { return needEngine() || concernFiles(); }
+    bool needEngine() const { return changeWhatIsSeen() || concernFilm(); }
+    bool changeWhatIsSeen() const { return camera || changeAllButCamera(); }
+    bool moveCameraAlone() const { return camera && !changeAllButCamera() && !concernFilm() && !concernFiles(); }
+
+  private:
+    bool changeAllButCamera() const { return engine || request || scene || preview; }
+    bool concernFilm() const { return command || view || referenceSpp || referenceFile || focus; }
+    bool concernFiles() const { return quit || !saves.empty() || atEnd; }
+};
+
+// What is given up for a request, each with those before it.
+enum class Cancel {
+    Nothing,
+    Slice,        // of a film
+    FirstPicture, // of a film: other requests wait for it, as a camera in motion would never show anything
+    Build,        // of a scene, for good
+};
+
+class Mailbox {
+  public:
+    // On any thread.
+    void post(Cancel cancel, const std::function<void(Requests&)>& change);
+
+    // On the session's thread: what was asked for since the last time. Waits until there is something, if so wanted.
+    Requests take(bool wait);
+    // Whether take() would return a camera and nothing else.
+    bool moveCameraAlone() const;
+    // True from a request that cancels this until it is taken.
+    const std::atomic<bool>& cancelled(Cancel what) const { return cancelled_[static_cast<std::size_t>(what)]; }
+
+  private:
+    mutable std::mutex mutex_; // guards the requests
+    std::condition_variable wake_;
+    Requests requests_;
+    std::array<std::atomic<bool>, 4> cancelled_{};
+};
+
+} // namespace rt::app

@@ -1,0 +1,206 @@
+#include "Common/App/Interactive/PicturePublisher.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "Common/App/Interactive/Draft.h"
+#include "Common/App/Session/FilmEstimate.h"
+
+namespace rt::app {
+namespace {
+
+constexpr double kShowShare = 0.2;      // of the session's time, at most, goes into pictures
+constexpr double kPictureShare = 0.1;   // of a film's age passes between two pictures:
+constexpr double kLeastInterval = 0.04; // they cost the render a little, and differ the less the older it is
+constexpr double kMostInterval = 0.25;
+constexpr double kEarlySeconds = 2;       // after which a film's pictures have the number of samples that is asked for
+constexpr double kLongFrameSeconds = 0.5; // after which a frame is shown while it is being rendered
+// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a film, and soon only one a
+// second, when they differ less.
+constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
+constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
+constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
+constexpr double kRestSeconds = 0.3;     // after which a camera rests
+constexpr std::uint32_t kMostPreviewSide = 4096; // pixels that every device draws; larger images are enlarged
+
+// Seconds from one picture of a film of that age to the next, at least.
+double leastInterval(double age) {
+    return std::clamp(kPictureShare * age, kLeastInterval, kMostInterval);
+}
+
+bool showsFeatures(ViewMode mode) {
+    return aovsFor(mode).any() || mode == ViewMode::Heat;
+}
+
+void put(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
+    picture.image = {view, &view->image};
+    picture.legend = view->legend;
+    picture.isDisplay = true;
+}
+
+void put(Picture picture, SessionState& state) {
+    picture.serial = state.picture.serial + 1;
+    state.picture = std::move(picture);
+}
+
+} // namespace
+
+void PicturePublisher::awaitPicture(const std::optional<Stopwatch>& changed) {
+    if (!awaited_) awaited_ = changed;
+}
+
+void PicturePublisher::recordLatency() {
+    if (!awaited_) return;
+    const double seconds = awaited_->seconds();
+    awaited_.reset();
+    state_.update([seconds](SessionState& state) { state.slowestAnswer = std::max(state.slowestAnswer, seconds); });
+}
+
+bool PicturePublisher::setView(const ViewRequest& view) {
+    if (view == view_) return false;
+    view_ = view;
+    discardViews();
+    return true;
+}
+
+void PicturePublisher::discardViews() {
+    featureView_ = nullptr;
+    featureIsFull_ = false;
+}
+
+void PicturePublisher::begin() {
+    shownSamples_ = 0;
+    sinceBegin_ = {};
+}
+
+void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& film) {
+    draft_ = draft.engine().snapshot().radiance;
+    Picture picture;
+    picture.image = picture.radiance = std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
+    if (showsFeatures(view_.mode)) {
+        ViewImage view = featureView(draft.engine(), 1);
+        if (!view.image.data.empty()) {
+            view.image = enlarge(view.image, film.width, film.height);
+            featureView_ = std::make_shared<ViewImage>(std::move(view));
+            put(featureView_, picture);
+        }
+    }
+    state_.update([&](SessionState& state) { put(std::move(picture), state); });
+    recordLatency();
+}
+
+void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed) {
+    if (film.status().samplesDone == 0 && !hasDraft()) return;
+    const Stopwatch watch;
+    Engine& engine = film.engine();
+    const ViewPointer viewBefore = featureView_;
+    Snapshot snapshot = engine.snapshot();
+    auto radiance = std::make_shared<image::Image>(std::move(snapshot.radiance));
+    Picture picture;
+    picture.spp = snapshot.leastSamples();
+    if (picture.spp == 0 && hasDraft()) fillFromDraft(*radiance, snapshot.tileSamples, draft_);
+    if (picture.spp > 0) reference.follow(film, *radiance);
+    picture.image = picture.radiance = std::move(radiance);
+    if (const ViewPointer view = viewOf(film, picture, reference, speed)) put(view, picture);
+    if (view_.inspect) {
+        picture.samples = std::make_shared<image::Image>(engine.film().sampleCounts());
+        if (hasVariance(engine.film()))
+            picture.variance = std::make_shared<image::Image>(engine.film().varianceOfMean());
+    }
+    std::optional<double> relmse;
+    if (!reference.curve().empty())
+        relmse = reference.curve().back().relmse;
+    else if (film.status().finished)
+        relmse = estimate(engine.film()).relmse;
+    const EngineReport report = engine.report();
+    state_.update([&](SessionState& state) {
+        put(std::move(picture), state);
+        state.status = film.status();
+        state.renderSeconds = state.seconds.render = film.seconds();
+        state.report = report;
+        state.relmse = relmse;
+        state.curve = reference.curve();
+    });
+    recordLatency();
+    if (featureView_ == viewBefore) showSeconds_ = watch.seconds(); // a view that was made now does not come again
+    shownSamples_ = film.status().samplesDone;
+    sinceShown_ = {};
+}
+
+ViewImage PicturePublisher::featureView(Engine& engine, std::uint32_t spp) const {
+    if (view_.mode != ViewMode::Heat) return showFeatures(view_.mode, engine.renderAovs(aovsFor(view_.mode), spp));
+    const Cost cost = engine.knowsCost(view_.cost) ? view_.cost : Cost::Rays;
+    return showCost(cost, engine.renderCost(cost, spp), view_.scale);
+}
+
+// None where it is the radiance that is to be shown.
+PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, const Picture& picture,
+                                                       const FilmReference& reference, const RenderSpeed& speed) {
+    if (showsFeatures(view_.mode)) {
+        // In full resolution once the camera rests.
+        if (featureView_ && (featureIsFull_ || sinceBegin_.seconds() < kRestSeconds)) return featureView_;
+        const std::uint32_t spp = speed.sppIn(kFeatureSeconds, film.settings(), view_.mode == ViewMode::Heat ? 16 : 8);
+        ViewImage view = featureView(film.engine(), spp);
+        if (view.image.data.empty()) return nullptr;
+        featureIsFull_ = true;
+        return featureView_ = std::make_shared<ViewImage>(std::move(view));
+    }
+    if (view_.mode == ViewMode::Noise && hasVariance(film.engine().film()))
+        return std::make_shared<ViewImage>(showNoise(film.engine().film(), view_.scale));
+    if (view_.mode == ViewMode::Error && reference.fits() && picture.spp > 0)
+        return std::make_shared<ViewImage>(showError(*picture.radiance, reference.image(), view_.scale));
+    return nullptr;
+}
+
+// Seconds from one picture of a film to the next, at most.
+double PicturePublisher::interval(const RenderRequest& request) const {
+    if (!request.accumulate) return kLongFrameSeconds;
+    const double age = sinceBegin_.seconds();
+    if (drawnBySoftware_ && shownSamples_ > 0) // the first picture does not wait
+        return std::clamp(kSoftShare * age, kLeastSoftInterval, kMostSoftInterval);
+    if (request.samplesPerFrame > 0 && age >= kEarlySeconds) return kLongFrameSeconds;
+    return leastInterval(age);
+}
+
+double PicturePublisher::secondsUntilDue(const RenderRequest& request) const {
+    return std::max(interval(request) - sinceShown_.seconds(), kLeastSlice);
+}
+
+bool PicturePublisher::isDue(const FilmRun& film, const RenderRequest& request) const {
+    const double seconds = sinceShown_.seconds();
+    if (seconds <= showSeconds_ / kShowShare) return false;
+    if (seconds > interval(request)) return true;
+    if (!request.accumulate || drawnBySoftware_) return false;
+    return seconds > leastInterval(sinceBegin_.seconds()) &&
+           film.status().samplesDone - shownSamples_ >= request.samplesPerFrame * film.pixels();
+}
+
+void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size) {
+    const double scale = std::min(1.0, static_cast<double>(kMostPreviewSide) / std::max(size.width, size.height));
+    const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
+    preview_ = engine.renderPreview(camera, scaled(size.width), scaled(size.height));
+    if (scale < 1) {
+        preview_.picture = enlarge(preview_.picture, size.width, size.height);
+        preview_.depth = enlarge(preview_.depth, size.width, size.height);
+    }
+    Picture picture;
+    picture.image = picture.radiance = std::make_shared<image::Image>(preview_.picture);
+    picture.isPreview = true;
+    const EngineReport report = engine.report();
+    state_.update([&](SessionState& state) {
+        put(std::move(picture), state);
+        state.report = report;
+    });
+    recordLatency();
+}
+
+std::optional<double> focusDistance(const image::Image& depth, std::uint32_t x, std::uint32_t y, double verticalFov) {
+    if (x >= depth.width || y >= depth.height || !(*depth.pixel(x, y) > 0)) return std::nullopt;
+    const double half = std::tan(0.5 * verticalFov * 0.017453292519943295);
+    const double up = half * ((y + 0.5) / depth.height * 2 - 1);
+    const double right = half * ((x + 0.5) / depth.width * 2 - 1) * depth.width / depth.height;
+    return *depth.pixel(x, y) / std::sqrt(1 + up * up + right * right);
+}
+
+} // namespace rt::app

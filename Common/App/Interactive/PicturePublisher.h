@@ -1,0 +1,67 @@
+// What a window gets to see of films, drafts and previews: which picture, and when.
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "Common/App/Interactive/FilmPlan.h"
+#include "Common/App/Interactive/FilmReference.h"
+#include "Common/App/Interactive/PublishedState.h"
+#include "Common/App/Session/FilmRun.h"
+
+namespace rt::app {
+
+class PicturePublisher {
+  public:
+    PicturePublisher(PublishedState& state, bool drawnBySoftware) : state_(state), drawnBySoftware_(drawnBySoftware) {}
+
+    // The latency is that from the first change that nothing is shown of to the first picture of it.
+    void awaitPicture(const std::optional<Stopwatch>& changed);
+    bool isAwaited() const { return awaited_.has_value(); }
+    void forgetLatency() { awaited_.reset(); } // of what shows nothing new, or has told that something is being built
+
+    bool setView(const ViewRequest& view); // false: it is as it was
+
+    // A film's beginning: its drafts, if any, then begin(), then its pictures.
+    void discardViews(); // views of the film before: features and cost
+    void discardDraft() { draft_ = {}; }
+    bool hasDraft() const { return !draft_.data.empty(); }
+    void showDraft(const FilmRun& draft, const RenderSettings& film); // enlarged to the film's size
+    void begin();
+
+    // The film so far, where it has no samples yet as the draft; without any, what was shown before stays.
+    void show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed);
+    bool isDue(const FilmRun& film, const RenderRequest& request) const;
+    double secondsUntilDue(const RenderRequest& request) const; // at most; no less than a slice should take
+
+    void showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size);
+    const Preview& preview() const { return preview_; } // shown last; no pixels: none
+    void discardPreview() { preview_ = {}; }
+
+  private:
+    using ViewPointer = std::shared_ptr<const ViewImage>;
+
+    double interval(const RenderRequest& request) const;
+    ViewImage featureView(Engine& engine, std::uint32_t spp) const;
+    ViewPointer viewOf(const FilmRun& film, const Picture& picture, const FilmReference& reference,
+                       const RenderSpeed& speed);
+    void recordLatency();
+
+    PublishedState& state_;
+    bool drawnBySoftware_;
+    std::optional<Stopwatch> awaited_;
+    ViewRequest view_;
+    ViewPointer featureView_;    // of the film, for modes that samples do not change
+    bool featureIsFull_ = false; // in the film's resolution
+    image::Image draft_;
+    Preview preview_;
+    Stopwatch sinceBegin_;
+    Stopwatch sinceShown_;
+    double showSeconds_ = 0;         // that the last picture took
+    std::uint64_t shownSamples_ = 0; // of the film, in the last picture
+};
+
+// Of the plane through what a preview or the first hits show in a pixel, from their depth; none for the sky.
+std::optional<double> focusDistance(const image::Image& depth, std::uint32_t x, std::uint32_t y, double verticalFov);
+
+} // namespace rt::app

@@ -1,0 +1,59 @@
+#include "Common/App/Interactive/PublishedState.h"
+
+#include "Common/Core/Log.h"
+
+namespace rt::app {
+
+SessionState PublishedState::copy() const {
+    const std::scoped_lock lock(mutex_);
+    SessionState copy = state_;
+    copy.stageSeconds = stageWatch_.seconds();
+    return copy;
+}
+
+void PublishedState::update(const std::function<void(SessionState&)>& change) {
+    {
+        const std::scoped_lock lock(mutex_);
+        change(state_);
+    }
+    if (onChange_) onChange_();
+}
+
+void PublishedState::setStage(const std::string& stage) {
+    update([&](SessionState& state) {
+        state.stage = stage;
+        stageWatch_ = {};
+    });
+}
+
+void PublishedState::fail(const std::exception_ptr& failure, bool fatal) try {
+    std::rethrow_exception(failure);
+} catch (const std::exception& error) {
+    logWarning(error.what());
+    update([&](SessionState& state) {
+        state.error = error.what();
+        ++state.errorSerial;
+        if (fatal) state.fatal = failure;
+    });
+}
+
+void PublishedState::say(const std::string& message) {
+    update([&](SessionState& state) {
+        state.message = message;
+        ++state.messageSerial;
+    });
+}
+
+void PublishedState::tell(const WindowFigures& figures) {
+    const std::scoped_lock lock(mutex_);
+    window_ = figures;
+}
+
+WindowFigures PublishedState::windowFigures() const {
+    const std::scoped_lock lock(mutex_);
+    WindowFigures figures = window_;
+    figures.slowestAnswer = state_.slowestAnswer;
+    return figures;
+}
+
+} // namespace rt::app

@@ -1,0 +1,131 @@
+#include "Common/App/Interactive/SessionFilm.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace rt::app {
+namespace {
+
+constexpr double kMostFirstSeconds = 0.25; // of a draft or first pass when the next change waits already
+constexpr double kPassSlice = 0.005;       // where the picture is shown as soon as it has its first samples
+
+} // namespace
+
+SessionFilm::SessionFilm(const SessionSetup& setup, const Mailbox& mailbox, PublishedState& state)
+    : publisher(state, setup.drawnBySoftware), setup_(setup), mailbox_(mailbox), state_(state) {}
+
+void SessionFilm::change() {
+    isStale_ = true;
+    round_ = 0;
+    reference.giveUp();
+}
+
+void SessionFilm::discard() {
+    isStale_ = true;
+    run_.reset();
+}
+
+void SessionFilm::beginNext() {
+    isStale_ = true;
+    ++round_;
+}
+
+bool SessionFilm::hasFirstSamples() const {
+    return !isStale_ && run_->status().samplesDone >= firstPass(run_->settings());
+}
+
+void SessionFilm::beginPostponed(const FilmSubject& subject) {
+    if (postponed_) begin(subject, *postponed_);
+}
+
+std::optional<StopReason> SessionFilm::slice(const FilmSubject& subject) {
+    if (isStale_) start(subject);
+    if (isStale_) return std::nullopt; // postponed
+    const double seconds = run_->seconds();
+    const std::uint64_t samples = run_->status().samplesDone;
+    const double slice = std::min(setup_.sliceSeconds, publisher.secondsUntilDue(subject.request));
+    const auto ended = run_->slice(slice, mailbox_.cancelled(Cancel::Slice));
+    if (ended == StopReason::Interrupted) return std::nullopt; // somebody wants something
+    if (run_->seconds() - seconds > 0.5 * slice)
+        speed_.learn(run_->status().samplesDone - samples, run_->seconds() - seconds, 0.1);
+    if (ended && !subject.request.accumulate) // slices of a short frame say too little
+        speed_.learn(run_->status().samplesDone, run_->seconds());
+    return ended;
+}
+
+void SessionFilm::show() {
+    if (!isStale_) publisher.show(*run_, reference, speed_);
+}
+
+void SessionFilm::showIfDue(const RenderRequest& request) {
+    if (!isStale_ && publisher.isDue(*run_, request)) show();
+}
+
+void SessionFilm::start(const FilmSubject& subject) {
+    RenderSettings settings =
+        filmSettings(subject.request, subject.scene, round_, setup_.options.wants(Aov::Variance), speed_);
+    if (const auto spp = reference.renderedSpp()) settings = referenceSettings(settings, *spp);
+
+    // Kernels may have to be compiled, a large film takes a while to be had.
+    const auto before = run_ ? run_->settings() : postponed_;
+    const bool isAnotherSize = before && (settings.width != before->width || settings.height != before->height);
+    if (!before || isAnotherSize) state_.setStage("Preparing " + subject.scene.title);
+    if (!before) publisher.forgetLatency();
+    publisher.discardViews();
+    if (round_ == 0) renderDraft(subject, settings);
+    if (publisher.hasDraft() && mailbox_.moveCameraAlone()) {
+        state_.setStage("");
+        postponed_ = settings;
+        return;
+    }
+    begin(subject, settings);
+    if (publisher.hasDraft() || !publisher.isAwaited()) return;
+    renderFirst(*run_, kPassSlice, kMostFirstSeconds);
+    show();
+}
+
+// Something to look at at once, where the first samples of the whole image would take longer.
+void SessionFilm::renderDraft(const FilmSubject& subject, const RenderSettings& settings) {
+    publisher.discardDraft();
+    const auto small = draftSettings(settings, speed_);
+    if (!small) return;
+    run_.reset();
+    FilmRun draft(subject.engine, subject.camera, *small);
+    renderFirst(draft, setup_.sliceSeconds, std::numeric_limits<double>::infinity());
+    if (draft.status().finished) publisher.showDraft(draft, settings);
+}
+
+// The first samples of all pixels, or what of them `patience` suffices for, in seconds. The next change does not interrupt
+// them soon: a camera in motion would never show anything.
+void SessionFilm::renderFirst(FilmRun& run, double sliceSeconds, double patience) {
+    const auto isTimeLeft = [&] {
+        return run.seconds() < (mailbox_.cancelled(Cancel::Slice) ? kMostFirstSeconds : patience);
+    };
+    const std::uint64_t wanted = firstPass(run.settings());
+    while (!run.slice(sliceSeconds, mailbox_.cancelled(Cancel::FirstPicture)) && isTimeLeft())
+        if (run.status().samplesDone >= wanted) break;
+    if (run.status().samplesDone > 0) speed_.learn(run.status().samplesDone, run.seconds());
+}
+
+void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
+    postponed_.reset();
+    run_.emplace(subject.engine, subject.camera, settings);
+    run_->limit({.seconds = subject.request.timeLimit});
+    isStale_ = false;
+    publisher.begin();
+    reference.begin(subject.scene.hash, subject.camera, settings);
+    const EngineReport report = subject.engine.report();
+    state_.update([&](SessionState& state) {
+        state.stage.clear();
+        state.settings = settings;
+        state.status = run_->status();
+        state.renderSeconds = 0;
+        state.report = report;
+        state.isReferenceRender = reference.renderedSpp().has_value();
+        state.referenceFits = reference.fits();
+        state.relmse.reset();
+        state.curve.clear();
+    });
+}
+
+} // namespace rt::app

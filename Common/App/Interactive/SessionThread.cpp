@@ -1,0 +1,319 @@
+#include "Common/App/Interactive/SessionThread.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "Common/App/Interactive/FilmFiles.h"
+#include "Common/App/Platform.h"
+#include "Common/App/Session/Reference.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+
+namespace rt::app {
+
+SessionThread::SessionThread(const SessionSetup& setup, Mailbox& mailbox, PublishedState& state, SceneLoader& loader)
+    : setup_(setup),
+      mailbox_(mailbox),
+      state_(state),
+      loader_(loader),
+      request_(setup.request),
+      film_(setup, mailbox, state),
+      previewIsWanted_(setup.preview),
+      atEnd_(setup.atEnd) {}
+
+std::vector<std::string> SessionThread::run() {
+    lowerThreadPriority();
+    while (true) {
+        Requests requests = mailbox_.take(!hasWork());
+        if (requests.atEnd) atEnd_ = requests.atEnd;
+        if (requests.quit) break;
+        try {
+            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last one.
+            if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
+            apply(std::move(requests));
+            if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
+        } catch (...) {
+            state_.fail(std::current_exception());
+            state_.setStage("");
+            setActivity(Activity::Failed);
+            film_.beginAnew(); // but is kept until another engine takes over
+        }
+    }
+    for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
+    writeEnd(activity_ == Activity::Failed ? StopReason::Failure : StopReason::Interrupted);
+    return endFailures_;
+}
+
+// ---- what was asked for ----------------------------------------------------------------------------------------------
+
+void SessionThread::apply(Requests requests) {
+    film_.publisher.awaitPicture(requests.changed);
+    // A device that was lost does not come back to the engine that used it.
+    const bool needEngine = requests.needEngine();
+    const bool isBroken = !engine_ || (activity_ == Activity::Failed && needEngine);
+    if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
+    if (requests.request) {
+        const bool isAnother = needsAnotherFilm(request_, *requests.request);
+        request_ = *requests.request;
+        isAnother ? film_.change() : requests.request.reset();
+    }
+    if (requests.scene) adopt(std::move(*requests.scene));
+    if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
+        camera_ = requests.camera->second;
+        film_.change();
+    }
+    if (requests.changeWhatIsSeen()) previewIsStale_ = true;
+    if (requests.preview) switchPreview(*requests.preview);
+    std::move(requests.saves.begin(), requests.saves.end(), std::back_inserter(waiting_));
+    if (requests.referenceFile) readReferenceFile(*requests.referenceFile);
+    if (requests.referenceSpp) startReference(*requests.referenceSpp);
+    if (requests.focus) findFocus((*requests.focus)[0], (*requests.focus)[1]);
+    if (requests.view && film_.publisher.setView(*requests.view)) showFilm();
+    if (requests.command && !isPreviewing()) obey(*requests.command);
+    // There may be nothing new to see.
+    if (!film_.isStale() || activity_ == Activity::Stopped) film_.publisher.forgetLatency();
+    // What was changed is looked at, unless the user has stopped rendering.
+    if (film_.isStale() && needEngine && activity_ != Activity::Stopped && !isActive())
+        setActivity(Activity::Rendering);
+    writeWaiting();
+}
+
+// An engine that cannot be had leaves the one before at work.
+void SessionThread::makeEngine(const EngineChoice& choice) {
+    state_.setStage("Starting the engine");
+    film_.publisher.forgetLatency();
+    try {
+        std::unique_ptr<Engine> engine = setup_.makeEngine(choice);
+        if (loaded_.scene && !engine->setScene(loaded_.scene, &mailbox_.cancelled(Cancel::Build))) return;
+        // Compiles what a film like the present one needs.
+        if (const auto& film = film_.run()) engine->reset(film->camera(), film->settings());
+        film_.discard();
+        engine_ = std::move(engine);
+        choice_ = choice;
+        state_.update([&](SessionState& state) {
+            state.engine = choice;
+            state.canShowCost = engine_->knowsCost(Cost::Rays);
+            state.canShowTime = engine_->knowsCost(Cost::Time);
+            state.canPreview = engine_->canPreview();
+        });
+    } catch (...) {
+        state_.fail(std::current_exception(), !engine_);
+        state_.update([](SessionState& state) { ++state.engineFailures; });
+    }
+    state_.setStage("");
+}
+
+// A scene that cannot be had leaves the one before in place.
+void SessionThread::adopt(LoadedScene loaded) {
+    const auto failScene = [&](const std::exception_ptr& failure, bool fatal) {
+        state_.setStage("");
+        state_.update([&](SessionState& state) {
+            state.failedSource = loaded.request.source;
+            ++state.sceneFailures;
+        });
+        state_.fail(failure, fatal);
+    };
+    if (loaded.failure) {
+        const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
+        failScene(loaded.failure, !loaded_.scene && !canFallBack);
+        if (loaded_.scene || !canFallBack) return;
+        state_.setStage("Loading " + setup_.fallbackScene);
+        return loader_.open(setup_.fallbackScene);
+    }
+    if (!engine_) return;
+    const scene::CompiledScene& scene = *loaded.scene;
+    state_.setStage("Building " + scene.title);
+    film_.publisher.forgetLatency();
+    try {
+        if (!engine_->setScene(loaded.scene, &mailbox_.cancelled(Cancel::Build))) return;
+    } catch (...) {
+        return failScene(std::current_exception(), !loaded_.scene);
+    }
+    if (!loaded_.scene || scene.id != loaded_.scene->id || scene.camera != loaded_.scene->camera) {
+        camera_ = scene.camera;
+        ++sceneSerial_;
+        if (activity_ == Activity::Stopped) setActivity(Activity::Rendering);
+    }
+    loaded_ = std::move(loaded);
+    film_.discard();
+    film_.change();
+    for (const std::string& notice : scene.notices) logInfo(scene.id + ": " + notice);
+    state_.update([&](SessionState& state) {
+        state.stage.clear();
+        state.scene = loaded_.scene;
+        state.source = loaded_.request.source;
+        state.seconds.load = loaded_.seconds;
+        ++state.sceneLoads;
+        state.sceneSerial = sceneSerial_;
+    });
+}
+
+void SessionThread::obey(Requests::Command command) {
+    using Command = Requests::Command;
+    const bool isEnded = activity_ == Activity::Finished || activity_ == Activity::Stopped;
+    if (command == Command::Pause) {
+        if (!isActive()) return;
+        film_.show();
+        return setActivity(Activity::Paused);
+    }
+    if (command == Command::Stop && !film_.reference.renderedSpp()) {
+        if (isActive() || activity_ == Activity::Paused) finish(StopReason::Interrupted);
+        return;
+    }
+    if (command == Command::Stop) film_.reference.giveUp(); // the picture before comes back
+    if (command != Command::Render || isEnded) film_.beginAnew();
+    setActivity(Activity::Rendering);
+}
+
+void SessionThread::switchPreview(bool on) {
+    if (std::exchange(previewIsWanted_, on) == on || on || !isReady()) return;
+    film_.publisher.discardPreview();
+    film_.isStale() ? setActivity(Activity::Rendering) : film_.show();
+}
+
+void SessionThread::startReference(std::uint32_t spp) {
+    if (isPreviewing())
+        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")));
+    film_.reference.render(spp);
+    film_.beginAnew();
+    setActivity(Activity::Rendering);
+}
+
+void SessionThread::readReferenceFile(const std::string& file) {
+    try {
+        if (film_.isStale()) throw InputError(file + ": nothing to compare with yet");
+        setReference(readReference(file, film_.run()->settings().width, film_.run()->settings().height), file);
+        showFilm();
+    } catch (...) {
+        state_.fail(std::current_exception());
+    }
+}
+
+void SessionThread::setReference(image::Image image, const std::string& name) {
+    film_.reference.set(std::move(image));
+    state_.update([&](SessionState& state) {
+        state.reference = name;
+        state.referenceFits = film_.reference.fits();
+    });
+}
+
+void SessionThread::findFocus(std::uint32_t x, std::uint32_t y) {
+    if (!isPreviewing() && film_.isStale()) return;
+    AovRequest request;
+    request.depth = true;
+    const image::Image depth = isPreviewing() ? film_.publisher.preview().depth : engine_->renderAovs(request, 1).depth;
+    const auto distance = focusDistance(depth, x, y, camera_.verticalFov);
+    if (!distance) return;
+    state_.update([&](SessionState& state) {
+        state.focusDistance = *distance;
+        ++state.focusSerial;
+    });
+}
+
+void SessionThread::setActivity(Activity activity) {
+    activity_ = activity;
+    state_.update([activity](SessionState& state) { state.activity = activity; });
+}
+
+void SessionThread::renderSlice() {
+    const auto ended = film_.slice(subject());
+    writeWaiting();
+    ended ? finish(*ended) : film_.showIfDue(request_);
+}
+
+void SessionThread::showFilm() {
+    if (!isPreviewing()) film_.show();
+}
+
+void SessionThread::renderPreview() {
+    previewIsStale_ = false;
+    state_.setStage("Drawing the preview of " + loaded_.scene->title);
+    const RenderSettings settings = sizedSettings(request_, *loaded_.scene);
+    if (film_.isStale()) {
+        state_.update([&](SessionState& state) {
+            state.settings = settings;
+            state.status = {};
+        });
+    }
+    film_.publisher.showPreview(*engine_, camera_, settings);
+    state_.update([](SessionState& state) { state.stage.clear(); });
+    writeWaiting();
+}
+
+// The film becomes the reference, or a run of the history.
+void SessionThread::finish(StopReason reason) {
+    if (!film_.hasSamples()) return setActivity(Activity::Stopped);
+    film_.show();
+    const std::uint64_t spp = engine_->film().minSamples();
+    if (film_.reference.renderedSpp()) {
+        setReference(engine_->film().resolve(), "rendered, " + std::to_string(spp) + " spp");
+        film_.reference.giveUp();
+        film_.beginAnew();
+        return;
+    }
+    const bool recorded = spp > 0 && record();
+    const EngineReport report = engine_->report();
+    state_.update([&](SessionState& state) {
+        state.lastRun = LastRun{
+            {loaded_.seconds, film_.run()->seconds(), 0}, report.accelBuildSeconds, report.pipelineSeconds, spp};
+        if (recorded) ++state.historySerial;
+    });
+    writeEnd(reason);
+    if (reason != StopReason::Interrupted && (request_.loop || !request_.accumulate)) {
+        film_.beginNext();
+    } else {
+        setActivity(reason == StopReason::Interrupted ? Activity::Stopped : Activity::Finished);
+    }
+}
+
+bool SessionThread::record() {
+    if (setup_.history == nullptr || !request_.accumulate) return false;
+    try {
+        setup_.history->append(makeRecord(setup_.options.program, loaded_, *film_.run(), film_.reference));
+        return true;
+    } catch (...) {
+        state_.fail(std::current_exception()); // the render itself is well
+        return false;
+    }
+}
+
+// ---- files -----------------------------------------------------------------------------------------------------------
+
+void SessionThread::writeWaiting() {
+    const bool isComing = !isReady()       ? activity_ != Activity::Failed
+                          : isPreviewing() ? previewIsStale_
+                                           : isActive() && !film_.hasFirstSamples();
+    if (isComing) return;
+    for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
+}
+
+void SessionThread::write(const SaveRequest& request) {
+    if (isPreviewing()) return writePreview(request, film_.publisher.preview(), state_);
+    if (!film_.hasSamples()) {
+        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")));
+        return;
+    }
+    for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
+        state_.fail(std::make_exception_ptr(RenderError(failure)));
+}
+
+// Of the film; returns what cannot be written, one line each.
+std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, StopReason reason) {
+    Options options = setup_.options;
+    options.oneSidedLights = request_.oneSidedLights;
+    options.timeLimit = request_.timeLimit;
+    options.policy = choice_.policy;
+    return writeFilm(request, options, loaded_, *film_.run(), film_.reference, reason, state_);
+}
+
+// What the program was started to write, once: when the first render ends, or when the window closes before that.
+void SessionThread::writeEnd(StopReason reason) {
+    if (!atEnd_ || endIsWritten_) return;
+    endIsWritten_ = true;
+    endFailures_ = film_.hasSamples() ? writeFiles(*atEnd_, reason)
+                                      : std::vector<std::string>{"nothing was rendered that could be written"};
+    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
+}
+
+} // namespace rt::app

@@ -1,0 +1,75 @@
+// The thread of a window's session: it alone has the engine, and strings together what was asked for, the film, its pictures,
+// its reference and its files.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/Mailbox.h"
+#include "Common/App/Interactive/PublishedState.h"
+#include "Common/App/Interactive/SessionFilm.h"
+
+namespace rt::app {
+
+class SessionThread {
+  public:
+    SessionThread(const SessionSetup& setup, Mailbox& mailbox, PublishedState& state, SceneLoader& loader);
+
+    // Until it is asked to quit. Returns what of the end's files could not be written, one line each.
+    std::vector<std::string> run();
+
+  private:
+    // What was asked for.
+    void apply(Requests requests);
+    void makeEngine(const EngineChoice& choice);
+    void adopt(LoadedScene loaded);
+    void obey(Requests::Command command);
+    void switchPreview(bool on);
+    void startReference(std::uint32_t spp);
+    void readReferenceFile(const std::string& file);
+    void setReference(image::Image image, const std::string& name);
+    void findFocus(std::uint32_t x, std::uint32_t y);
+    void setActivity(Activity activity);
+
+    bool isReady() const { return engine_ && loaded_.scene; }
+    bool isActive() const { return activity_ == Activity::Rendering; }
+    bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
+    bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive()); }
+
+    FilmSubject subject() const { return {*engine_, *loaded_.scene, camera_, request_}; } // requires isReady()
+    void renderSlice();
+    void showFilm();
+    void renderPreview();
+    void finish(StopReason reason);
+    bool record();
+
+    // Files.
+    void writeWaiting();
+    void write(const SaveRequest& request);
+    std::vector<std::string> writeFiles(const SaveRequest& request, StopReason reason);
+    void writeEnd(StopReason reason);
+
+    const SessionSetup& setup_;
+    Mailbox& mailbox_;
+    PublishedState& state_;
+    SceneLoader& loader_;
+
+    EngineChoice choice_;
+    std::unique_ptr<Engine> engine_;
+    LoadedScene loaded_; // the engine's scene
+    std::uint64_t sceneSerial_ = 0;
+    scene::CameraDesc camera_;
+    RenderRequest request_;
+    Activity activity_ = Activity::Preparing;
+
+    SessionFilm film_;
+    bool previewIsWanted_, previewIsStale_ = true;
+
+    std::vector<SaveRequest> waiting_; // to be written
+    std::optional<SaveRequest> atEnd_; // of the first render
+    bool endIsWritten_ = false;
+    std::vector<std::string> endFailures_;
+};
+
+} // namespace rt::app

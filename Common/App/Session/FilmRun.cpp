@@ -1,0 +1,84 @@
+#include "Common/App/Session/FilmRun.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Error.h"
+
+namespace rt::app {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kCheckGrowth = 1.1; // samples between two looks at the error
+
+} // namespace
+
+FilmRun::FilmRun(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& settings, image::Film kept)
+    : engine_(&engine), camera_(camera), settings_(settings), samplesRestored_(kept.totalSamples()) {
+    engine.reset(camera, settings);
+    if (samplesRestored_ > 0) engine.restore(std::move(kept));
+    status_.samplesDone = samplesRestored_;
+    status_.samplesTotal = pixels() * settings.spp;
+    limit({});
+}
+
+void FilmRun::limit(RunLimits limits) {
+    limits_ = std::move(limits);
+    limit_ = elapsed_ + limits_.seconds.value_or(kNever);
+    nextSave_ = elapsed_ + limits_.saveEvery.value_or(kNever);
+    nextCheck_ = 0;
+}
+
+std::optional<StopReason> FilmRun::slice(double seconds, const std::atomic<bool>& cancel) {
+    const Stopwatch watch;
+    const double before = elapsed_;
+    status_ = engine_->renderSome({std::chrono::duration<double>(std::clamp(limit_ - before, 0.0, seconds)), &cancel});
+    seconds_ += watch.seconds();
+    elapsed_ = before + watch.seconds();
+
+    if (status_.finished) return StopReason::Spp;
+    if (cancel) return StopReason::Interrupted;
+    if (elapsed_ >= limit_) return StopReason::TimeLimit;
+    const bool isGoodEnough = reachesTargetError();
+    elapsed_ = before + watch.seconds();
+    if (isGoodEnough) return StopReason::TargetError;
+    if (elapsed_ >= nextSave_) {
+        limits_.save();
+        elapsed_ = before + watch.seconds();
+        nextSave_ = elapsed_ + *limits_.saveEvery;
+    }
+    return std::nullopt;
+}
+
+// Looks only when there are 10 % more samples than the last time, so that looking costs little and chance gets few
+// opportunities.
+bool FilmRun::reachesTargetError() {
+    if (!limits_.targetError || static_cast<double>(status_.samplesDone) < nextCheck_) return false;
+    nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
+    const auto relmse = estimate(engine_->film()).relmse;
+    return relmse && *relmse < *limits_.targetError;
+}
+
+StopReason FilmRun::untilStopped(const std::atomic<bool>& cancel) {
+    std::optional<StopReason> reason;
+    while (!reason) reason = slice(kSliceSeconds, cancel);
+    return *reason;
+}
+
+ProgressState FilmRun::progress() const {
+    return {status_.samplesDone, status_.samplesTotal, samplesRestored_, pixels(), elapsed_, limits_.seconds};
+}
+
+const image::Film& FilmRun::keptFilm(std::string& lost) const {
+    try {
+        return engine_->film();
+    } catch (const RenderError& error) {
+        lost = error.what();
+        return engine_->film();
+    }
+}
+
+} // namespace rt::app

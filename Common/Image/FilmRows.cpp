@@ -1,0 +1,119 @@
+#include "Common/Image/FilmRows.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+namespace rt::image {
+
+namespace {
+
+using Pixels = std::span<float>;
+
+// Calls visit(tile, index in the tile of the first of these pixels, their values) for every tile that the row crosses.
+template <class Visit>
+void forEachTile(const Film& film, std::uint32_t y, Pixels row, Visit visit) {
+    const std::uint32_t width = film.desc().width;
+    const std::size_t channels = row.size() / width;
+    const std::uint32_t firstTile = y / Film::kTile * film.tilesX();
+    const std::size_t firstPixel = std::size_t{y % Film::kTile} * Film::kTile;
+    for (std::uint32_t x = 0; x < width; x += Film::kTile) {
+        const std::size_t count = std::min(Film::kTile, width - x);
+        visit(firstTile + x / Film::kTile, firstPixel, row.subspan(x * channels, count * channels));
+    }
+}
+
+// A value's sum over the samples of the open block; 0 when there is none.
+double openSum(const Film::TileState& state, std::size_t value) {
+    return state.open.empty() ? 0.0 : double{state.open[value]};
+}
+
+// Groups g of n_g samples with sum s_g, N samples in all; the groups' means m_g are independent, of variance sigma^2 /
+// n_g. The estimate of the variance of the overall mean m is sum n_g (m_g - m)^2 / (groups - 1) / N.
+struct Groups {
+    double count = 0;        // of groups
+    double sumOfSquares = 0; // sum s_g^2 / n_g = sum n_g m_g^2
+    double sum = 0;          // of all samples
+    double samples = 0;      // N
+
+    double varianceOfMean() const {
+        if (count < 2) return 0;
+        const double spread = sumOfSquares - sum * sum / samples;
+        return std::max(spread, 0.0) / (count - 1) / samples;
+    }
+};
+
+// Each replicate is a group.
+void addReplicate(Groups& groups, const Film::TileState& state, std::size_t value) {
+    if (state.samples == 0) return;
+    const double samples = state.samples;
+    const double sum = state.sums[value] + openSum(state, value);
+    groups.count += 1;
+    groups.sumOfSquares += sum * sum / samples;
+    groups.sum += sum;
+    groups.samples += samples;
+}
+
+// Of one replicate, each block is a group, the open one included.
+Groups blocksOf(const Film::TileState& state, std::size_t value) {
+    const double samples = state.samples;
+    const double inOpen = state.samples % Film::kBlock;
+    const double open = openSum(state, value);
+    return {(samples - inOpen) / Film::kBlock + (inOpen > 0 ? 1 : 0),
+            state.squares[value] + (inOpen > 0 ? open * open / inOpen : 0), state.sums[value] + open, samples};
+}
+
+} // namespace
+
+ImageRows meanRows(const Film& film) {
+    const auto readRow = [&film](std::uint32_t y, Pixels row) {
+        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+            double sums[Film::kTile * 3] = {};
+            for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
+                const Film::TileState state = film.state(tile, r);
+                for (std::size_t i = 0; i < pixels.size(); ++i) {
+                    const std::size_t value = firstPixel * 3 + i;
+                    sums[i] += state.sums[value] + openSum(state, value);
+                }
+            }
+            const auto count = static_cast<double>(film.samples(tile));
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] = count > 0 ? static_cast<float>(sums[i] / count) : 0.0f;
+        });
+    };
+    return {film.desc().width, film.desc().height, 3, readRow};
+}
+
+ImageRows varianceRows(const Film& film) {
+    const std::uint32_t replicates = film.desc().replicates;
+    if (replicates < 2 && !film.desc().secondMoments)
+        throw std::logic_error("the variance needs second moments or two replicates");
+    const auto readRow = [&film, replicates](std::uint32_t y, Pixels row) {
+        forEachTile(film, y, row, [&film, replicates](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+            Groups groups[Film::kTile * 3];
+            for (std::uint32_t r = 0; r < replicates; ++r) {
+                const Film::TileState state = film.state(tile, r);
+                for (std::size_t i = 0; i < pixels.size(); ++i) {
+                    const std::size_t value = firstPixel * 3 + i;
+                    if (replicates > 1)
+                        addReplicate(groups[i], state, value);
+                    else
+                        groups[i] = blocksOf(state, value);
+                }
+            }
+            for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<float>(groups[i].varianceOfMean());
+        });
+    };
+    return {film.desc().width, film.desc().height, 3, readRow};
+}
+
+ImageRows sampleCountRows(const Film& film) {
+    const auto readRow = [&film](std::uint32_t y, Pixels row) {
+        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t, Pixels pixels) {
+            std::fill(pixels.begin(), pixels.end(), static_cast<float>(film.samples(tile)));
+        });
+    };
+    return {film.desc().width, film.desc().height, 1, readRow};
+}
+
+} // namespace rt::image

@@ -1,0 +1,42 @@
+// The arrays of a scene, each declared once. From these rows follow the compiled scene's members and its hash, the CPU's view,
+// the GPU's buffers and their addresses, and what fetches an element. A row:
+//     (type of an element, name, function that fetches, what errors call the array)
+// Functions of PLAIN rows return element i; those of OWN rows do more, and each engine defines them.
+#ifndef RT_SHARED_SCENE_ARRAYS_H
+#define RT_SHARED_SCENE_ARRAYS_H
+
+// What a scene consists of, and what its hash is made of. Arrays of what it does not use are empty.
+// clang-format off
+#define RT_SCENE_SOURCE_ARRAYS(PLAIN, OWN) \
+    PLAIN(Sphere, spheres, loadSphere, "spheres") \
+    OWN(vec3, sphereMotions, loadSphereMotion, "motion") /* displacement over the shutter; empty, or one a sphere */ \
+    PLAIN(Quad, quads, loadQuad, "quads") \
+    PLAIN(vec3, positions, loadPosition, "vertices") \
+    PLAIN(vec3, normals, loadNormal, "normals") /* unit; see Mesh */ \
+    PLAIN(vec2, uvs, loadUv, "texture coordinates") \
+    PLAIN(uvec3, triangles, loadTriangle, "triangles") /* into positions; along a space-filling curve per mesh */ \
+    PLAIN(Mesh, meshes, loadMesh, "meshes") \
+    PLAIN(Geometry, geometries, loadGeometry, "geometries") \
+    PLAIN(Instance, instances, loadInstance, "instances") \
+    PLAIN(Material, materials, loadMaterial, "materials") \
+    PLAIN(Texture, textures, loadTexture, "textures") \
+    PLAIN(Image, images, loadImage, "images") \
+    OWN(uint, texels, loadTexel, "texels") /* words of all images */ \
+    PLAIN(vec3, perlinGradients, loadPerlinGradient, "noise") /* kPerlinSize a table */ \
+    PLAIN(uint, perlinPermutations, loadPerlinPermutation, "noise") /* 3 kPerlinSize a table: x, y, z */ \
+    PLAIN(Medium, media, loadMedium, "media") \
+    PLAIN(Light, lights, loadLight, "lights") /* lights, then importance targets */ \
+    PLAIN(float, skyCdf, loadSkyCdf, "sky") /* sky image: of rows (height + 1), then of columns in each (width + 1) */
+
+// What follows from them.
+#define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
+    PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
+    PLAIN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
+    OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \
+    /* node * kLightNodeChildren + child, or kNone: of each of those lights, then of each node, in its parent */ \
+    PLAIN(uint, lightPlaces, loadLightPlace, "the light tree")
+// clang-format on
+
+#define RT_SCENE_ARRAYS(PLAIN, OWN) RT_SCENE_SOURCE_ARRAYS(PLAIN, OWN) RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN)
+
+#endif

@@ -1,0 +1,42 @@
+// The table of materials. Everything else follows from a row: scene files and their schema, the compiled scene, feature bits and
+// their names, what kernels and shaders sample, and the tests that hold for every material.
+//
+// SURFACE(Name, kind, feature bit, name in scene files, what it is, (parameters)) scatters. Its header defines
+//     bool isDelta<Name>(features, m)                                       whether every lobe of m is a delta
+//     BsdfSample sample<Name>(features, m, albedo, n, frontFace, wo, u, uLobe)
+//     vec4 eval<Name>(features, m, albedo, n, wo, wi)                       as evalBsdf; not called where isDelta<Name>
+// and BLACK(Name, kind, name, what it is, (parameters)) only emits; any material may emit as well as scatter.
+//
+// Parameters, see Common/Scene/MaterialTypes.h: at most one color(name, need, help), a constant or a texture, which is
+// Material::albedo; and at most kMaterialParameters of number(name, need, least, most, usual value, help), which are
+// Material::parameter in this order.
+#ifndef RT_SHARED_MATERIALS_H
+#define RT_SHARED_MATERIALS_H
+#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Material/Dielectric.h"
+#include "Common/Shared/Material/Lambertian.h"
+#include "Common/Shared/Material/Metal.h"
+
+// clang-format off
+#define RT_MATERIALS(SURFACE, BLACK) \
+    SURFACE(Lambertian, 0u, 5u, "lambertian", "Diffuse", (color("albedo", kRequired, ""))) \
+    SURFACE(Metal, 1u, 6u, "metal", "A mirror, blurred by fuzz", \
+            (color("albedo", kRequired, ""), number("fuzz", kOptional, 0, 1, 0, ""))) \
+    SURFACE(Dielectric, 2u, 7u, "dielectric", "Clear: albedo tints, ior is the index inside over that outside", \
+            (color("albedo", kOptional, ""), number("ior", kRequired, 1e-9, 1e9, 1.5, ""))) \
+    BLACK(Emitter, 3u, "emitter", "Emits and absorbs", ())
+// clang-format on
+
+RT_SHARED_BEGIN
+
+#define RT_SURFACE(Name, kind_, bit, name, help, parameters) \
+    const uint kMaterial##Name = kind_;                      \
+    const uint kFeature##Name = 1u << bit;
+#define RT_BLACK(Name, kind_, name, help, parameters) const uint kMaterial##Name = kind_;
+RT_MATERIALS(RT_SURFACE, RT_BLACK)
+#undef RT_SURFACE
+#undef RT_BLACK
+
+RT_SHARED_END
+
+#endif
