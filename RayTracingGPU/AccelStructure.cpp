@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 #include <utility>
 
-#include "Common/Vulkan/Check.h"
+#include "Common/Core/Error.h"
+#include "Common/Vulkan/StagingRing.h"
 
 namespace rt::gpu {
 namespace {
@@ -15,7 +15,8 @@ namespace {
 using shared::vec3;
 
 constexpr VkBufferUsageFlags kBuildInput = VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR;
-constexpr VkBuildAccelerationStructureFlagsKHR kFastTrace = VK_BUILD_ACCELERATION_STRUCTURE_PREFER_FAST_TRACE_BIT_KHR;
+constexpr VkDeviceSize kInstanceAlignment = 16; // of their address, which Vulkan prescribes
+constexpr std::uint32_t kQuadVertices = 6;
 constexpr std::uint32_t kMaxCustomIndex = (1u << 24) - 1; // of an instance
 
 VkAccelerationStructureGeometryKHR triangleGeometry(VkDeviceAddress vertices, std::uint32_t vertexCount,
@@ -35,11 +36,10 @@ VkAccelerationStructureGeometryKHR triangleGeometry(VkDeviceAddress vertices, st
 }
 
 // The two triangles of each quad; RayTracing.Quad.rchit knows their order.
-std::vector<vec3> quadVertices(const scene::CompiledScene& scene, const shared::Geometry& geometry) {
+std::vector<vec3> quadVertices(const scene::CompiledScene& scene) {
     std::vector<vec3> vertices;
-    vertices.reserve(std::size_t{geometry.quadCount} * 6);
-    for (std::uint32_t i = 0; i < geometry.quadCount; ++i) {
-        const shared::Quad& quad = scene.quads[geometry.firstQuad + i];
+    vertices.reserve(scene.quads.size() * kQuadVertices);
+    for (const shared::Quad& quad : scene.quads) {
         const vec3 u = quad.corner + quad.edgeU;
         const vec3 v = quad.corner + quad.edgeV;
         const vec3 opposite = quad.corner + quad.edgeU + quad.edgeV;
@@ -49,15 +49,15 @@ std::vector<vec3> quadVertices(const scene::CompiledScene& scene, const shared::
 }
 
 // Bounds of each sphere over the whole shutter, rounded outwards.
-std::vector<VkAabbPositionsKHR> sphereBoxes(const scene::CompiledScene& scene, const shared::Geometry& geometry) {
+std::vector<VkAabbPositionsKHR> sphereBoxes(const scene::CompiledScene& scene) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    std::vector<VkAabbPositionsKHR> boxes(geometry.sphereCount);
-    for (std::uint32_t i = 0; i < geometry.sphereCount; ++i) {
-        const shared::Sphere& sphere = scene.spheres[geometry.firstSphere + i];
+    std::vector<VkAabbPositionsKHR> boxes(scene.spheres.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const shared::Sphere& sphere = scene.spheres[i];
         vec3 low = sphere.center;
         vec3 high = sphere.center;
         if (!scene.sphereMotions.empty()) {
-            const vec3 end = sphere.center + scene.sphereMotions[geometry.firstSphere + i];
+            const vec3 end = sphere.center + scene.sphereMotions[i];
             low = glm::min(low, end);
             high = glm::max(high, end);
         }
@@ -70,6 +70,16 @@ std::vector<VkAabbPositionsKHR> sphereBoxes(const scene::CompiledScene& scene, c
         boxes[i] = {low.x, low.y, low.z, high.x, high.y, high.z};
     }
     return boxes;
+}
+
+VkAccelerationStructureGeometryKHR boxGeometry(VkDeviceAddress boxes) {
+    VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
+    geometry.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
+    geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
+    geometry.geometry.aabbs.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
+    geometry.geometry.aabbs.data.deviceAddress = boxes;
+    geometry.geometry.aabbs.stride = sizeof(VkAabbPositionsKHR);
+    return geometry;
 }
 
 VkTransformMatrixKHR identity() {
@@ -89,64 +99,66 @@ VkTransformMatrixKHR toMatrix(const shared::vec4 (&rows)[3]) {
 AccelStructure::AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene,
                                const shared::SceneArrays& arrays)
     : context_(context) {
-    for (std::uint32_t g = 0; g < scene.geometries.size(); ++g) {
-        const shared::Geometry& geometry = scene.geometries[g];
-        if (geometry.triangleCount + geometry.quadCount > 0) addSurfaces(scene, arrays, g);
-        if (geometry.sphereCount > 0) addSpheres(scene, g);
-    }
-    buildTopLevel(scene);
-}
-
-void AccelStructure::addSurfaces(const scene::CompiledScene& scene, const shared::SceneArrays& arrays,
-                                 std::uint32_t geometry) {
-    const shared::Geometry& g = scene.geometries[geometry];
-    BuildInput input;
-    if (g.triangleCount > 0) {
-        input.geometries.push_back(
-            triangleGeometry(arrays.positions, static_cast<std::uint32_t>(scene.positions.size()), arrays.triangles));
-        input.ranges.push_back(
-            {g.triangleCount, g.firstTriangle * static_cast<std::uint32_t>(sizeof(shared::uvec3)), 0, 0});
-    }
-    const std::vector<vec3> vertices = quadVertices(scene, g);
-    const vulkan::Buffer buffer = vulkan::deviceArray<vec3>(context_, vertices, "quads", kBuildInput);
-    if (g.quadCount > 0) {
-        input.geometries.push_back(triangleGeometry(buffer.address(), static_cast<std::uint32_t>(vertices.size()), 0));
-        input.ranges.push_back({2 * g.quadCount, 0, 0, 0});
-    }
-    const std::uint32_t record = g.triangleCount > 0 ? shared::kHitRecordTriangle : shared::kHitRecordQuad;
-    bottomLevels_.push_back({compact(build(input)), geometry, record});
-}
-
-void AccelStructure::addSpheres(const scene::CompiledScene& scene, std::uint32_t geometry) {
-    const std::vector<VkAabbPositionsKHR> boxes = sphereBoxes(scene, scene.geometries[geometry]);
-    const vulkan::Buffer buffer = vulkan::deviceArray<VkAabbPositionsKHR>(context_, boxes, "spheres", kBuildInput);
-    VkAccelerationStructureGeometryKHR aabbs{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
-    aabbs.geometryType = VK_GEOMETRY_TYPE_AABBS_KHR;
-    aabbs.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
-    aabbs.geometry.aabbs.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_AABBS_DATA_KHR;
-    aabbs.geometry.aabbs.data.deviceAddress = buffer.address();
-    aabbs.geometry.aabbs.stride = sizeof(VkAabbPositionsKHR);
-    BuildInput input;
-    input.geometries.push_back(aabbs);
-    input.ranges.push_back({static_cast<std::uint32_t>(boxes.size()), 0, 0, 0});
-    bottomLevels_.push_back({compact(build(input)), geometry, shared::kHitRecordSphere});
-}
-
-void AccelStructure::buildTopLevel(const scene::CompiledScene& scene) {
     if (scene.instances.size() >= kMaxCustomIndex) {
         throw RenderError(std::to_string(scene.instances.size()) + " instances are more than the " +
                           std::to_string(kMaxCustomIndex - 1) + " that a Vulkan scene can have");
     }
+    AccelBuilder builder(context);
+    buildBottomLevels(builder, scene, arrays);
+    buildTopLevel(builder, scene);
+    buildSeconds_ = builder.seconds();
+}
+
+void AccelStructure::buildBottomLevels(AccelBuilder& builder, const scene::CompiledScene& scene,
+                                       const shared::SceneArrays& arrays) {
+    const auto quads = vulkan::deviceArray<vec3>(context_, quadVertices(scene), "quads", kBuildInput);
+    const auto boxes = vulkan::deviceArray<VkAabbPositionsKHR>(context_, sphereBoxes(scene), "spheres", kBuildInput);
+    std::vector<AccelInput> inputs;
+    for (std::uint32_t i = 0; i < scene.geometries.size(); ++i) {
+        const shared::Geometry& g = scene.geometries[i];
+        AccelInput surfaces;
+        if (g.triangleCount > 0) {
+            surfaces.geometries.push_back(triangleGeometry(
+                arrays.positions, static_cast<std::uint32_t>(scene.positions.size()), arrays.triangles));
+            const std::uint32_t offset = g.firstTriangle * static_cast<std::uint32_t>(sizeof(shared::uvec3));
+            surfaces.ranges.push_back({g.triangleCount, offset, 0, 0});
+        }
+        if (g.quadCount > 0) {
+            const VkDeviceSize offset = VkDeviceSize{g.firstQuad} * kQuadVertices * sizeof(vec3);
+            surfaces.geometries.push_back(triangleGeometry(quads.address() + offset, g.quadCount * kQuadVertices, 0));
+            surfaces.ranges.push_back({2 * g.quadCount, 0, 0, 0});
+        }
+        if (!surfaces.geometries.empty()) {
+            bottomLevels_.push_back({i, g.triangleCount > 0 ? shared::kHitRecordTriangle : shared::kHitRecordQuad});
+            inputs.push_back(std::move(surfaces));
+        }
+        if (g.sphereCount > 0) {
+            bottomLevels_.push_back({i, shared::kHitRecordSphere});
+            const VkDeviceSize offset = VkDeviceSize{g.firstSphere} * sizeof(VkAabbPositionsKHR);
+            inputs.push_back({{boxGeometry(boxes.address() + offset)}, {{g.sphereCount, 0, 0, 0}}});
+        }
+    }
+    bottomStorage_ = builder.buildBottomLevels(inputs);
+    auto level = bottomLevels_.begin();
+    for (const AccelStorage& storage : bottomStorage_) {
+        for (const Accel& structure : storage.structures) (level++)->address = structure.address;
+    }
+}
+
+// Of each instance one for each bottom level of its geometry; the scene's own primitives, of geometry 0, are instance
+// 0.
+std::vector<VkAccelerationStructureInstanceKHR> AccelStructure::listInstances(const scene::CompiledScene& scene) const {
     std::vector<VkAccelerationStructureInstanceKHR> instances;
     const auto place = [&](std::uint32_t geometry, std::uint32_t index, const VkTransformMatrixKHR& matrix) {
-        for (const BottomLevel& level : bottomLevels_) {
-            if (level.geometry != geometry) continue;
+        auto level = std::lower_bound(bottomLevels_.begin(), bottomLevels_.end(), geometry,
+                                      [](const BottomLevel& a, std::uint32_t b) { return a.geometry < b; });
+        for (; level != bottomLevels_.end() && level->geometry == geometry; ++level) {
             VkAccelerationStructureInstanceKHR instance{};
             instance.transform = matrix;
             instance.instanceCustomIndex = index & kMaxCustomIndex;
             instance.mask = 0xff;
-            instance.instanceShaderBindingTableRecordOffset = level.hitRecord & 0xffffffu;
-            instance.accelerationStructureReference = level.structure.address;
+            instance.instanceShaderBindingTableRecordOffset = level->hitRecord & 0xffffffu;
+            instance.accelerationStructureReference = level->address;
             instances.push_back(instance);
         }
     };
@@ -154,111 +166,22 @@ void AccelStructure::buildTopLevel(const scene::CompiledScene& scene) {
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         place(scene.instances[i].geometry, i + 1, toMatrix(scene.instances[i].toWorld));
     }
+    return instances;
+}
+
+void AccelStructure::buildTopLevel(AccelBuilder& builder, const scene::CompiledScene& scene) {
+    const std::vector<VkAccelerationStructureInstanceKHR> instances = listInstances(scene);
     if (instances.size() > context_.limits().maxInstances) {
         throw RenderError(context_.info().name + " takes at most " + std::to_string(context_.limits().maxInstances) +
                           " instances; the scene has " + std::to_string(instances.size()));
     }
-    const vulkan::Buffer buffer =
-        vulkan::deviceArray<VkAccelerationStructureInstanceKHR>(context_, instances, "instances", kBuildInput);
+    const auto buffer = vulkan::deviceArray<VkAccelerationStructureInstanceKHR>(context_, instances, "instances",
+                                                                                kBuildInput, kInstanceAlignment);
     VkAccelerationStructureGeometryKHR geometry{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR};
     geometry.geometryType = VK_GEOMETRY_TYPE_INSTANCES_KHR;
     geometry.geometry.instances.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_INSTANCES_DATA_KHR;
     geometry.geometry.instances.data.deviceAddress = buffer.address();
-    BuildInput input;
-    input.type = VK_ACCELERATION_STRUCTURE_TYPE_TOP_LEVEL_KHR;
-    input.geometries.push_back(geometry);
-    input.ranges.push_back({static_cast<std::uint32_t>(instances.size()), 0, 0, 0});
-    topLevel_ = build(input);
-}
-
-AccelStructure::Structure AccelStructure::allocate(VkAccelerationStructureTypeKHR type, VkDeviceSize bytes) {
-    const vulkan::RayTracingFunctions& f = context_.rayTracing();
-    Structure result;
-    result.storage = vulkan::Buffer(context_, bytes, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR,
-                                    vulkan::Memory::Device, "the acceleration structure");
-    VkAccelerationStructureCreateInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR};
-    info.type = type;
-    info.size = bytes;
-    info.buffer = result.storage.get();
-    VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
-    vulkan::check(f.createAccelerationStructure(context_.device(), &info, nullptr, &structure),
-                  "Creating the acceleration structure");
-    result.structure = {context_.device(), structure, f.destroyAccelerationStructure};
-    VkAccelerationStructureDeviceAddressInfoKHR address{
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR};
-    address.accelerationStructure = structure;
-    result.address = f.getAccelerationStructureAddress(context_.device(), &address);
-    return result;
-}
-
-AccelStructure::Structure AccelStructure::build(const BuildInput& input) {
-    const vulkan::RayTracingFunctions& f = context_.rayTracing();
-    const bool compactable = input.type == VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
-    VkAccelerationStructureBuildGeometryInfoKHR info{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_GEOMETRY_INFO_KHR};
-    info.type = input.type;
-    info.flags = kFastTrace;
-    if (compactable) info.flags |= VK_BUILD_ACCELERATION_STRUCTURE_ALLOW_COMPACTION_BIT_KHR;
-    info.mode = VK_BUILD_ACCELERATION_STRUCTURE_MODE_BUILD_KHR;
-    info.geometryCount = static_cast<std::uint32_t>(input.geometries.size());
-    info.pGeometries = input.geometries.data();
-
-    std::vector<std::uint32_t> counts;
-    std::uint64_t total = 0;
-    for (const VkAccelerationStructureBuildRangeInfoKHR& range : input.ranges) {
-        counts.push_back(range.primitiveCount);
-        total += range.primitiveCount;
-    }
-    if (compactable && total > context_.limits().maxPrimitives) {
-        throw RenderError(context_.info().name + " takes at most " + std::to_string(context_.limits().maxPrimitives) +
-                          " primitives; the scene has " + std::to_string(total));
-    }
-    VkAccelerationStructureBuildSizesInfoKHR sizes{VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR};
-    f.getBuildSizes(context_.device(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, counts.data(), &sizes);
-
-    Structure result = allocate(input.type, sizes.accelerationStructureSize);
-    const VkDeviceSize alignment = std::max(1u, context_.limits().scratchAlignment);
-    const vulkan::Buffer scratch(context_, sizes.buildScratchSize + alignment, 0, vulkan::Memory::Device,
-                                 "building the acceleration structure");
-    info.dstAccelerationStructure = result.structure.get();
-    info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
-    const VkAccelerationStructureBuildRangeInfoKHR* ranges = input.ranges.data();
-    buildSeconds_ += context_.runTimed([&](VkCommandBuffer commands) {
-        f.cmdBuild(commands, 1, &info, &ranges);
-        vulkan::barrier(commands);
-    });
-    return result;
-}
-
-AccelStructure::Structure AccelStructure::compact(Structure original) {
-    const vulkan::RayTracingFunctions& f = context_.rayTracing();
-    const VkDevice device = context_.device();
-    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
-    info.queryCount = 1;
-    VkQueryPool pool = VK_NULL_HANDLE;
-    vulkan::check(vkCreateQueryPool(device, &info, nullptr, &pool), "Compacting the acceleration structure");
-    const vulkan::Handle<VkQueryPool> owner(device, pool, vkDestroyQueryPool);
-    const VkAccelerationStructureKHR from = original.structure.get();
-    buildSeconds_ += context_.runTimed([&](VkCommandBuffer commands) {
-        vkCmdResetQueryPool(commands, pool, 0, 1);
-        f.cmdWriteProperties(commands, 1, &from, info.queryType, pool, 0);
-    });
-    VkDeviceSize bytes = 0;
-    vulkan::check(vkGetQueryPoolResults(device, pool, 0, 1, sizeof bytes, &bytes, sizeof bytes,
-                                        VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                  "Compacting the acceleration structure");
-    if (bytes == 0 || bytes >= original.storage.bytes()) return original;
-
-    Structure result = allocate(VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR, bytes);
-    VkCopyAccelerationStructureInfoKHR copy{VK_STRUCTURE_TYPE_COPY_ACCELERATION_STRUCTURE_INFO_KHR};
-    copy.src = from;
-    copy.dst = result.structure.get();
-    copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
-    buildSeconds_ += context_.runTimed([&](VkCommandBuffer commands) {
-        f.cmdCopy(commands, &copy);
-        vulkan::barrier(commands);
-    });
-    return result;
+    topLevel_ = builder.buildTopLevel({{geometry}, {{static_cast<std::uint32_t>(instances.size()), 0, 0, 0}}});
 }
 
 } // namespace rt::gpu

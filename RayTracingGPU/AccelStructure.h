@@ -1,11 +1,11 @@
-// The acceleration structures of a scene: a bottom level per geometry for triangles and quads and one for spheres, each only
-// where there are such primitives, and a top level of all instances.
+// The acceleration structures of a scene: a bottom level per geometry for triangles and quads and one for spheres, each
+// only where there are such primitives, and a top level of all instances.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "Common/Scene/CompiledScene.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "RayTracingGPU/AccelBuilder.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
@@ -16,38 +16,25 @@ class AccelStructure {
     AccelStructure(vulkan::VulkanContext& context, const scene::CompiledScene& scene,
                    const shared::SceneArrays& arrays);
 
-    VkAccelerationStructureKHR topLevel() const { return topLevel_.structure.get(); }
+    VkAccelerationStructureKHR topLevel() const { return topLevel_.structures.front().structure.get(); }
     double buildSeconds() const { return buildSeconds_; } // on the device, compaction included
 
   private:
-    struct Structure {
-        vulkan::Buffer storage;
-        vulkan::Handle<VkAccelerationStructureKHR> structure; // lies in storage
-        VkDeviceAddress address = 0;
-    };
     // A bottom level and where its hit groups begin in the shader binding table.
     struct BottomLevel {
-        Structure structure;
         std::uint32_t geometry = 0; // of the scene
         std::uint32_t hitRecord = 0;
-    };
-    // Geometries of one structure, with the number of primitives in each.
-    struct BuildInput {
-        std::vector<VkAccelerationStructureGeometryKHR> geometries;
-        std::vector<VkAccelerationStructureBuildRangeInfoKHR> ranges;
-        VkAccelerationStructureTypeKHR type = VK_ACCELERATION_STRUCTURE_TYPE_BOTTOM_LEVEL_KHR;
+        VkDeviceAddress address = 0;
     };
 
-    Structure allocate(VkAccelerationStructureTypeKHR type, VkDeviceSize bytes);
-    Structure build(const BuildInput& input);
-    Structure compact(Structure original);
-    void addSurfaces(const scene::CompiledScene& scene, const shared::SceneArrays& arrays, std::uint32_t geometry);
-    void addSpheres(const scene::CompiledScene& scene, std::uint32_t geometry);
-    void buildTopLevel(const scene::CompiledScene& scene);
+    void buildBottomLevels(AccelBuilder& builder, const scene::CompiledScene& scene, const shared::SceneArrays& arrays);
+    std::vector<VkAccelerationStructureInstanceKHR> listInstances(const scene::CompiledScene& scene) const;
+    void buildTopLevel(AccelBuilder& builder, const scene::CompiledScene& scene);
 
     vulkan::VulkanContext& context_;
-    std::vector<BottomLevel> bottomLevels_;
-    Structure topLevel_;
+    std::vector<BottomLevel> bottomLevels_; // geometry by geometry
+    std::vector<AccelStorage> bottomStorage_;
+    AccelStorage topLevel_;
     double buildSeconds_ = 0;
 };
 

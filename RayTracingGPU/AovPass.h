@@ -1,6 +1,7 @@
 // First-hit features of an image.
 #pragma once
 #include "Common/App/Session/Engine.h"
+#include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"
 
 namespace rt::gpu {

@@ -1,6 +1,7 @@
 // What each pixel of an image costs.
 #pragma once
 #include "Common/Image/Image.h"
+#include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"
 
 namespace rt::gpu {

@@ -60,7 +60,7 @@ DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& de
       capacity_(tiles * desc.replicates) {
     const VkDeviceSize pixels = VkDeviceSize{capacity_} * kTilePixels;
     const auto make = [&](VkDeviceSize bytes) {
-        return vulkan::Buffer(context, bytes, 0, vulkan::Memory::Device, "the film");
+        return vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the film");
     };
     samplesBuffer_ = make(VkDeviceSize{capacity_} * sizeof(std::uint32_t));
     sums_ = make(pixels * sizeof(FilmSum));
@@ -70,7 +70,7 @@ DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& de
 void DeviceFilm::reserveOpenBlocks() {
     if (open_) return;
     const VkDeviceSize bytes = VkDeviceSize{capacity_} * kTilePixels * sizeof(vec3);
-    open_ = vulkan::Buffer(context_, bytes, 0, vulkan::Memory::Device, "the film");
+    open_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::Device, "the film");
 }
 
 void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
@@ -113,7 +113,7 @@ void DeviceFilm::clear() {
         for (const vulkan::Buffer* buffer : {&samplesBuffer_, &sums_, &squares_}) {
             if (*buffer) vkCmdFillBuffer(commands, buffer->get(), 0, VK_WHOLE_SIZE, 0);
         }
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, vulkan::kTransferWrite, context_.bufferUses());
     });
 }
 
@@ -217,7 +217,7 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     return result;
 }
 
-// ---- pipelines -------------------------------------------------------------------------------------------------------
+// ---- pipelines ------------------------------------------------------------------------------------------------------
 
 FilmPipeline::FilmPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, Shader shader,
                            std::uint32_t pushBytes) {
@@ -245,13 +245,13 @@ image::Image FilmResolver::resolve(shared::ResolveLaunch launch) {
     const std::size_t bytes = image.data.size() * sizeof image.data[0];
     if (pixels_.bytes() < bytes) {
         pixels_ = {};
-        pixels_ = vulkan::Buffer(context_, bytes, 0, vulkan::Memory::ReadBack, "a picture");
+        pixels_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::ReadBack, "a picture");
     }
     launch.pixels = pixels_.address();
     const std::uint32_t rows = (launch.height + shared::kTile - 1) / shared::kTile;
     context_.run([&](VkCommandBuffer commands) {
         pipeline_.run(commands, launch, launch.tilesX * rows);
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, vulkan::kComputeWrite, vulkan::kHostRead);
     });
     std::memcpy(image.data.data(), pixels_.mapped<std::byte>().data(), bytes);
     return image;

@@ -6,7 +6,7 @@
 #include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
 #include "Common/Vulkan/PipelineCache.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
 #include "Shaders/Records.h"
 
@@ -63,6 +63,7 @@ class DeviceFilm {
     void reserveOpenBlocks();
 
     std::uint32_t firstTile() const { return firstTile_; }
+    std::uint32_t replicates() const { return desc_.replicates; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
     bool isWhole() const; // it holds all tiles of the image
     // Of a step, which is one sample of every slot for each of its pixels inside of the image.

@@ -1,59 +1,34 @@
 #include "RayTracingGPU/GpuEngine.h"
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <span>
 #include <utility>
 
 #include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/AovPass.h"
-#include "RayTracingGPU/ComputePipeline.h"
 #include "RayTracingGPU/CostPass.h"
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuScene.h"
+#include "RayTracingGPU/Kernels.h"
 #include "RayTracingGPU/LaunchQueue.h"
 #include "RayTracingGPU/Launches.h"
+#include "RayTracingGPU/Pass.h"
 #include "RayTracingGPU/PreviewPass.h"
-#include "RayTracingGPU/RtPipeline.h"
 
 namespace rt::gpu {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using image::Film;
 using vulkan::Memory;
-
-constexpr std::uint32_t kInvocations = 1u << 17;     // that share the work of a launch; fills the largest devices
-constexpr std::uint32_t kSoftInvocations = 1u << 14; // likewise, the largest processors
-constexpr std::uint64_t kMaxSamples = 12'000'000;    // of a launch, whose radiance takes 144 MB
-constexpr std::uint64_t kPassPart = 8;     // launches share passes that take a film of n samples n / 8 further
-constexpr std::uint64_t kMaxPass = 64;     // samples, likewise
-constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions take turns; a turn costs two copies
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-// What a kernel is compiled for.
-struct KernelKey {
-    PipelineDecisions decisions;
-    TraversalShape shape; // of the compute engine
-    bool operator==(const KernelKey&) const = default;
-};
-
-// Takes every pixel further, slot by slot.
-struct Pass {
-    std::uint32_t end = 0;      // samples per pixel that it leads to
-    std::uint32_t steps = 0;    // samples of a slot's pixels that it takes, at most
-    std::uint32_t nextSlot = 0; // of each of the region's bands: the first that it has not launched
-};
 
 class GpuEngine final : public app::Engine {
   public:
@@ -63,9 +38,9 @@ class GpuEngine final : public app::Engine {
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
           engine_(chooseEngine(options.engine, context.info())),
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
-          constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, Memory::Device,
-                     "constants"),
-          launches_(context, cache_, {.invocations = maxInvocations(), .samples = kMaxSamples}) {}
+          uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                    Memory::Device, "constants"),
+          launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
@@ -89,9 +64,7 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report() const override;
 
   private:
-    bool isCompute() const { return engine_ == app::GpuEngineKind::Compute; }
-    std::unique_ptr<Kernel> makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const;
-    std::uint32_t maxInvocations() const;
+    std::unique_ptr<Kernel> makeKernel(KernelPurpose purpose) const;
     void setFilm(Film film);
     void uploadConstants(const scene::CameraDesc& camera);
     bool beginPass();
@@ -111,7 +84,7 @@ class GpuEngine final : public app::Engine {
     app::GpuEngineKind engine_; // which was chosen
     RenderBindings bindings_;
     std::optional<FilmResolver> resolver_; // once it was needed
-    vulkan::Buffer constants_;
+    vulkan::Buffer uniforms_;              // RenderConstants
     LaunchQueue launches_;
 
     std::unique_ptr<GpuScene> scene_;
@@ -120,13 +93,13 @@ class GpuEngine final : public app::Engine {
     shared::RenderParams params_{};
     std::uint32_t features_ = 0;
     std::unique_ptr<Kernel> kernel_;
-    KernelKey kernelKey_;
+    SpecializationConstants constants_; // that it was compiled for
 
     Film film_;                          // the whole film, on the host
     std::unique_ptr<DeviceFilm> region_; // the part that is being rendered: all of it unless it is large
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
-    Clock::time_point refreshed_;
+    app::Stopwatch sinceRefresh_;
     std::uint64_t samplesDone_ = 0;        // of the film, what region_ is ahead included
     std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
     std::optional<Pass> pass_;             // that is in progress
@@ -134,7 +107,7 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report_;
 };
 
-// ---- set-up ----------------------------------------------------------------------------------------------------------
+// ---- set-up ---------------------------------------------------------------------------------------------------------
 
 void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
     features_ = app::renderFeatures(scene_->compiled(), camera, settings);
@@ -144,22 +117,20 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     params_ = app::makeRenderParams(scene_->compiled(), settings);
     setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
     uploadConstants(camera);
-    if (isCompute()) {
-        bindings_.update(constants_, scene_->linearLists());
+    if (engine_ == app::GpuEngineKind::Compute) {
+        bindings_.update(uniforms_, scene_->linearLists());
     } else {
-        bindings_.update(constants_, scene_->topLevel());
+        bindings_.update(uniforms_, scene_->topLevel());
     }
 
-    const KernelKey key{makeDecisions(features_, params_), scene_->shape()};
-    if (!kernel_ || kernelKey_ != key) {
-        const Clock::time_point start = Clock::now();
+    const SpecializationConstants constants = makeSpecializationConstants(features_, params_, scene_->shape());
+    if (!kernel_ || constants_ != constants) {
+        const app::Stopwatch watch;
         kernel_ = nullptr;
-        const bool projected = shared::has(features_, shared::kFeatureProjected);
-        kernel_ = makeKernel(key, projected ? Shader::ProjectedPathCompute : Shader::PathCompute,
-                             projected ? Shader::ProjectedRayGeneration : Shader::RayGeneration);
-        kernelKey_ = key;
+        constants_ = constants;
+        kernel_ = makeKernel(KernelPurpose::Paths);
         cache_.save();
-        report_.pipelineSeconds = secondsSince(start);
+        report_.pipelineSeconds = watch.seconds();
         launchSize_.reset();
     }
     if (!launchSize_) {
@@ -170,11 +141,8 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     report_.renderDeviceSeconds = 0;
 }
 
-std::unique_ptr<Kernel> GpuEngine::makeKernel(const KernelKey& key, Shader compute, Shader rayGeneration) const {
-    if (isCompute()) {
-        return std::make_unique<ComputePipeline>(context_, cache_, bindings_, key.decisions, key.shape, compute);
-    }
-    return std::make_unique<RtPipeline>(context_, cache_, bindings_, key.decisions, rayGeneration);
+std::unique_ptr<Kernel> GpuEngine::makeKernel(KernelPurpose purpose) const {
+    return gpu::makeKernel(context_, cache_, bindings_, engine_, purpose, constants_);
 }
 
 void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
@@ -185,7 +153,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     constants.globals = s.globals;
     constants.params = params_;
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
-    vulkan::upload(context_, constants_, std::as_bytes(std::span(&constants, 1)));
+    vulkan::upload(context_, uniforms_, std::as_bytes(std::span(&constants, 1)));
 }
 
 void GpuEngine::setFilm(Film film) {
@@ -202,14 +170,14 @@ void GpuEngine::setFilm(Film film) {
     failed_ = false;
     pass_.reset();
     launches_.forget();
-    refreshed_ = Clock::now();
+    sinceRefresh_ = {};
 }
 
-// ---- rendering -------------------------------------------------------------------------------------------------------
+// ---- rendering ------------------------------------------------------------------------------------------------------
 
 app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     if (!region_) throw RenderError("there was no memory for the film");
-    const Clock::time_point start = Clock::now();
+    const app::Stopwatch watch;
     const double seconds = budget.time.count();
     try {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
@@ -218,10 +186,10 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
                 break;
             }
             launchNext();
-            if (secondsSince(start) + launchSize_->secondsFor(launches_.samplesAhead()) >= seconds) break;
+            if (watch.seconds() + launchSize_->secondsFor(launches_.samplesAhead()) >= seconds) break;
         }
         endLaunches();
-        if (dirty_ && secondsSince(refreshed_) > kRefreshSeconds) refresh();
+        if (dirty_ && sinceRefresh_.seconds() > kRefreshSeconds) refresh();
     } catch (const vulkan::DeviceLostError&) {
         failed_ = true;
         launches_.drop();
@@ -237,54 +205,23 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-// Opens the next pass. Where two launches take all pixels several samples further, they are a pass: one would have to wait for the
-// paths of the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
-// shorter than it may be. Large films go on by whole blocks.
 bool GpuEngine::beginPass() {
     if (begun_ >= settings_.spp) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
-    const std::uint64_t round = std::uint64_t{shared::kBlock} * settings_.replicates; // samples per pixel
-    std::uint64_t end = (begun_ / round + kRegionRounds) * round;
-    if (region_->isWhole()) {
-        const std::uint64_t fitting = launchSize_->suggest();
-        const std::uint64_t most =
-            std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region_->columnSamples(), 1);
-        const std::uint64_t wanted = std::max(2 * fitting / region_->stepSamples(),
-                                              std::min(begun_ / kPassPart, kMaxPass) / settings_.replicates);
-        const std::uint64_t steps = std::clamp<std::uint64_t>(wanted, 1, most);
-        end = begun_ + steps * settings_.replicates;
-    }
-    end = std::min<std::uint64_t>(end, settings_.spp);
-    if (end % round != 0) region_->reserveOpenBlocks();
-    pass_ = Pass{.end = static_cast<std::uint32_t>(end),
-                 .steps = static_cast<std::uint32_t>((end - begun_ + settings_.replicates - 1) / settings_.replicates)};
+    pass_ = planPass(*region_, begun_, settings_.spp, launchSize_->suggest());
+    if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
 }
 
-// Launches the next slots of the pass in all bands; behind the last ones of the last region the pass is over.
+// Behind the last launch of the last region the pass is over.
 void GpuEngine::launchNext() {
-    const std::uint64_t room = kMaxSamples / (region_->columnSamples() * pass_->steps);
-    const std::uint64_t fitting =
-        launchSize_->suggest() * region_->bandSlots() / (region_->stepSamples() * pass_->steps);
-    const std::uint32_t left = region_->bandSlots() - pass_->nextSlot;
-    const std::uint32_t half = (region_->bandSlots() + 1) / 2;
-    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, fitting), 1, std::min(left, half));
-    const std::uint64_t launches = (left + most - 1) / most; // that take alike many
-    shared::FilmLaunch push{};
-    region_->describe(push, pass_->nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
-    push.steps = pass_->steps;
-    push.spp = pass_->end;
-    beginLaunch(push);
-    pass_->nextSlot += push.bandWidth;
+    const shared::FilmLaunch launch = nextLaunch(*region_, *pass_, launchSize_->suggest());
+    beginLaunch(launch);
+    pass_->nextSlot += launch.bandWidth;
     if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) {
         begun_ = pass_->end;
         pass_.reset();
     }
-}
-
-std::uint32_t GpuEngine::maxInvocations() const {
-    const std::uint32_t filling = context_.info().isSoftware() ? kSoftInvocations : kInvocations;
-    return isCompute() ? filling : std::min(filling, context_.limits().maxInvocations);
 }
 
 void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
@@ -339,7 +276,7 @@ bool GpuEngine::nextRegion() {
 void GpuEngine::refresh() {
     region_->store(film_);
     dirty_ = false;
-    refreshed_ = Clock::now();
+    sinceRefresh_ = {};
 }
 
 const Film& GpuEngine::film() {
@@ -365,23 +302,17 @@ app::Snapshot GpuEngine::snapshot() {
     }
 }
 
-// ---- the rest --------------------------------------------------------------------------------------------------------
+// ---- the rest -------------------------------------------------------------------------------------------------------
 
 app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32_t samples) {
-    const std::unique_ptr<Kernel> kernel = makeKernel(kernelKey_, Shader::AovCompute, Shader::AovGeneration);
+    const std::unique_ptr<Kernel> kernel = makeKernel(KernelPurpose::FirstHits);
     cache_.save();
     return renderAovPass(context_, *kernel, settings_.width, settings_.height, request, samples);
 }
 
 image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {
     if (!knowsCost(cost)) return {};
-    constexpr Shader kCompute[2][2] = {{Shader::CostCompute, Shader::ProjectedCostCompute},
-                                       {Shader::TimeCompute, Shader::ProjectedTimeCompute}};
-    constexpr Shader kGeneration[2][2] = {{Shader::CostGeneration, Shader::ProjectedCostGeneration},
-                                          {Shader::TimeGeneration, Shader::ProjectedTimeGeneration}};
-    const int time = cost == app::Cost::Time ? 1 : 0;
-    const int projected = shared::has(features_, shared::kFeatureProjected) ? 1 : 0;
-    const auto kernel = makeKernel(kernelKey_, kCompute[time][projected], kGeneration[time][projected]);
+    const auto kernel = makeKernel(cost == app::Cost::Time ? KernelPurpose::Time : KernelPurpose::Rays);
     cache_.save();
     return renderCostPass(context_, *kernel, settings_.width, settings_.height, settings_.maxDepth,
                           std::max(samples, 1u));
@@ -404,7 +335,7 @@ app::EngineReport GpuEngine::report() const {
     report.lightSampling = app::describeLightShapes(settings_, features_);
     if (kernel_) report.kernel = kernel_->name();
     if (scene_) report.accelBuildSeconds = scene_->buildSeconds();
-    report.deviceBytes = context_.deviceBytes();
+    report.deviceBytes = context_.memory().deviceBytes();
     report.longestDispatchSeconds = context_.longestRun();
     return report;
 }

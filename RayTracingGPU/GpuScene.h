@@ -5,15 +5,15 @@
 
 #include "Common/App/Options/Names.h"
 #include "Common/Scene/CompiledScene.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/AccelStructure.h"
-#include "RayTracingGPU/ComputePipeline.h"
+#include "RayTracingGPU/SpecializationConstants.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
 
-// The arrays that exist, and what rays are traced through: the acceleration structure of the pipeline engine, or the tree or the
-// lists of the compute engine. Immutable.
+// The arrays that exist, and what rays are traced through: the acceleration structure of the pipeline engine, or the
+// tree or the lists of the compute engine. Immutable.
 class GpuScene {
   public:
     // Uploads and builds. Useless when *cancel became true. Throws RenderError.

@@ -20,20 +20,22 @@ VkDeviceSize leftBytes(std::uint32_t invocations) {
     return VkDeviceSize{invocations} * sizeof(shared::UnfinishedPath);
 }
 
-// Where it is too small, without its contents; larger by a factor then, since launches grow until they are as long as they may be.
+// Where it is too small, without its contents; larger by a factor then, since launches grow until they are as long as
+// they may be.
 void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSize bytes, VkDeviceSize most) {
     constexpr VkDeviceSize kGrowth = 4;
     if (buffer.bytes() >= bytes) return;
     buffer = {}; // its memory may be needed for the next one
-    buffer = vulkan::Buffer(context, std::max(bytes, std::min(kGrowth * bytes, most)), 0, Memory::Device, "a launch");
+    buffer = vulkan::Buffer(context.memory(), std::max(bytes, std::min(kGrowth * bytes, most)), 0, Memory::Device,
+                            "a launch");
 }
 
 } // namespace
 
 LaunchQueue::Launch::Launch(vulkan::VulkanContext& context)
     : run(context),
-      counters(context, kCounterBytes, 0, Memory::Device, "counters"),
-      hostCounters(context, kCounterBytes, 0, Memory::ReadBack, "counters") {}
+      counters(context.memory(), kCounterBytes, 0, Memory::Device, "counters"),
+      hostCounters(context.memory(), kCounterBytes, 0, Memory::ReadBack, "counters") {}
 
 LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits)
     : context_(context),
@@ -95,13 +97,15 @@ std::uint64_t LaunchQueue::submit(const Kernel& kernel, DeviceFilm& film, shared
     next.run.begin([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, next.counters.get(), 0, VK_WHOLE_SIZE, 0);
         if (!last_) vkCmdFillBuffer(commands, before.counters.get(), 0, VK_WHOLE_SIZE, 0);
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, vulkan::kTransferWrite, kernel.access());
         kernel.launch(commands, push, invocations);
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, kernel.access(), vulkan::kComputeRead | vulkan::kTransferRead);
         if (last_) reducer_.run(commands, *last_, last_->slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};
         vkCmdCopyBuffer(commands, next.counters.get(), next.hostCounters.get(), 1, &all);
-        vulkan::barrier(commands);
+        // The next launch goes on with paths and film, and clears the counters that this one has read.
+        const vulkan::Access done = kernel.access() | vulkan::kComputeWrite | vulkan::kTransferWrite;
+        vulkan::barrier(commands, done, context_.bufferUses() | vulkan::kHostRead);
     });
     ++begun_;
     if (!last_) return 0;

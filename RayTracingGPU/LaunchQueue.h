@@ -1,13 +1,14 @@
-// The launches that the device has been handed: two at most, so that the next one is recorded while it works at one; it would
-// have nothing to do in between. A launch leaves its last paths to the next one, behind which its samples come to the film.
+// The launches that the device has been handed: two at most, so that the next one is recorded while it works at one; it
+// would have nothing to do in between. A launch leaves its last paths to the next one, behind which its samples come to
+// the film.
 #pragma once
 #include <array>
 #include <cstdint>
 #include <optional>
 
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
-#include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/DeviceFilm.h"
 #include "RayTracingGPU/Kernel.h"
 #include "Shaders/Records.h"
@@ -28,8 +29,9 @@ class LaunchQueue {
     bool hasRoom(const shared::FilmLaunch& launch) const;
     // Whether it goes on where samples of the launch before are still to come; then finish() comes first.
     bool overlaps(const shared::FilmLaunch& launch) const;
-    // Hands over a launch that `film` describes, whose memory must last until the end of the launch behind it. Throws DeviceLostError
-    // or RenderError; then nothing has begun. Returns how many samples come to the film behind it: those of the launch before.
+    // Hands over a launch that `film` describes, whose memory must last until the end of the launch behind it. Throws
+    // DeviceLostError or RenderError; then nothing has begun. Returns how many samples come to the film behind it:
+    // those of the launch before.
     std::uint64_t begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch);
 
     // Whether the last launch has left paths, and its samples are still to come.

@@ -6,9 +6,9 @@
 
 namespace rt::gpu {
 
-// How long a launch may be. A window's draws wait for at most one, which leaves them half of a frame; no watchdog fires, and a
-// cancelled render ends at once. Renders without a window do the same, so that both take the same time. A device that is the
-// processor runs draws and launches side by side.
+// How long a launch may be. A window's draws wait for at most one, which leaves them half of a frame; no watchdog
+// fires, and a cancelled render ends at once. Renders without a window do the same, so that both take the same time. A
+// device that is the processor runs draws and launches side by side.
 inline constexpr double kLaunchSeconds = 0.008;
 inline constexpr double kSoftLaunchSeconds = 0.02;
 inline double launchSeconds(bool softwareDevice) {
@@ -17,8 +17,8 @@ inline double launchSeconds(bool softwareDevice) {
 
 class LaunchSize {
   public:
-    // Of launches of at most `seconds`, or as suits the device. Begins with so few samples that even a slow device of its kind is
-    // done with them in time, and with fewer where paths may be long.
+    // Of launches of at most `seconds`, or as suits the device. Begins with so few samples that even a slow device of
+    // its kind is done with them in time, and with fewer where paths may be long.
     LaunchSize(bool softwareDevice, std::uint32_t maxDepth, std::optional<double> seconds = {})
         : seconds_(seconds.value_or(launchSeconds(softwareDevice))),
           samples_((softwareDevice ? 4e5 : 8e6) * seconds_ / std::max(1.0, maxDepth / 64.0)) {}

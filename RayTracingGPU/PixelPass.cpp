@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/Launches.h"
 #include "Shaders/Records.h"
 
@@ -18,7 +19,8 @@ void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const Pi
     const std::uint64_t pixels = std::uint64_t{pass.width} * pass.height;
     const std::uint64_t piece = std::min(pixels, kPiecePixels);
     std::vector<float> values(piece * pass.values);
-    const vulkan::Buffer buffer(context, values.size() * sizeof(float), 0, vulkan::Memory::Device, "values of pixels");
+    const vulkan::Buffer buffer(context.memory(), values.size() * sizeof(float), 0, vulkan::Memory::Device,
+                                "values of pixels");
     LaunchSize size(context.info().isSoftware(), pass.maxDepth);
     for (std::uint64_t first = 0; first < pixels; first += piece) {
         const std::uint64_t end = std::min(pixels, first + piece);
@@ -32,7 +34,7 @@ void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const Pi
             launch.samples = pass.samples;
             const double seconds = context.runTimed([&](VkCommandBuffer commands) {
                 kernel.launch(commands, launch, launch.pixels);
-                vulkan::barrier(commands);
+                vulkan::barrier(commands, kernel.access(), vulkan::kTransferRead);
             });
             size.measured(count * pass.samples, seconds);
             pixel += count;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"
 
 namespace rt::gpu {

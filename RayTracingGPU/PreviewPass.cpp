@@ -15,6 +15,7 @@
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
+#include "Shaders/SpecializationIds.h"
 
 namespace rt::gpu {
 namespace {
@@ -24,7 +25,6 @@ using shared::vec3;
 constexpr const char* kWhat = "Preparing the preview";
 constexpr std::uint32_t kConstantsBinding = 1;  // as in Bindings.glsl
 constexpr std::uint32_t kGroup = 64;            // as in Preview.comp
-constexpr std::uint32_t kShapeConstant = 14;    // as in Preview.glsl
 constexpr std::uint32_t kBandPixels = 1u << 20; // that are drawn at a time, from some of the primitives
 constexpr std::uint32_t kWhole = 36;            // vertices: a multiple of those of every primitive
 constexpr std::uint32_t kMostLights = 16;       // whose light is added up for each pixel
@@ -52,8 +52,8 @@ std::vector<std::uint32_t> strongestLights(const scene::CompiledScene& scene) {
     return lights;
 }
 
-// Radiance of white surfaces, were the light of all lamps spread evenly over a sphere of the scene's size whose wall absorbs
-// half of what arrives.
+// Radiance of white surfaces, were the light of all lamps spread evenly over a sphere of the scene's size whose wall
+// absorbs half of what arrives.
 vec3 ambientOf(const scene::CompiledScene& scene) {
     const double radius = scene.globals.sceneRadius;
     glm::dvec3 sum(0);
@@ -66,10 +66,10 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
     return glm::max(vec3(sum), vec3(kLeastAmbient));
 }
 
-// The specialisation constants of Preview.glsl.
+// The specialization constants of Preview.glsl; others stay as the shaders have them.
 struct Specialization {
     std::uint32_t values[2]; // features, shape
-    VkSpecializationMapEntry entries[2] = {{0, 0, 4}, {kShapeConstant, 4, 4}};
+    VkSpecializationMapEntry entries[2] = {{shared::kFeaturesId, 0, 4}, {shared::kShapeId, 4, 4}};
     VkSpecializationInfo info() const { return {2, entries, sizeof values, values}; }
 };
 
@@ -79,8 +79,8 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
     : context_(context),
       scene_(scene),
       features_(previewFeatures(scene.compiled().features)),
-      constants_(context, sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, vulkan::Memory::Device,
-                 "constants"),
+      constants_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                 vulkan::Memory::Device, "constants"),
       clearing_(makePreviewRenderPass(context.device(), true)),
       goingOn_(makePreviewRenderPass(context.device(), false)),
       vertices_(context.info().isSoftware(), 1) {
@@ -89,7 +89,7 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
     createPipelines(cache);
 }
 
-// ---- set-up ----------------------------------------------------------------------------------------------------------
+// ---- set-up ---------------------------------------------------------------------------------------------------------
 
 void PreviewPass::listDraws() {
     const scene::CompiledScene& s = scene_.compiled();
@@ -156,7 +156,7 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
                                         kWhat);
 }
 
-// ---- drawing ---------------------------------------------------------------------------------------------------------
+// ---- drawing --------------------------------------------------------------------------------------------------------
 
 // From the camera's record: what of a point's position is along `across`, `down` and towards the plane of focus.
 void PreviewPass::uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
@@ -234,11 +234,11 @@ void PreviewPass::finishBand(const Band& band) {
     launch_.firstPixel = band.first * width;
     context_.run([&](VkCommandBuffer commands) {
         target_.copy(commands, band);
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kComputeRead | vulkan::kComputeWrite);
         bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, finishing_.get());
         vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
         vkCmdDispatch(commands, (band.count * width + kGroup - 1) / kGroup, 1, 1);
-        vulkan::barrier(commands);
+        vulkan::barrier(commands, vulkan::kComputeWrite, vulkan::kTransferRead | vulkan::kTransferWrite);
     });
 }
 

@@ -7,22 +7,22 @@
 #include "Common/App/Session/Engine.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/Pipelines.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/GpuScene.h"
 #include "RayTracingGPU/Launches.h"
 #include "RayTracingGPU/PreviewTarget.h"
 
 namespace rt::gpu {
 
-// Of one scene, whose buffers its shaders read. A device that cannot draw (DeviceInfo::draws) cannot have one. However large the
-// scene and the image, the device is asked for a short while's work at a time.
+// Of one scene, whose buffers its shaders read. A device that cannot draw (DeviceInfo::draws) cannot have one. However
+// large the scene and the image, the device is asked for a short while's work at a time.
 class PreviewPass {
   public:
     // `scene` must outlive it.
     PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const GpuScene& scene);
 
-    // One ray through the middle of each pixel and of the lens, at the opening of the shutter. Throws RenderError, also where
-    // the image is larger than the device draws.
+    // One ray through the middle of each pixel and of the lens, at the opening of the shutter. Throws RenderError, also
+    // where the image is larger than the device draws.
     app::Preview render(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
 
   private:

@@ -37,7 +37,7 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &color;
     subpass.pDepthStencilAttachment = &depth;
-    // Commands wait for each other before and behind: nothing of ours overlaps.
+    // Before: what was drawn to the attachments, and copied from them. Behind: their copy.
     constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                               VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                               VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
@@ -46,9 +46,9 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     std::array<VkSubpassDependency, 2> dependencies{};
     dependencies[0] = {VK_SUBPASS_EXTERNAL,
                        0,
-                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       kDrawing | VK_PIPELINE_STAGE_TRANSFER_BIT,
                        kDrawing,
-                       VK_ACCESS_MEMORY_WRITE_BIT,
+                       kWriting,
                        kWriting | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                        0};
     dependencies[1] = {0,        VK_SUBPASS_EXTERNAL,         kDrawing, VK_PIPELINE_STAGE_TRANSFER_BIT,
@@ -72,17 +72,12 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
         throw RenderError("the preview of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                           " pixels: " + context.info().name + " draws at most " + std::to_string(most) + " a side");
     }
-    const auto memoryType = [&](std::uint32_t allowed) {
-        return context.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0);
-    };
-    color_ = {context.device(),
+    color_ = {context.memory(),
               {kPreviewColor, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                VK_IMAGE_ASPECT_COLOR_BIT},
-              memoryType,
               kWhat};
-    depth_ = {context.device(),
+    depth_ = {context.memory(),
               {vulkan::kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT},
-              memoryType,
               kWhat};
     const std::array<VkImageView, 2> views{color_.view(), depth_.view()};
     VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
@@ -96,7 +91,7 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
     check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), kWhat);
     framebuffer_ = {context.device(), framebuffer, vkDestroyFramebuffer};
     const VkDeviceSize bytes = VkDeviceSize{extent.width} * extent.height * 4 * sizeof(float);
-    pixels_ = vulkan::Buffer(context, bytes, 0, vulkan::Memory::Device, "the preview");
+    pixels_ = vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the preview");
 }
 
 void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass, const Band& band) const {

@@ -1,9 +1,11 @@
-// What the preview is drawn into: an image of four floats a pixel, with a depth buffer, and the buffer that it is copied to.
+// What the preview is drawn into: an image of four floats a pixel, with a depth buffer, and the buffer that it is
+// copied to.
 #pragma once
 #include <cstdint>
 
 #include "Common/Vulkan/Attachment.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/Buffer.h"
+#include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {
 

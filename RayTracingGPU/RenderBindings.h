@@ -3,8 +3,9 @@
 #include <cstdint>
 
 #include "Common/App/Options/Names.h"
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Pipelines.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {
 

@@ -1,6 +1,5 @@
 #include "RayTracingGPU/RtPipeline.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -66,8 +65,9 @@ class GroupList {
     std::vector<VkRayTracingShaderGroupCreateInfoKHR> groups_;
 };
 
-ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shader rayGeneration, std::string& name) {
-    const std::uint32_t features = decisions.features;
+ShaderGroups addGroups(GroupList& list, const SpecializationConstants& constants, Shader rayGeneration,
+                       std::string& name) {
+    const std::uint32_t features = constants.features;
     ShaderGroups groups;
     groups.hit.resize(shared::kHitRecords);
     groups.rayGeneration = list.addGeneral(VK_SHADER_STAGE_RAYGEN_BIT_KHR, rayGeneration);
@@ -92,15 +92,11 @@ ShaderGroups addGroups(GroupList& list, const PipelineDecisions& decisions, Shad
 } // namespace
 
 RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
-                       const RenderBindings& bindings, const PipelineDecisions& decisions, Shader rayGeneration)
+                       const RenderBindings& bindings, const SpecializationConstants& constants, Shader rayGeneration)
     : bindings_(bindings) {
-    constexpr std::uint32_t kConstants = sizeof(PipelineDecisions) / sizeof(std::uint32_t);
-    std::array<VkSpecializationMapEntry, kConstants> entries;
-    for (std::uint32_t i = 0; i < kConstants; ++i) entries[i] = {i, i * 4, 4};
-    const VkSpecializationInfo constants{kConstants, entries.data(), sizeof decisions, &decisions};
-
-    GroupList list(context.device(), constants);
-    const ShaderGroups groups = addGroups(list, decisions, rayGeneration, name_);
+    const VkSpecializationInfo specialization = specializationInfo(constants);
+    GroupList list(context.device(), specialization);
+    const ShaderGroups groups = addGroups(list, constants, rayGeneration, name_);
     VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
     info.stageCount = static_cast<std::uint32_t>(list.stages().size());
     info.pStages = list.stages().data();

@@ -1,4 +1,4 @@
-// The ray tracing pipeline for one set of decisions.
+// A ray tracing pipeline.
 #pragma once
 #include <memory>
 #include <string>
@@ -7,15 +7,19 @@
 #include "RayTracingGPU/Kernel.h"
 #include "RayTracingGPU/RenderBindings.h"
 #include "RayTracingGPU/ShaderTable.h"
+#include "RayTracingGPU/SpecializationConstants.h"
 
 namespace rt::gpu {
 
 class RtPipeline final : public Kernel {
   public:
-    // With only the shader groups that the decisions need. `bindings` must outlive it.
+    // With only the shader groups that the constants need. `bindings` must outlive it.
     RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const RenderBindings& bindings,
-               const PipelineDecisions& decisions, Shader rayGeneration);
+               const SpecializationConstants& constants, Shader rayGeneration);
 
+    vulkan::Access access() const override {
+        return {VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
+    }
     // The groups that exist: "paths+quads+spheres+projected-polygons".
     const std::string& name() const override { return name_; }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/StagingRing.h"
 
 namespace rt::gpu {
 namespace {
@@ -20,8 +21,8 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     const VkDeviceSize handleSize = limits.groupHandleSize;
     const VkDeviceSize base = limits.groupBaseAlignment;
     const VkDeviceSize stride = roundUp(handleSize, limits.groupHandleAlignment);
-    // The one record of ray generation is as long as its stride and begins at a base address, as do the others' first ones.
-    // A single miss record serves both kinds of rays: that nothing was hit means the same to both.
+    // The one record of ray generation is as long as its stride and begins at a base address, as do the others' first
+    // ones. A single miss record serves both kinds of rays: that nothing was hit means the same to both.
     const VkDeviceSize rayGenerationSize = roundUp(stride, base);
     const VkDeviceSize missSize = roundUp(stride, base);
     const VkDeviceSize hitStart = rayGenerationSize + missSize;
@@ -39,10 +40,9 @@ ShaderTable::ShaderTable(vulkan::VulkanContext& context, VkPipeline pipeline, co
     place(rayGenerationSize, groups.miss);
     for (std::size_t i = 0; i < groups.hit.size(); ++i) place(hitStart + i * stride, groups.hit[i]);
 
-    buffer_ = vulkan::Buffer(context, size + base, VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR, vulkan::Memory::Device,
-                             "the shader binding table");
-    const VkDeviceAddress start = roundUp(buffer_.address(), base);
-    vulkan::upload(context, buffer_, table, start - buffer_.address());
+    buffer_ = vulkan::deviceArray<std::byte>(context, table, "the shader binding table",
+                                             VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR, base);
+    const VkDeviceAddress start = buffer_.address();
     rayGeneration_ = {start, rayGenerationSize, rayGenerationSize};
     miss_ = {start + rayGenerationSize, stride, stride};
     hit_ = {start + hitStart, stride, stride * groups.hit.size()};

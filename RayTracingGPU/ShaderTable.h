@@ -4,7 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/Buffer.h"
+#include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {
 

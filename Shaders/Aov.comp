@@ -4,7 +4,7 @@
 #include "Traverse.glsl"
 #include "FirstHit.glsl"
 
-layout(local_size_x_id = 8) in;
+layout(local_size_x_id = kGroupSizeId) in;
 
 void main() {
     writeFeatures(gl_GlobalInvocationID.x);

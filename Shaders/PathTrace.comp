@@ -4,7 +4,7 @@
 #include "Traverse.glsl"
 #include "PathLoop.glsl"
 
-layout(local_size_x_id = 8) in;
+layout(local_size_x_id = kGroupSizeId) in;
 
 void main() {
     tracePaths(gl_GlobalInvocationID.x);

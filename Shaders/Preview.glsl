@@ -2,7 +2,7 @@
 #include "SceneAccess.glsl"
 #include "Common/Shared/Path/PathStep.h"
 
-layout(constant_id = 14) const uint kShape = kSphere; // that a draw's primitives have
+layout(constant_id = kShapeId) const uint kShape = kSphere; // that a draw's primitives have
 
 layout(push_constant, scalar) uniform Launch { PreviewLaunch launch; };
 

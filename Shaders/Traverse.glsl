@@ -4,11 +4,11 @@
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
 
-layout(constant_id = 9) const uint kTreeDepth = 0u; // references that a traversal has to remember
-layout(constant_id = 10) const uint kIsLinear = 1u;   // there are the lists instead of a tree
-layout(constant_id = 11) const uint kListedSpheres = 0u;
-layout(constant_id = 12) const uint kListedQuads = 0u;
-layout(constant_id = 13) const uint kListedTriangles = 0u;
+layout(constant_id = kTreeDepthId) const uint kTreeDepth = 0u; // references that a traversal has to remember
+layout(constant_id = kIsLinearId) const uint kIsLinear = 1u;   // there are the lists instead of a tree
+layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u;
+layout(constant_id = kListedQuadsId) const uint kListedQuads = 0u;
+layout(constant_id = kListedTrianglesId) const uint kListedTriangles = 0u;
 
 layout(set = 0, binding = 2, scalar) uniform LinearLists { vec4 listVectors[kListVectors]; };
 

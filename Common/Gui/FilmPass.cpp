@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "Common/Vulkan/Barrier.h"
 #include "Common/Vulkan/Check.h"
 #include "Present.frag.h"
 #include "Present.vert.h"
@@ -13,7 +14,6 @@ using vulkan::check;
 using vulkan::Handle;
 
 constexpr const char* kWhat = "Preparing the picture";
-constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 Handle<VkPipeline> createPipeline(VkDevice device, VkRenderPass renderPass, VkPipelineLayout layout) {
     const auto vertex = vulkan::makeShaderModule(device, Present_vert);
@@ -49,9 +49,7 @@ void FilmPass::provide(std::size_t slot, VkDeviceSize bytes) {
     if (images_[slot].bytes() == bytes) return;
     check(vkDeviceWaitIdle(device_.device()), "Drawing on " + device_.name());
     images_[slot] = {};
-    images_[slot] =
-        GraphicsBuffer(device_, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    images_[slot] = vulkan::Buffer(device_.memory(), bytes, 0, vulkan::Memory::Device, "the picture");
     bindings_.write(static_cast<std::uint32_t>(slot), VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, images_[slot].get());
 }
 
@@ -63,26 +61,19 @@ void FilmPass::upload(VkCommandBuffer commands, std::uint32_t frame, Slot which,
     const VkDeviceSize bytes = VkDeviceSize{width} * height * 12;
     if (bytes == 0) return;
     provide(slot, bytes);
-    GraphicsBuffer& staging = staging_[frame][slot];
+    vulkan::Buffer& staging = staging_[frame][slot];
     if (staging.bytes() != bytes) {
         staging = {};
-        staging = GraphicsBuffer(device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kMapped);
+        staging = vulkan::Buffer(device_.memory(), bytes, 0, vulkan::Memory::Upload, "the picture");
     }
-    copyReduced(image, n, static_cast<float*>(staging.mapped()));
+    copyReduced(image, n, staging.mapped<float>().data());
     sizes_[slot] = {width, height};
     if (which == Slot::Picture) reduction_ = n;
 
-    VkMemoryBarrier before{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
-    before.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                         VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 1, &before, 0, nullptr, 0, nullptr);
+    vulkan::barrier(commands, vulkan::kFragmentRead | vulkan::kTransferWrite, vulkan::kTransferWrite);
     const VkBufferCopy region{0, 0, bytes};
     vkCmdCopyBuffer(commands, staging.get(), images_[slot].get(), 1, &region);
-    VkMemoryBarrier after{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
-    after.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-    after.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &after,
-                         0, nullptr, 0, nullptr);
+    vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kFragmentRead);
 }
 
 void FilmPass::draw(VkCommandBuffer commands, VkExtent2D extent, PresentConstants constants,

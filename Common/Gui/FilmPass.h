@@ -8,6 +8,7 @@
 
 #include "Common/Gui/GraphicsDevice.h"
 #include "Common/Image/Image.h"
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Pipelines.h"
 
 namespace rt::gui {
@@ -31,8 +32,8 @@ class FilmPass {
     FilmPass(GraphicsDevice& device, VkRenderPass renderPass);
 
     enum class Slot { Picture, Held };
-    // Takes the image to the device with the commands of frame `frame`, outside of a render pass. Three channels. Of an image
-    // that is too large for the device only every n-th pixel is shown.
+    // Takes the image to the device with the commands of frame `frame`, outside of a render pass. Three channels. Of an
+    // image that is too large for the device only every n-th pixel is shown.
     void upload(VkCommandBuffer commands, std::uint32_t frame, Slot slot, const image::Image& image);
     // Within the render pass. The size in the constants is filled in.
     void draw(VkCommandBuffer commands, VkExtent2D extent, const PresentConstants& constants) const {
@@ -49,8 +50,8 @@ class FilmPass {
     vulkan::DescriptorSet bindings_; // the images
     vulkan::Handle<VkPipelineLayout> layout_;
     vulkan::Handle<VkPipeline> pipeline_;
-    std::array<GraphicsBuffer, 2> images_;                               // by slot
-    std::array<std::array<GraphicsBuffer, 2>, kFramesInFlight> staging_; // by frame and slot
+    std::array<vulkan::Buffer, 2> images_;                               // by slot
+    std::array<std::array<vulkan::Buffer, 2>, kFramesInFlight> staging_; // by frame and slot
     std::array<std::array<std::uint32_t, 2>, 2> sizes_{};
     std::uint32_t reduction_ = 1;
 };

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
-#include <limits>
 #include <optional>
 #include <vector>
 
 #include "Common/Vulkan/Check.h"
-#include "Common/Vulkan/MemoryType.h"
+#include "Common/Vulkan/DeviceSelection.h"
 
 namespace rt::gui {
 namespace {
@@ -20,14 +18,10 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-bool hasSwapchain(VkPhysicalDevice device) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-    });
+bool presents(VkPhysicalDevice device, std::uint32_t family, VkSurfaceKHR surface) {
+    VkBool32 answer = VK_FALSE;
+    check(vkGetPhysicalDeviceSurfaceSupportKHR(device, family, surface, &answer), "Asking who draws to the window");
+    return answer == VK_TRUE;
 }
 
 std::optional<std::uint32_t> presentingFamily(VkPhysicalDevice device, VkSurfaceKHR surface) {
@@ -36,9 +30,7 @@ std::optional<std::uint32_t> presentingFamily(VkPhysicalDevice device, VkSurface
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     for (std::uint32_t i = 0; i < count; ++i) {
-        VkBool32 presents = VK_FALSE;
-        vkGetPhysicalDeviceSurfaceSupportKHR(device, i, surface, &presents);
-        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 && presents == VK_TRUE) return i;
+        if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 && presents(device, i, surface)) return i;
     }
     return std::nullopt;
 }
@@ -70,8 +62,9 @@ GraphicsDevice::GraphicsDevice(const Window& window, bool validation, const std:
 }
 
 GraphicsDevice::~GraphicsDevice() {
-    vkDeviceWaitIdle(device_);
-    vkDestroyDevice(device_, nullptr);
+    vkDeviceWaitIdle(device());
+    memory_.reset();
+    device_.reset(); // before the surface that its swapchains were of
     vkDestroySurfaceKHR(instance_.get(), surface_, nullptr);
 }
 
@@ -84,7 +77,8 @@ void GraphicsDevice::choose(const std::string& preferred) {
     for (VkPhysicalDevice device : devices) {
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(device, &properties);
-        if (properties.apiVersion < vulkan::kApiVersion || !hasSwapchain(device)) continue;
+        if (properties.apiVersion < vulkan::kApiVersion) continue;
+        if (!vulkan::offersExtension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) continue;
         const auto family = presentingFamily(device, surface_);
         if (!family) continue;
         const bool named =
@@ -101,7 +95,6 @@ void GraphicsDevice::choose(const std::string& preferred) {
     if (best < 0) {
         throw vulkan::NoDeviceError("no Vulkan device can draw to a window; --headless renders without one");
     }
-    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
 }
 
 void GraphicsDevice::createDevice() {
@@ -116,19 +109,18 @@ void GraphicsDevice::createDevice() {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = 1;
     info.ppEnabledExtensionNames = &extension;
-    check(vkCreateDevice(physical_, &info, nullptr, &device_), "Opening " + name_);
-    vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(physical_, &info, nullptr, &device), "Opening " + name_);
+    device_.reset(device);
+    vkGetDeviceQueue(device, queueFamily_, 0, &queue_);
+    memory_.emplace(physical_, device, false);
 }
 
 void GraphicsDevice::renewSurface(const Window& window) {
     vkDestroySurfaceKHR(instance_.get(), surface_, nullptr);
     surface_ = VK_NULL_HANDLE;
     surface_ = window.createSurface(instance_.get());
-}
-
-std::uint32_t GraphicsDevice::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const {
-    if (const auto type = vulkan::findMemoryType(memory_, allowed, wanted)) return *type;
-    throw RenderError(name_ + " has no memory of the kind that is needed");
+    if (!presents(physical_, queueFamily_, surface_)) throw RenderError(name_ + " cannot draw to the window any more");
 }
 
 void GraphicsDevice::run(const std::function<void(VkCommandBuffer)>& record) {
@@ -136,13 +128,13 @@ void GraphicsDevice::run(const std::function<void(VkCommandBuffer)>& record) {
     poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     poolInfo.queueFamilyIndex = queueFamily_;
     VkCommandPool pool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device_, &poolInfo, nullptr, &pool), "Creating a command pool");
-    const vulkan::Handle<VkCommandPool> owner(device_, pool, vkDestroyCommandPool);
+    check(vkCreateCommandPool(device(), &poolInfo, nullptr, &pool), "Creating a command pool");
+    const vulkan::Handle<VkCommandPool> owner(device(), pool, vkDestroyCommandPool);
     VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     allocation.commandPool = pool;
     allocation.commandBufferCount = 1;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(vkAllocateCommandBuffers(device_, &allocation, &commands), "Creating a command buffer");
+    check(vkAllocateCommandBuffers(device(), &allocation, &commands), "Creating a command buffer");
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(vkBeginCommandBuffer(commands, &begin), "Recording commands");
@@ -153,29 +145,6 @@ void GraphicsDevice::run(const std::function<void(VkCommandBuffer)>& record) {
     submit.pCommandBuffers = &commands;
     check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "Drawing on " + name_);
     check(vkQueueWaitIdle(queue_), "Drawing on " + name_);
-}
-
-GraphicsBuffer::GraphicsBuffer(const GraphicsDevice& device, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                               VkMemoryPropertyFlags memory)
-    : bytes_(bytes) {
-    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-    info.size = bytes;
-    info.usage = usage;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    check(vkCreateBuffer(device.device(), &info, nullptr, &buffer), "Memory for the picture");
-    buffer_ = {device.device(), buffer, vkDestroyBuffer};
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device.device(), buffer, &needs);
-    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex = device.memoryType(needs.memoryTypeBits, memory);
-    VkDeviceMemory storage = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device.device(), &allocation, nullptr, &storage), "Memory for the picture");
-    memory_ = {device.device(), storage, vkFreeMemory};
-    check(vkBindBufferMemory(device.device(), buffer, storage, 0), "Memory for the picture");
-    if ((memory & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
-        check(vkMapMemory(device.device(), storage, 0, VK_WHOLE_SIZE, 0, &mapped_), "Memory for the picture");
-    }
 }
 
 } // namespace rt::gui

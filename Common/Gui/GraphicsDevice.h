@@ -2,11 +2,13 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include <vulkan/vulkan.h>
 
 #include "Common/Gui/Window.h"
+#include "Common/Vulkan/DeviceMemory.h"
 #include "Common/Vulkan/Handle.h"
 #include "Common/Vulkan/Instance.h"
 
@@ -22,7 +24,8 @@ class GraphicsDevice {
 
     VkInstance instance() const { return instance_.get(); }
     VkPhysicalDevice physicalDevice() const { return physical_; }
-    VkDevice device() const { return device_; }
+    VkDevice device() const { return device_.get(); }
+    vulkan::DeviceMemory& memory() { return *memory_; }
     VkQueue queue() const { return queue_; }
     std::uint32_t queueFamily() const { return queueFamily_; }
     VkSurfaceKHR surface() const { return surface_; }
@@ -30,8 +33,8 @@ class GraphicsDevice {
     bool isSoftware() const { return isSoftware_; }
     VkDeviceSize maxStorageBytes() const { return maxStorageBytes_; }
 
-    void renewSurface(const Window& window); // after it was lost; nothing may use it any more
-    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags wanted) const;
+    // After it was lost; nothing may use it any more. Throws RenderError where the device cannot draw to the new one.
+    void renewSurface(const Window& window);
     // Runs commands and waits for them.
     void run(const std::function<void(VkCommandBuffer)>& record);
 
@@ -45,27 +48,10 @@ class GraphicsDevice {
     std::string name_;
     bool isSoftware_ = false;
     VkDeviceSize maxStorageBytes_ = 0;
-    VkPhysicalDeviceMemoryProperties memory_{};
     std::uint32_t queueFamily_ = 0;
-    VkDevice device_ = VK_NULL_HANDLE;
+    vulkan::OwnedDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;
-};
-
-// A buffer with memory of its own; mapped if the host can see it.
-class GraphicsBuffer {
-  public:
-    GraphicsBuffer() = default;
-    GraphicsBuffer(const GraphicsDevice& device, VkDeviceSize bytes, VkBufferUsageFlags usage,
-                   VkMemoryPropertyFlags memory);
-    VkBuffer get() const { return buffer_.get(); }
-    VkDeviceSize bytes() const { return bytes_; }
-    void* mapped() const { return mapped_; }
-
-  private:
-    vulkan::Handle<VkDeviceMemory> memory_;
-    vulkan::Handle<VkBuffer> buffer_;
-    VkDeviceSize bytes_ = 0;
-    void* mapped_ = nullptr;
+    std::optional<vulkan::DeviceMemory> memory_; // gone before the device
 };
 
 } // namespace rt::gui

@@ -141,7 +141,11 @@ bool Presenter::provideSwapchain() {
     // The window system may be ahead of or behind the window library: what the swapchain has is what counts.
     if (swapchain_ && extent_.width == extent.width && extent_.height == extent.height) return true;
     dropSwapchain();
+    return createSwapchain(able, extent);
+}
 
+// False where the surface is lost.
+bool Presenter::createSwapchain(const VkSurfaceCapabilitiesKHR& able, VkExtent2D extent) {
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = device_.surface();
     info.minImageCount = std::max(able.minImageCount, 2u);

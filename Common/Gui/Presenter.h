@@ -30,8 +30,8 @@ class Presenter {
     void setPicture(std::shared_ptr<const image::Image> picture);
     void setHeld(std::shared_ptr<const image::Image> held);
 
-    // Shows a frame: the picture, then what `drawInterface` draws over it. False where there is nothing to draw on, as while
-    // the window is minimised. Throws RenderError or DeviceLostError.
+    // Shows a frame: the picture, then what `drawInterface` draws over it. False where there is nothing to draw on, as
+    // while the window is minimised. Throws RenderError or DeviceLostError.
     bool present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface);
 
   private:
@@ -51,6 +51,7 @@ class Presenter {
     void chooseFormat();
     void createFrames();
     bool provideSwapchain();
+    bool createSwapchain(const VkSurfaceCapabilitiesKHR& able, VkExtent2D extent);
     void dropSwapchain();
     void createImage(VkImage image, SwapImage& to);
     void record(Frame& frame, const SwapImage& target, const PresentConstants& constants,

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "Common/Gui/WindowRenderPass.h"
 #include "Common/Shared/Tonemap.h"
 #include "Common/Vulkan/Attachment.h"
+#include "Common/Vulkan/Barrier.h"
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Check.h"
 
 namespace rt::gui {
@@ -16,19 +19,16 @@ using vulkan::check;
 using vulkan::Handle;
 
 constexpr const char* kWhat = "Drawing a snapshot";
-constexpr VkMemoryPropertyFlags kReadable = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 // An image to draw to, and to copy from afterwards.
 class Target {
   public:
     Target(GraphicsDevice& device, VkFormat format, VkExtent2D extent)
         : extent_(extent),
-          color_(
-              device.device(),
-              {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-               VK_IMAGE_ASPECT_COLOR_BIT},
-              [&](std::uint32_t allowed) { return device.memoryType(allowed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT); },
-              kWhat),
+          color_(device.memory(),
+                 {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                  VK_IMAGE_ASPECT_COLOR_BIT},
+                 kWhat),
           renderPass_(makeWindowRenderPass(device.device(), format, VK_ATTACHMENT_LOAD_OP_CLEAR,
                                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL)) {
         VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
@@ -71,11 +71,7 @@ class Target {
         copy.imageOffset = {part.offset.x, part.offset.y, 0};
         copy.imageExtent = {part.extent.width, part.extent.height, 1};
         vkCmdCopyImageToBuffer(commands, color_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, to, 1, &copy);
-        VkMemoryBarrier written{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
-        written.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
-        written.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-        vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &written, 0,
-                             nullptr, 0, nullptr);
+        vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kHostRead);
     }
 
   private:
@@ -105,11 +101,11 @@ image::Image takeSnapshot(GraphicsDevice& device, VkFormat format, VkExtent2D ex
     const VkRect2D area = within(part, extent);
     image::Image picture(area.extent.width, area.extent.height);
     const Target target(device, format, extent);
-    const GraphicsBuffer pixels(device, VkDeviceSize{picture.width} * picture.height * 4,
-                                VK_BUFFER_USAGE_TRANSFER_DST_BIT, kReadable);
+    const vulkan::Buffer pixels(device.memory(), VkDeviceSize{picture.width} * picture.height * 4, 0,
+                                vulkan::Memory::ReadBack, "a snapshot");
     device.run([&](VkCommandBuffer commands) { target.record(commands, area, pixels.get(), draw); });
     const bool isBgr = format == VK_FORMAT_B8G8R8A8_UNORM || format == VK_FORMAT_B8G8R8A8_SRGB;
-    const auto* bytes = static_cast<const std::uint8_t*>(pixels.mapped());
+    const std::span<const std::uint8_t> bytes = pixels.mapped<const std::uint8_t>();
     for (std::size_t i = 0; i < picture.data.size(); ++i) {
         const std::size_t channel = isBgr ? 2 - i % 3 : i % 3;
         picture.data[i] = shared::srgbDecode(static_cast<float>(bytes[i / 3 * 4 + channel]) / 255.0f);

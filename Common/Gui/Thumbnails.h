@@ -1,5 +1,5 @@
-// Small pictures of the built-in scenes (Assets/thumbnails) among the controls. ImGui's renderer draws images of others only
-// since 1.87, so a callback in its list of commands draws them.
+// Small pictures of the built-in scenes (Assets/thumbnails) among the controls. ImGui's renderer draws images of others
+// only since 1.87, so a callback in its list of commands draws them.
 #pragma once
 #include <deque>
 #include <future>

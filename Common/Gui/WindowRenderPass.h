@@ -6,8 +6,8 @@
 
 namespace rt::gui {
 
-// One attachment, stored at the end. All that differ in no more than these parameters, `format` apart, are compatible: what is
-// recorded for one may be drawn in the other. Throws RenderError.
+// One attachment, stored at the end. All that differ in no more than these parameters, `format` apart, are compatible:
+// what is recorded for one may be drawn in the other. Throws RenderError.
 vulkan::Handle<VkRenderPass> makeWindowRenderPass(VkDevice device, VkFormat format, VkAttachmentLoadOp loadOp,
                                                   VkImageLayout finalLayout);
 

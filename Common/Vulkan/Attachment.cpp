@@ -4,8 +4,8 @@
 
 namespace rt::vulkan {
 
-Attachment::Attachment(VkDevice device, const AttachmentDesc& desc,
-                       const std::function<std::uint32_t(std::uint32_t allowed)>& memoryType, const char* what) {
+Attachment::Attachment(DeviceMemory& from, const AttachmentDesc& desc, const char* what) {
+    const VkDevice device = from.device();
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = desc.format;
@@ -19,13 +19,8 @@ Attachment::Attachment(VkDevice device, const AttachmentDesc& desc,
 
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(device, image, &needs);
-    VkMemoryAllocateInfo allocation{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
-    allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex = memoryType(needs.memoryTypeBits);
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    check(vkAllocateMemory(device, &allocation, nullptr, &memory), what);
-    memory_ = {device, memory, vkFreeMemory};
-    check(vkBindImageMemory(device, image, memory, 0), what);
+    memory_ = from.allocateAlone(needs, Memory::Device, what);
+    check(vkBindImageMemory(device, image, memory_.memory(), memory_.offset()), what);
 
     VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
     viewInfo.image = image;

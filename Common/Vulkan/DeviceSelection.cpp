@@ -116,8 +116,8 @@ DeviceInfo describe(VkPhysicalDevice device) {
     info.hasRayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
     info.missingForPipeline = missingForPipeline(device, extensions);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
-        // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not with
-        // 25.0.7. Its version number does not tell them apart.
+        // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not
+        // with 25.0.7. Its version number does not tell them apart.
         addMissing(info.missing, "loops of any length (Mesa 25.0 has them)");
     }
     const std::optional<std::uint32_t> family = findQueueFamily(device);
@@ -185,6 +185,10 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
 }
 
 } // namespace
+
+bool offersExtension(VkPhysicalDevice device, const char* name) {
+    return contains(extensionsOf(device), name);
+}
 
 const std::vector<const char*>& pipelineExtensions() {
     static const std::vector<const char*> extensions{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,

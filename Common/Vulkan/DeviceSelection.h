@@ -29,18 +29,22 @@ struct DeviceInfo {
     bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
 };
 
+// Throws RenderError where the driver cannot tell.
+bool offersExtension(VkPhysicalDevice device, const char* name);
+
 // Extensions of ray tracing pipelines, which we enable where a device has all of them.
 const std::vector<const char*>& pipelineExtensions();
 
 // In the driver's order: the index is what --device takes.
 std::vector<DeviceInfo> findDevices(const Instance& instance);
 
-// One line a device, with its engines and the reasons where one is missing; a line that says so where there is no device.
+// One line a device, with its engines and the reasons where one is missing; a line that says so where there is no
+// device.
 std::string describeDevices(const std::vector<DeviceInfo>& devices);
 
 // The device with this index or with this text in its name, whatever the case; with an empty request the best: discrete
-// before integrated before software. With `rayTracing` only those with ray tracing pipelines. Throws NoDeviceError naming what
-// there is.
+// before integrated before software. With `rayTracing` only those with ray tracing pipelines. Throws NoDeviceError
+// naming what there is.
 DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing);
 
 } // namespace rt::vulkan

@@ -1,15 +1,38 @@
-// Ownership of one Vulkan object.
+// Ownership of Vulkan objects and devices.
 #pragma once
 #include <atomic>
+#include <memory>
 #include <utility>
 
 #include <vulkan/vulkan.h>
 
 namespace rt::vulkan {
 
-// The last device that was lost or does not answer. What it has is left to the operating system: drivers have been seen to
-// block or to crash when asked to free it.
-inline std::atomic<VkDevice> abandonedDevice{VK_NULL_HANDLE};
+// Devices that were lost or do not answer. What they have is left to the operating system: drivers have been seen to
+// block or to crash when asked to free it. Neither are these records freed; any thread may add one.
+struct AbandonedDevice {
+    VkDevice device;
+    const AbandonedDevice* next;
+};
+inline std::atomic<const AbandonedDevice*> abandonedDevices{nullptr};
+
+inline void abandon(VkDevice device) {
+    auto* added = new AbandonedDevice{device, abandonedDevices.load()};
+    while (!abandonedDevices.compare_exchange_weak(added->next, added)) {
+    }
+}
+inline bool isAbandoned(VkDevice device) {
+    const AbandonedDevice* one = abandonedDevices.load();
+    while (one != nullptr && one->device != device) one = one->next;
+    return one != nullptr;
+}
+
+struct DestroyDevice {
+    void operator()(VkDevice device) const {
+        if (!isAbandoned(device)) vkDestroyDevice(device, nullptr);
+    }
+};
+using OwnedDevice = std::unique_ptr<VkDevice_T, DestroyDevice>; // VkDevice is a pointer to that
 
 // Destroys the object with its device's function, unless empty or of an abandoned device.
 template <class T>
@@ -25,7 +48,7 @@ class Handle {
         return *this;
     }
     ~Handle() {
-        if (object_ != T{} && device_ != abandonedDevice) destroy_(device_, object_, nullptr);
+        if (object_ != T{} && !isAbandoned(device_)) destroy_(device_, object_, nullptr);
     }
 
     T get() const { return object_; }

@@ -12,8 +12,8 @@ inline constexpr std::uint32_t kApiVersion = VK_API_VERSION_1_2;
 
 class Instance {
   public:
-    // With validation the Khronos validation layer checks every call, synchronization included; its messages are logged and
-    // counted. Throws NoDeviceError where there is no driver at all, RenderError where the layer is not installed.
+    // With validation the Khronos validation layer checks every call, synchronization included; its messages are logged
+    // and counted. Throws NoDeviceError where there is no driver at all, RenderError where the layer is not installed.
     // `extensions` are enabled besides, such as those of a window system.
     explicit Instance(bool validation, std::vector<const char*> extensions = {});
     ~Instance();

@@ -8,7 +8,8 @@ namespace rt::vulkan {
 
 class PipelineCache {
   public:
-    // Starts from `file` if it is there, undamaged and of this device and driver; otherwise empty. An empty path: not on disk.
+    // Starts from `file` if it is there, undamaged and of this device and driver; otherwise empty. An empty path: not
+    // on disk.
     PipelineCache(VulkanContext& context, std::filesystem::path file);
     VkPipelineCache get() const { return cache_.get(); }
     // Writes the file if the cache has grown. A cache that cannot be written is no error.

@@ -1,5 +1,5 @@
-// What every pipeline is made of, in one call each: shaders, layouts, bindings. All throw RenderError; `what` names what could
-// not be done.
+// What every pipeline is made of, in one call each: shaders, layouts, bindings. All throw RenderError; `what` names
+// what could not be done.
 #pragma once
 #include <cstdint>
 #include <span>

@@ -39,13 +39,13 @@ Run::Run(VulkanContext& context) : context_(context) {
 }
 
 Run::~Run() {
-    if (context_.device() == abandonedDevice) return;
+    if (isAbandoned(context_.device())) return;
     vkFreeCommandBuffers(context_.device(), context_.commandPool_.get(), 1, &commands_);
 }
 
 // What an abandoned device was given may still be in use, and would be waited for in vain.
 void Run::requireDevice() const {
-    if (context_.device() == abandonedDevice) {
+    if (isAbandoned(context_.device())) {
         throw DeviceLostError("Running on " + context_.info().name + ": the device was lost before");
     }
 }
@@ -87,12 +87,14 @@ void Run::await() {
     const std::string what = "Running on " + context_.info().name;
     const bool patient = context_.info().isSoftware();
     const VkFence fence = fence_.get();
-    const VkResult result = vkWaitForFences(context_.device(), 1, &fence, VK_TRUE,
-                                            patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
-    if (result == VK_TIMEOUT || result == VK_ERROR_DEVICE_LOST) abandonedDevice = context_.device();
+    VkResult result = context_.wait(fence, patient ? std::numeric_limits<std::uint64_t>::max() : kPatience.count());
+    if (result == VK_SUCCESS) result = vkResetFences(context_.device(), 1, &fence);
+    if (result == VK_SUCCESS) return;
+    // Nobody knows what the device still works at: it gets no more work, with this fence or another.
+    abandon(context_.device());
     if (result == VK_TIMEOUT) throw DeviceLostError(what + ": no answer for a minute; a newer driver may help");
+    if (result != VK_ERROR_DEVICE_LOST) throw DeviceLostError(what + ": waiting failed: " + resultName(result));
     check(result, what);
-    check(vkResetFences(context_.device(), 1, &fence), what);
 }
 
 } // namespace rt::vulkan

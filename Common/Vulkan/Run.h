@@ -19,11 +19,12 @@ class Run {
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    // Records commands and hands them to the device, which takes them up when it is through with what it got before, if that
-    // ends with a barrier. Throws DeviceLostError or RenderError.
+    // Records commands and hands them to the device, which takes them up when it is through with what it got before, if
+    // that ends with a barrier. Throws DeviceLostError or RenderError.
     void begin(const Record& record);
-    // Waits for their end, but for no more than a minute where it is not the CPU that works: not every system has a watchdog for
-    // that. Throws DeviceLostError then. Returns how long the device took for it in seconds: by its own clock if it has one.
+    // Waits for their end, but for no more than a minute where it is not the CPU that works: not every system has a
+    // watchdog for that. Throws DeviceLostError then. Returns how long the device took for it in seconds: by its own
+    // clock if it has one.
     double finish();
 
   private:

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "Common/Vulkan/Check.h"
-#include "Common/Vulkan/MemoryType.h"
+#include "Common/Vulkan/StagingRing.h"
 
 namespace rt::vulkan {
 namespace {
@@ -20,35 +20,26 @@ void load(VkDevice device, const char* name, Function& function) {
 
 VulkanContext::VulkanContext(const ContextOptions& options)
     : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device, options.rayTracing)) {
-    vkGetPhysicalDeviceMemoryProperties(info_.device, &memory_);
     queryLimits();
     createDevice();
-    try {
-        if (info_.tracesRays()) loadFunctions();
-        VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-        pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-        pool.queueFamilyIndex = info_.queueFamily;
-        VkCommandPool commandPool = VK_NULL_HANDLE;
-        check(vkCreateCommandPool(device_, &pool, nullptr, &commandPool), "Creating a command pool");
-        commandPool_ = {device_, commandPool, vkDestroyCommandPool};
-
-        run_.emplace(*this);
-    } catch (...) {
-        commandPool_ = {};
-        vkDestroyDevice(device_, nullptr);
-        throw;
-    }
+    if (info_.tracesRays()) loadFunctions();
+    memory_.emplace(info_.device, device(), true);
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = info_.queueFamily;
+    VkCommandPool commandPool = VK_NULL_HANDLE;
+    check(vkCreateCommandPool(device(), &pool, nullptr, &commandPool), "Creating a command pool");
+    commandPool_ = {device(), commandPool, vkDestroyCommandPool};
+    run_.emplace(*this);
+    staging_ = std::make_unique<StagingRing>(*this);
 }
 
 VulkanContext::~VulkanContext() {
-    if (device_ == abandonedDevice) {
+    if (isAbandoned(device())) {
         instance_.abandon();
-        return;
+    } else {
+        vkDeviceWaitIdle(device());
     }
-    vkDeviceWaitIdle(device_);
-    run_.reset();
-    commandPool_ = {};
-    vkDestroyDevice(device_, nullptr);
 }
 
 void VulkanContext::createDevice() {
@@ -84,22 +75,24 @@ void VulkanContext::createDevice() {
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    check(vkCreateDevice(info_.device, &info, nullptr, &device_), "Opening " + info_.name);
-    vkGetDeviceQueue(device_, info_.queueFamily, 0, &queue_);
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(info_.device, &info, nullptr, &device), "Opening " + info_.name);
+    device_.reset(device);
+    vkGetDeviceQueue(device, info_.queueFamily, 0, &queue_);
 }
 
 void VulkanContext::loadFunctions() {
     RayTracingFunctions& f = rayTracing_;
-    load(device_, "vkCreateAccelerationStructureKHR", f.createAccelerationStructure);
-    load(device_, "vkDestroyAccelerationStructureKHR", f.destroyAccelerationStructure);
-    load(device_, "vkGetAccelerationStructureBuildSizesKHR", f.getBuildSizes);
-    load(device_, "vkGetAccelerationStructureDeviceAddressKHR", f.getAccelerationStructureAddress);
-    load(device_, "vkCmdBuildAccelerationStructuresKHR", f.cmdBuild);
-    load(device_, "vkCmdCopyAccelerationStructureKHR", f.cmdCopy);
-    load(device_, "vkCmdWriteAccelerationStructuresPropertiesKHR", f.cmdWriteProperties);
-    load(device_, "vkCreateRayTracingPipelinesKHR", f.createPipelines);
-    load(device_, "vkGetRayTracingShaderGroupHandlesKHR", f.getGroupHandles);
-    load(device_, "vkCmdTraceRaysKHR", f.cmdTraceRays);
+    load(device(), "vkCreateAccelerationStructureKHR", f.createAccelerationStructure);
+    load(device(), "vkDestroyAccelerationStructureKHR", f.destroyAccelerationStructure);
+    load(device(), "vkGetAccelerationStructureBuildSizesKHR", f.getBuildSizes);
+    load(device(), "vkGetAccelerationStructureDeviceAddressKHR", f.getAccelerationStructureAddress);
+    load(device(), "vkCmdBuildAccelerationStructuresKHR", f.cmdBuild);
+    load(device(), "vkCmdCopyAccelerationStructureKHR", f.cmdCopy);
+    load(device(), "vkCmdWriteAccelerationStructuresPropertiesKHR", f.cmdWriteProperties);
+    load(device(), "vkCreateRayTracingPipelinesKHR", f.createPipelines);
+    load(device(), "vkGetRayTracingShaderGroupHandlesKHR", f.getGroupHandles);
+    load(device(), "vkCmdTraceRaysKHR", f.cmdTraceRays);
 }
 
 void VulkanContext::queryLimits() {
@@ -109,9 +102,7 @@ void VulkanContext::queryLimits() {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
     VkPhysicalDeviceIDProperties identity{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
     if (info_.tracesRays()) identity.pNext = &pipeline;
-    VkPhysicalDeviceMaintenance3Properties memory{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
-                                                  &identity};
-    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &memory};
+    VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &identity};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
     limits_.groupHandleAlignment = pipeline.shaderGroupHandleAlignment;
@@ -120,7 +111,6 @@ void VulkanContext::queryLimits() {
     limits_.scratchAlignment = structure.minAccelerationStructureScratchOffsetAlignment;
     limits_.maxPrimitives = structure.maxPrimitiveCount;
     limits_.maxInstances = structure.maxInstanceCount;
-    limits_.maxAllocation = memory.maxMemoryAllocationSize;
     const VkPhysicalDeviceLimits& core = properties.properties.limits;
     limits_.maxDrawnSide = std::min({core.maxFramebufferWidth, core.maxFramebufferHeight, core.maxImageDimension2D,
                                      static_cast<std::uint32_t>(core.maxViewportDimensions[0]),
@@ -144,8 +134,12 @@ void VulkanContext::submit(VkCommandBuffer commands, VkFence fence) {
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     const VkResult result = vkQueueSubmit(queue_, 1, &submit, fence);
-    if (result == VK_ERROR_DEVICE_LOST) abandonedDevice = device_;
+    if (result == VK_ERROR_DEVICE_LOST) abandon(device());
     check(result, "Running on " + info_.name);
+}
+
+VkResult VulkanContext::wait(VkFence fence, std::uint64_t nanoseconds) {
+    return vkWaitForFences(device(), 1, &fence, VK_TRUE, nanoseconds);
 }
 
 void VulkanContext::run(const Record& record) {
@@ -164,21 +158,17 @@ double VulkanContext::finishTimed(Run& run) {
     return seconds;
 }
 
-std::uint32_t VulkanContext::memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
-                                        VkMemoryPropertyFlags preferred) const {
-    for (const VkMemoryPropertyFlags wanted : {required | preferred, required}) {
-        if (const auto type = findMemoryType(memory_, allowed, wanted)) return *type;
+Access VulkanContext::bufferUses() const {
+    constexpr VkAccessFlags kShaders =
+        VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+    Access uses = kTransferRead | kTransferWrite | Access{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, kShaders};
+    if (info_.draws) uses.stages |= VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    if (info_.tracesRays()) {
+        // Vertices, boxes and instances are shader reads, too, and so is the shader binding table.
+        uses.stages |=
+            VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR | VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
     }
-    throw RenderError(info_.name + " has no memory of the kind that is needed");
-}
-
-void barrier(VkCommandBuffer commands) {
-    VkMemoryBarrier memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
-    memory.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    memory.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-    vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &memory, 0, nullptr, 0,
-                         nullptr);
+    return uses;
 }
 
 } // namespace rt::vulkan

@@ -1,19 +1,23 @@
 // One device with one queue, and all that is known about it: enough for headless rendering.
 #pragma once
 #include <array>
-#include <atomic>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include <vulkan/vulkan.h>
 
+#include "Common/Vulkan/Barrier.h"
+#include "Common/Vulkan/DeviceMemory.h"
 #include "Common/Vulkan/DeviceSelection.h"
 #include "Common/Vulkan/Handle.h"
 #include "Common/Vulkan/Instance.h"
 #include "Common/Vulkan/Run.h"
 
 namespace rt::vulkan {
+
+class StagingRing;
 
 struct ContextOptions {
     std::string device; // index or part of a name; empty: the best
@@ -44,9 +48,8 @@ struct DeviceLimits {
     std::uint32_t scratchAlignment = 0; // bytes, of acceleration structure builds
     std::uint64_t maxPrimitives = 0;    // of one acceleration structure
     std::uint64_t maxInstances = 0;
-    std::uint64_t maxAllocation = 0; // bytes, of one piece of memory
-    std::uint32_t maxDrawnSide = 0;  // pixels, of an image that is drawn
-    double timestampSeconds = 0;     // of one tick; 0: the queue has no timestamps
+    std::uint32_t maxDrawnSide = 0; // pixels, of an image that is drawn
+    double timestampSeconds = 0;    // of one tick; 0: the queue has no timestamps
     std::uint64_t timestampMask = 0;
     std::uint32_t vendor = 0;
     std::uint32_t deviceId = 0;
@@ -63,7 +66,9 @@ class VulkanContext {
     VulkanContext(const VulkanContext&) = delete;
     VulkanContext& operator=(const VulkanContext&) = delete;
 
-    VkDevice device() const { return device_; }
+    VkDevice device() const { return device_.get(); }
+    DeviceMemory& memory() { return *memory_; }
+    StagingRing& staging() { return *staging_; }
     const DeviceInfo& info() const { return info_; }
     const DeviceLimits& limits() const { return limits_; }
     const RayTracingFunctions& rayTracing() const { return rayTracing_; }
@@ -77,17 +82,16 @@ class VulkanContext {
     double finishTimed(Run& run);
     double longestRun() const { return longestRun_; } // of all that were timed, in seconds
 
-    // Index of a type of memory among `allowed` (a bit each) with all of `required` and, if there is such a one, `preferred`.
-    std::uint32_t memoryType(std::uint32_t allowed, VkMemoryPropertyFlags required,
-                             VkMemoryPropertyFlags preferred) const;
-
-    // Bytes of device memory that buffers hold at present; buffers count themselves.
-    std::atomic<std::uint64_t>& deviceBytes() { return deviceBytes_; }
+    // All that shaders, copies and builds of acceleration structures do with buffers, in the stages that this device
+    // has.
+    Access bufferUses() const;
 
   protected:
     friend class Run;
     // Hands recorded commands to the device. Virtual for tests, whose devices can fail.
     virtual void submit(VkCommandBuffer commands, VkFence fence);
+    // Waits for at most so many nanoseconds. Likewise virtual.
+    virtual VkResult wait(VkFence fence, std::uint64_t nanoseconds);
 
   private:
     void createDevice();
@@ -97,18 +101,14 @@ class VulkanContext {
     Instance instance_;
     DeviceInfo info_;
     DeviceLimits limits_;
-    VkPhysicalDeviceMemoryProperties memory_{};
-    VkDevice device_ = VK_NULL_HANDLE;
+    OwnedDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;
     RayTracingFunctions rayTracing_;
+    std::optional<DeviceMemory> memory_; // from here on made with the device, and gone before it
     Handle<VkCommandPool> commandPool_;
     std::optional<Run> run_;
+    std::unique_ptr<StagingRing> staging_;
     double longestRun_ = 0;
-    std::atomic<std::uint64_t> deviceBytes_{0};
 };
-
-// Makes everything that the commands before wrote visible to the commands behind and to the host:
-// nothing of ours overlaps anyway.
-void barrier(VkCommandBuffer commands);
 
 } // namespace rt::vulkan

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Vulkan/PipelineCache.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/DeviceFilm.h"
 #include "tests/cross/Device.h"
 
@@ -18,7 +18,8 @@ namespace {
 
 using image::Film;
 
-// Feeds `blocks` blocks of samples of one tile to the reduction and returns the largest relative error of the film's sums.
+// Feeds `blocks` blocks of samples of one tile to the reduction and returns the largest relative error of the film's
+// sums.
 double reductionError(std::uint32_t blocks, const std::function<float()>& next) {
     constexpr std::uint32_t kSteps = 256 * shared::kBlock;
     vulkan::VulkanContext& context = device();
@@ -28,7 +29,8 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
     gpu::DeviceFilm onDevice(context, film.desc(), 1);
     onDevice.load(film, 0);
     std::vector<shared::vec3> radiance(std::size_t{kSteps} * shared::kTilePixels);
-    const vulkan::Buffer buffer(context, radiance.size() * sizeof radiance[0], 0, vulkan::Memory::Device, "radiance");
+    const vulkan::Buffer buffer(context.memory(), radiance.size() * sizeof radiance[0], 0, vulkan::Memory::Device,
+                                "radiance");
     std::vector<glm::dvec3> exact(shared::kTilePixels, glm::dvec3(0));
     std::vector<shared::vec3> block(shared::kTilePixels, shared::vec3(0));
     for (std::uint32_t done = 0; done < blocks * shared::kBlock; done += kSteps) {
@@ -48,7 +50,7 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
         launch.spp = done + kSteps;
         context.run([&](VkCommandBuffer commands) {
             reducer.run(commands, launch, launch.slotCount);
-            vulkan::barrier(commands);
+            vulkan::barrier(commands, vulkan::kComputeWrite, context.bufferUses());
         });
         onDevice.advance(launch);
     }

@@ -12,8 +12,8 @@
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Shared/Base/Features.h"
+#include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Check.h"
-#include "Common/Vulkan/VulkanResources.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
@@ -62,8 +62,8 @@ struct Render {
     }
 };
 
-// By an engine that is gone then: through the ray tracing pipeline of an NVIDIA H200 an engine that is made while another one exists
-// was seen to differ from one that is alone in the last bits of its images.
+// By an engine that is gone then: through the ray tracing pipeline of an NVIDIA H200 an engine that is made while
+// another one exists was seen to differ from one that is alone in the last bits of its images.
 Film rendered(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = testedEngine()) {
     return Render(settings, options).finish();
 }
@@ -117,7 +117,8 @@ TEST_P(GpuEngineTest, CancelledWorkCanGoOn) {
     EXPECT_TRUE(sameBits(expected, render.finish().resolve().data));
 }
 
-// A launch leaves paths to the next one. Until they have ended, its samples are not in the film, which can go on without them.
+// A launch leaves paths to the next one. Until they have ended, its samples are not in the film, which can go on
+// without them.
 TEST_P(GpuEngineTest, SamplesUnderWayAreNotInTheFilm) {
     app::RenderSettings settings = settingsFor(24);
     settings.width = settings.height = 56; // so many tiles that two launches take different ones
@@ -165,7 +166,8 @@ TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
     }
 }
 
-// Made on the device or, of a film in parts, on the host: in the middle of a block, with several replicates, from a film.
+// Made on the device or, of a film in parts, on the host: in the middle of a block, with several replicates, from a
+// film.
 TEST_P(GpuEngineTest, ASnapshotIsTheResolvedFilm) {
     const auto expectSame = [](app::Engine& engine) {
         const app::Snapshot snapshot = engine.snapshot();
@@ -211,7 +213,7 @@ TEST_P(GpuEngineTest, PartsGoOnFromAFilm) {
     EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
 }
 
-// ---- failure ---------------------------------------------------------------------------------------------------------
+// ---- failure --------------------------------------------------------------------------------------------------------
 
 class FailingContext : public vulkan::VulkanContext {
   public:
@@ -249,9 +251,9 @@ TEST_P(GpuEngineTest, AFilmThatCannotBeReadIsAnErrorOnce) {
 }
 
 TEST_P(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
-    const VkDeviceSize bytes = device().limits().maxAllocation + 1;
+    const VkDeviceSize bytes = device().memory().largest() + 1;
     try {
-        const vulkan::Buffer buffer(device(), bytes, 0, vulkan::Memory::Device, "the film");
+        const vulkan::Buffer buffer(device().memory(), bytes, 0, vulkan::Memory::Device, "the film");
         FAIL() << bytes << " bytes";
     } catch (const RenderError& error) {
         EXPECT_EQ(std::string(error.what()).rfind("Memory for the film (", 0), 0u) << error.what();

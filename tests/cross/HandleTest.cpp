@@ -13,7 +13,7 @@ VKAPI_ATTR void VKAPI_CALL destroy(VkDevice, VkFence, const VkAllocationCallback
     ++destroyed;
 }
 
-// Any two that are not null: nothing asks them.
+// Any that are not null: nothing asks them.
 VkDevice fakeDevice(std::uintptr_t number) {
     return reinterpret_cast<VkDevice>(number);
 }
@@ -21,15 +21,16 @@ Handle<VkFence> fakeFence(VkDevice device) {
     return {device, reinterpret_cast<VkFence>(std::uintptr_t{1}), destroy};
 }
 
-TEST(HandleTest, ObjectsOfAnAbandonedDeviceAreLeftAlone) {
+TEST(HandleTest, ObjectsOfAbandonedDevicesAreLeftAlone) {
     destroyed = 0;
     {
-        const Handle<VkFence> ofTheFirst = fakeFence(fakeDevice(1)), ofTheSecond = fakeFence(fakeDevice(2));
-        abandonedDevice = fakeDevice(1);
+        const Handle<VkFence> ofTheFirst = fakeFence(fakeDevice(1)), ofTheSecond = fakeFence(fakeDevice(2)),
+                              ofTheThird = fakeFence(fakeDevice(3));
+        abandon(fakeDevice(1));
+        abandon(fakeDevice(2));
     }
-    abandonedDevice = VK_NULL_HANDLE;
     EXPECT_EQ(destroyed, 1);
-    { const Handle<VkFence> fence = fakeFence(fakeDevice(1)); }
+    { const Handle<VkFence> fence = fakeFence(fakeDevice(3)); }
     EXPECT_EQ(destroyed, 2);
 }
 

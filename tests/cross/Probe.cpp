@@ -3,7 +3,7 @@
 #include <string>
 
 #include "Common/Vulkan/Pipelines.h"
-#include "Common/Vulkan/VulkanResources.h"
+#include "Common/Vulkan/StagingRing.h"
 #include "tests/cross/Device.h"
 
 namespace rt::test {
@@ -20,7 +20,7 @@ std::vector<Words> answersOf(const Probe& probe) {
     const auto layout = vulkan::makePipelineLayout(context.device(), push, VK_NULL_HANDLE, "Loading the probe");
 
     std::vector<Words> results(std::size_t{probe.parts} * probe.count);
-    const vulkan::Buffer buffer(context, results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
+    const vulkan::Buffer buffer(context.memory(), results.size() * sizeof(Words), 0, vulkan::Memory::Device, "results");
     const Launch launch{buffer.address(), probe.count};
     for (const std::uint32_t family : probe.families) {
         const VkSpecializationMapEntry entry{0, 0, sizeof family};
@@ -32,7 +32,7 @@ std::vector<Words> answersOf(const Probe& probe) {
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
             vkCmdPushConstants(commands, layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof launch, &launch);
             vkCmdDispatch(commands, (probe.count + kGroup - 1) / kGroup, probe.parts, 1);
-            vulkan::barrier(commands);
+            vulkan::barrier(commands, vulkan::kComputeWrite, vulkan::kTransferRead);
         });
     }
     vulkan::download(context, buffer, std::as_writable_bytes(std::span(results)));

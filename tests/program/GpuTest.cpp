@@ -121,6 +121,50 @@ TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {
     }
 }
 
+#ifdef RT_LAYER_DIR
+
+// 10 000 meshes, each with an acceleration structure of its own, on a driver that allows no more allocations than Vulkan
+// guarantees.
+TEST_F(Gpu, TenThousandPrototypesNeedFewAllocations) {
+    std::string mesh; // a strip of as many triangles as make a prototype worth its instances
+    for (int i = 0; i <= 32; ++i)
+        mesh += "v " + std::to_string(i / 40.0) + " 0 0\nv " + std::to_string(i / 40.0) + " 0.5 0\n";
+    for (int i = 1; i < 65; i += 2) {
+        const std::string a = std::to_string(i), b = std::to_string(i + 1), c = std::to_string(i + 2),
+                          d = std::to_string(i + 3);
+        mesh += "f " + a + " " + c + " " + d + "\nf " + a + " " + d + " " + b + "\n";
+    }
+    writeFile("strip.obj", mesh);
+    nlohmann::json scene;
+    scene["camera"] = {{"look_from", {0, 40, 80}}, {"look_at", {0, 0, 0}}, {"vertical_fov", 50}};
+    scene["background"] = {{"type", "gradient"}, {"bottom", {1, 1, 1}}, {"top", {0.5, 0.7, 1}}};
+    scene["materials"]["white"] = {{"type", "lambertian"}, {"albedo", {0.7, 0.7, 0.7}}};
+    for (int i = 0; i < 10'000; ++i) {
+        const std::string name = std::to_string(i);
+        scene["prototypes"][name] = {{{"type", "mesh"}, {"file", "strip.obj"}, {"material", "white"}}};
+        for (const int y : {0, 2}) {
+            const nlohmann::json step = {{"translate", {i % 100 - 50, y, i / 100 - 50}}};
+            scene["objects"].push_back({{"type", "instance"}, {"prototype", name}, {"transform", {step}}});
+        }
+    }
+    writeFile("many.json", scene.dump());
+    const Environment limited = {{"VK_ADD_LAYER_PATH", RT_LAYER_DIR},
+                                 {"VK_INSTANCE_LAYERS", "VK_LAYER_RT_faults"},
+                                 {"RT_MAX_ALLOCATIONS", "4096"}};
+    const Arguments arguments = {"--scene", "many.json", "--engine", "pipeline", "--spp",
+                                 "1",       "-o",        "a.pfm",    "--stats",  "s.json"};
+    const Outcome outcome = gpu(arguments, limited);
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(jsonOf("s.json")["kernel"], "paths+triangles");
+    EXPECT_EQ(jsonOf("s.json")["spp_done"], 1);
+    // The limit holds.
+    const Environment none = {
+        {"VK_ADD_LAYER_PATH", RT_LAYER_DIR}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RT_faults"}, {"RT_MAX_ALLOCATIONS", "0"}};
+    EXPECT_TRUE(failsWith(gpu({"-o", "b.pfm"}, none), 1, "too many objects"));
+}
+
+#endif
+
 TEST_F(Gpu, EnginesDrawTheSamePicture) {
     ASSERT_EQ(gpu({"-o", "gpu.pfm", "--spp", "16"}).exitCode, 0);
     ASSERT_EQ(cpu({"-q", "--headless", "--width", "32", "--height", "32", "--spp", "16", "-o", "cpu.pfm"}).exitCode, 0);

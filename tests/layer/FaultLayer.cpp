@@ -1,6 +1,8 @@
 // A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about otherwise.
 // RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the third call of the one
 // return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a line on standard error.
+// RT_MAX_ALLOCATIONS is how many pieces of memory may exist at a time, as drivers have such a limit.
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -72,6 +74,23 @@ VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchai
     return next<PFN_vkCreateSwapchainKHR>(device, device, "vkCreateSwapchainKHR")(device, info, allocator, swapchain);
 }
 
+std::atomic<int> allocations{0}; // that exist
+
+VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                              const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
+    const char* most = std::getenv("RT_MAX_ALLOCATIONS");
+    if (most != nullptr && allocations >= std::atoi(most)) return VK_ERROR_TOO_MANY_OBJECTS;
+    const VkResult result =
+        next<PFN_vkAllocateMemory>(device, device, "vkAllocateMemory")(device, info, allocator, memory);
+    if (result == VK_SUCCESS) ++allocations;
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+    if (memory != VK_NULL_HANDLE) --allocations;
+    next<PFN_vkFreeMemory>(device, device, "vkFreeMemory")(device, memory, allocator);
+}
+
 // ---- what makes it a layer -------------------------------------------------------------------------------------------
 
 template <class Info>
@@ -110,12 +129,21 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
     return result;
 }
 
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name);
+
+// The function of a device that the layer has instead; null if it has none.
+PFN_vkVoidFunction ownFunction(const std::string& name) {
+    if (name == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
+    if (name == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
+    if (name == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
+    if (name == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    if (name == "vkAllocateMemory") return reinterpret_cast<PFN_vkVoidFunction>(allocateMemory);
+    if (name == "vkFreeMemory") return reinterpret_cast<PFN_vkVoidFunction>(freeMemory);
+    return nullptr;
+}
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
-    const std::string function = name;
-    if (function == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
-    if (function == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
-    if (function == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
-    if (function == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    if (const PFN_vkVoidFunction own = ownFunction(name)) return own;
     const std::scoped_lock lock(mutex);
     return devices.at(tableOf(device))(device, name);
 }
@@ -125,10 +153,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
     if (function == "vkGetInstanceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getInstanceProcAddr);
     if (function == "vkCreateInstance") return reinterpret_cast<PFN_vkVoidFunction>(createInstance);
     if (function == "vkCreateDevice") return reinterpret_cast<PFN_vkVoidFunction>(createDevice);
-    if (function == "vkGetDeviceProcAddr") return reinterpret_cast<PFN_vkVoidFunction>(getDeviceProcAddr);
-    if (function == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
-    if (function == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
-    if (function == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    if (const PFN_vkVoidFunction own = ownFunction(function)) return own;
     if (instance == VK_NULL_HANDLE) return nullptr;
     const std::scoped_lock lock(mutex);
     return instances.at(tableOf(instance)).get(instance, name);

@@ -1,0 +1,46 @@
+#include "RayTracingGPU/Pass.h"
+
+#include <algorithm>
+
+namespace rt::gpu {
+namespace {
+
+constexpr std::uint64_t kPassPart = 8;     // launches share passes that take a film of n samples n / 8 further
+constexpr std::uint64_t kMaxPass = 64;     // samples, likewise
+constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions take turns; a turn costs two copies
+
+} // namespace
+
+// Where two launches take all pixels several samples further, they are a pass: one would have to wait for the paths of
+// the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
+// shorter than it may be. Large films go on by whole blocks.
+Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting) {
+    const std::uint64_t replicates = region.replicates();
+    const std::uint64_t round = shared::kBlock * replicates; // samples per pixel
+    std::uint64_t end = (begun / round + kRegionRounds) * round;
+    if (region.isWhole()) {
+        const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region.columnSamples(), 1);
+        const std::uint64_t wanted =
+            std::max(2 * fitting / region.stepSamples(), std::min(begun / kPassPart, kMaxPass) / replicates);
+        end = begun + std::clamp<std::uint64_t>(wanted, 1, most) * replicates;
+    }
+    end = std::min(end, spp);
+    return {.end = static_cast<std::uint32_t>(end),
+            .steps = static_cast<std::uint32_t>((end - begun + replicates - 1) / replicates)};
+}
+
+shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting) {
+    const std::uint64_t room = kMaxSamples / (region.columnSamples() * pass.steps);
+    const std::uint64_t columns = fitting * region.bandSlots() / (region.stepSamples() * pass.steps);
+    const std::uint32_t left = region.bandSlots() - pass.nextSlot;
+    const std::uint32_t half = (region.bandSlots() + 1) / 2;
+    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));
+    const std::uint64_t launches = (left + most - 1) / most; // that take alike many
+    shared::FilmLaunch launch{};
+    region.describe(launch, pass.nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
+    launch.steps = pass.steps;
+    launch.spp = pass.end;
+    return launch;
+}
+
+} // namespace rt::gpu

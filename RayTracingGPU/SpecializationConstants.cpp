@@ -1,0 +1,66 @@
+#include "RayTracingGPU/SpecializationConstants.h"
+
+namespace rt::gpu {
+namespace {
+
+constexpr std::size_t kTraversal = offsetof(SpecializationConstants, traversal);
+constexpr std::size_t kConstants = sizeof(SpecializationConstants) / sizeof(std::uint32_t);
+
+constexpr VkSpecializationMapEntry entry(std::uint32_t id, std::size_t offset) {
+    return {id, static_cast<std::uint32_t>(offset), sizeof(std::uint32_t)};
+}
+
+constexpr std::array kEntries{
+    entry(shared::kFeaturesId, offsetof(SpecializationConstants, features)),
+    entry(shared::kLightSamplingId, offsetof(SpecializationConstants, lightSampling)),
+    entry(shared::kLightSelectionId, offsetof(SpecializationConstants, lightSelection)),
+    entry(shared::kSphereLightId, offsetof(SpecializationConstants, sphereLight)),
+    entry(shared::kQuadLightId, offsetof(SpecializationConstants, quadLight)),
+    entry(shared::kTriangleLightId, offsetof(SpecializationConstants, triangleLight)),
+    entry(shared::kSamplerKindId, offsetof(SpecializationConstants, samplerKind)),
+    entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
+    entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
+    entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
+    entry(shared::kIsLinearId, kTraversal + offsetof(TraversalShape, isLinear)),
+    entry(shared::kListedSpheresId, kTraversal + offsetof(TraversalShape, listedSpheres)),
+    entry(shared::kListedQuadsId, kTraversal + offsetof(TraversalShape, listedQuads)),
+    entry(shared::kListedTrianglesId, kTraversal + offsetof(TraversalShape, listedTriangles)),
+};
+
+// Whether every member has an entry, and no two entries an id or a member in common.
+constexpr bool areComplete() {
+    for (std::size_t i = 0; i < kEntries.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            if (kEntries[i].constantID == kEntries[j].constantID || kEntries[i].offset == kEntries[j].offset)
+                return false;
+        }
+    }
+    return kEntries.size() == kConstants;
+}
+static_assert(areComplete());
+
+} // namespace
+
+TraversalShape traversalShape(const accel::GpuBvh& bvh) {
+    constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
+    TraversalShape shape;
+    shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
+    shape.isLinear = bvh.isLinear ? 1 : 0;
+    shape.listedSpheres = bvh.lists.spheres;
+    shape.listedQuads = bvh.lists.quads;
+    shape.listedTriangles = bvh.lists.triangles;
+    return shape;
+}
+
+SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
+                                                    const TraversalShape& traversal) {
+    return {features,           params.lightSampling,   params.lightSelection,
+            params.sphereLight, params.quadLight,       params.triangleLight,
+            params.samplerKind, params.russianRoulette, traversal};
+}
+
+VkSpecializationInfo specializationInfo(const SpecializationConstants& constants) {
+    return {static_cast<std::uint32_t>(kEntries.size()), kEntries.data(), sizeof constants, &constants};
+}
+
+} // namespace rt::gpu

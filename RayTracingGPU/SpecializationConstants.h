@@ -1,0 +1,48 @@
+// The specialization constants of a render: what is the same for all of its paths, known before its shaders are
+// compiled.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <vulkan/vulkan.h>
+
+#include "Common/Accel/GpuBvh.h"
+#include "Common/Shared/Base/Types.h"
+#include "Shaders/SpecializationIds.h"
+
+namespace rt::gpu {
+
+// What compute shaders trace rays through.
+struct TraversalShape {
+    std::uint32_t groupSize = 64; // invocations of a work group
+    std::uint32_t treeDepth = 0;
+    std::uint32_t isLinear = 0;
+    std::uint32_t listedSpheres = 0;
+    std::uint32_t listedQuads = 0;
+    std::uint32_t listedTriangles = 0;
+    bool operator==(const TraversalShape&) const = default;
+};
+
+TraversalShape traversalShape(const accel::GpuBvh& bvh);
+
+struct SpecializationConstants {
+    std::uint32_t features = 0;
+    std::uint32_t lightSampling = 0;
+    std::uint32_t lightSelection = 0;
+    std::uint32_t sphereLight = 0;
+    std::uint32_t quadLight = 0;
+    std::uint32_t triangleLight = 0;
+    std::uint32_t samplerKind = 0;
+    std::uint32_t russianRoulette = 0;
+    TraversalShape traversal; // of the compute engine
+    bool operator==(const SpecializationConstants&) const = default;
+};
+
+SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
+                                                    const TraversalShape& traversal);
+
+// Of constants that must live as long as the result. Those that a shader does not have are ignored.
+VkSpecializationInfo specializationInfo(const SpecializationConstants& constants);
+
+} // namespace rt::gpu

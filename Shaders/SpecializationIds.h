@@ -1,0 +1,29 @@
+// The ids of the shaders' specialization constants, valid as C++20 and as GLSL.
+#ifndef RT_SHADERS_SPECIALIZATION_IDS_H
+#define RT_SHADERS_SPECIALIZATION_IDS_H
+#include "Common/Shared/Base/Shim.h"
+
+RT_SHARED_BEGIN
+
+// Of every shader of a render, see Bindings.glsl.
+const uint kFeaturesId = 0u;
+const uint kLightSamplingId = 1u;
+const uint kLightSelectionId = 2u;
+const uint kSphereLightId = 3u;
+const uint kQuadLightId = 4u;
+const uint kTriangleLightId = 5u;
+const uint kSamplerKindId = 6u;
+const uint kRussianRouletteId = 7u;
+// Of compute shaders that trace rays, see Traverse.glsl.
+const uint kGroupSizeId = 8u;
+const uint kTreeDepthId = 9u;
+const uint kIsLinearId = 10u;
+const uint kListedSpheresId = 11u;
+const uint kListedQuadsId = 12u;
+const uint kListedTrianglesId = 13u;
+// Of the preview, see Preview.glsl.
+const uint kShapeId = 14u;
+
+RT_SHARED_END
+
+#endif
