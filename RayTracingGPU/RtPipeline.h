@@ -20,7 +20,7 @@ class RtPipeline final : public Kernel {
     vulkan::Access access() const override {
         return {VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT};
     }
-    // The groups that exist: "paths+quads+spheres+projected-polygons".
+    // The groups that exist: "paths+quads+spheres".
     const std::string& name() const override { return name_; }
 
   private:

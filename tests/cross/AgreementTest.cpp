@@ -204,8 +204,8 @@ TEST_P(EllipsoidAgreementTest, SampleForSample) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
-// Samplers by projected solid angle are shaders of their own in the ray tracing pipeline, which it calls.
-TEST(CallableAgreementTest, SampleForSample) {
+// Lights sampled by projected solid angle take shaders of their own: without that code they would stay dark.
+TEST(ProjectedAgreementTest, SampleForSample) {
     for (const char* id : {"cornell-box-lights", "triangle-lights"}) {
         const auto scene = app::compile(app::loadScene(id), true);
         EnginePair engines(scene, app::GpuEngineKind::Pipeline);

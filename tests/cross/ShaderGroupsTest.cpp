@@ -17,13 +17,11 @@ namespace {
 struct Groups {
     std::uint32_t triangles = 0;  // hits of meshes, and of quads, which are two triangles
     std::uint32_t procedural = 0; // hits of spheres
-    std::uint32_t callable = 0;   // samplers by projected solid angle
     bool operator==(const Groups&) const = default;
 };
 
 std::ostream& operator<<(std::ostream& out, const Groups& groups) {
-    return out << groups.triangles << " of triangles, " << groups.procedural << " procedural, " << groups.callable
-               << " callable";
+    return out << groups.triangles << " of triangles, " << groups.procedural << " procedural";
 }
 
 // While it lives, it stands between the engine and the driver.
@@ -54,8 +52,6 @@ class MadeGroups {
         for (const VkRayTracingShaderGroupCreateInfoKHR& g : std::span(infos->pGroups, infos->groupCount)) {
             groups.triangles += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_TRIANGLES_HIT_GROUP_KHR;
             groups.procedural += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_PROCEDURAL_HIT_GROUP_KHR;
-            groups.callable += g.type == VK_RAY_TRACING_SHADER_GROUP_TYPE_GENERAL_KHR &&
-                               infos->pStages[g.generalShader].stage == VK_SHADER_STAGE_CALLABLE_BIT_KHR;
         }
         return current_->driver_(device, operation, cache, count, infos, allocator, pipelines);
     }
@@ -84,21 +80,11 @@ app::RenderSettings tiny() {
 
 TEST(ShaderGroupsTest, AreThoseOfTheShapesInTheScene) {
     app::RenderSettings settings = tiny();
-    EXPECT_EQ(groupsFor("one-weekend-final", settings), (Groups{0, 1, 0}));
-    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0, 0}));
-    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 0}));
+    EXPECT_EQ(groupsFor("one-weekend-final", settings), (Groups{0, 1}));
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0}));
+    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1}));
     settings.features = shared::kFeatureAll;
-    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{2, 1, 0}));
-}
-
-// The default scene is lit by a quad and by spheres.
-TEST(ShaderGroupsTest, CallableAreTheSamplersThatLightsNeed) {
-    app::RenderSettings settings = tiny();
-    settings.quadLight = app::ShapeSampling::Projected;
-    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 1}));
-    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{1, 0, 0}));
-    settings.sphereLight = app::ShapeSampling::Projected;
-    EXPECT_EQ(groupsFor("cornell-box-lights", settings), (Groups{1, 1, 2}));
+    EXPECT_EQ(groupsFor("next-week-quads", settings), (Groups{2, 1}));
 }
 
 } // namespace
