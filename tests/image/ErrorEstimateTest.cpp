@@ -57,8 +57,8 @@ std::vector<double> ratios(const std::vector<Run>& runs) {
     return result;
 }
 
-// The contract's criterion at few samples, where fireflies are rare and large: the median within 15 % for each scene and
-// sampler, and no more than 5 % of all runs below 0.8.
+// The contract's criterion at few samples, where fireflies are rare and large: the median within 15 % for each scene
+// and sampler, and no more than 5 % of all runs below 0.8.
 TEST(ErrorEstimate, HoldsOnScenesWithFireflies) {
     const auto engine = cpu::makeCpuEngine({});
     std::size_t all = 0, low = 0;

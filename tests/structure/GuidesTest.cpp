@@ -1,5 +1,5 @@
-// The guides name files and symbols of this tree, and only such: in README.md and docs/*.md, whatever stands between backquotes
-// and looks like a path, a file or a name has to exist.
+// The guides name files and symbols of this tree, and only such: in README.md and docs/*.md, whatever stands between
+// backquotes and looks like a path, a file or a name has to exist.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>

@@ -304,10 +304,11 @@ TEST(SceneJson, GroupsMayNestButPrototypesMustNotContainThemselves) {
 TEST(SceneJson, ExplodingInstancesAreAnError) {
     Json document = {{"materials", {{"m", {{"type", "lambertian"}, {"albedo", {1, 1, 1}}}}}},
                      {"objects", {{{"type", "instance"}, {"prototype", "p0"}}}}};
+    const auto prototype = [](int level) { return std::string("p").append(std::to_string(level)); };
     for (int level = 0; level < 10; ++level)
         for (int i = 0; i < 10; ++i)
-            document["prototypes"]["p" + std::to_string(level)].push_back(
-                {{"type", "instance"}, {"prototype", "p" + std::to_string(level + 1)}});
+            document["prototypes"][prototype(level)].push_back(
+                {{"type", "instance"}, {"prototype", prototype(level + 1)}});
     document["prototypes"]["p10"] =
         Json::parse(R"([{"type": "sphere", "center": [0,0,0], "radius": 1, "material": "m"}])");
     const SceneDesc scene = parse(document.dump());

@@ -29,7 +29,8 @@ std::vector<std::string> SessionThread::run() {
         if (requests.atEnd) atEnd_ = requests.atEnd;
         if (requests.quit) break;
         try {
-            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last one.
+            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last
+            // one.
             if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
             apply(std::move(requests));
             if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
@@ -45,7 +46,7 @@ std::vector<std::string> SessionThread::run() {
     return endFailures_;
 }
 
-// ---- what was asked for ----------------------------------------------------------------------------------------------
+// ---- what was asked for --------------------------------------------------------------------------------------------
 
 void SessionThread::apply(Requests requests) {
     film_.publisher.awaitPicture(requests.changed);
@@ -278,7 +279,7 @@ bool SessionThread::record() {
     }
 }
 
-// ---- files -----------------------------------------------------------------------------------------------------------
+// ---- files ---------------------------------------------------------------------------------------------------------
 
 void SessionThread::writeWaiting() {
     const bool isComing = !isReady()       ? activity_ != Activity::Failed

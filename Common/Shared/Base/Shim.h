@@ -1,5 +1,5 @@
-// The one place where C++ and GLSL differ, but for SceneAccess.h. Every other header of Common/Shared is valid as C++20 and as GLSL 460
-// (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
+// The one place where C++ and GLSL differ, but for SceneAccess.h. Every other header of Common/Shared is valid as C++20
+// and as GLSL 460 (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
 //
 //   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
 //                    linkage keeps the copies compiled for different instruction sets apart.
