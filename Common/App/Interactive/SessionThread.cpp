@@ -312,8 +312,9 @@ std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, S
 void SessionThread::writeEnd(StopReason reason) {
     if (!atEnd_ || endIsWritten_) return;
     endIsWritten_ = true;
-    endFailures_ = film_.hasSamples() ? writeFiles(*atEnd_, reason)
-                                      : std::vector<std::string>{"nothing was rendered that could be written"};
+    // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
+    endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
+                               : std::vector<std::string>{"nothing was rendered that could be written"};
     for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
 }
 
