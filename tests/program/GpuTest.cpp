@@ -82,7 +82,7 @@ TEST_F(Gpu, TheImageDependsOnNothingButSettings) {
 TEST_F(Gpu, TheStatisticsNameTheEngine) {
     EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "compute"}).exitCode, 0);
     EXPECT_EQ(jsonOf("s.json")["engine"], "compute");
-    EXPECT_EQ(jsonOf("s.json")["kernel"], "flat+quads+spheres");
+    EXPECT_EQ(jsonOf("s.json")["kernel"], "list+quads+spheres");
     EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "auto"}).exitCode, 0);
     EXPECT_TRUE(jsonOf("s.json")["engine"] == "compute" || jsonOf("s.json")["engine"] == "pipeline");
 }
