@@ -237,7 +237,8 @@ class CpuEngine final : public app::Engine {
         return static_cast<std::uint32_t>((total + replicates - 1 - replicate) / replicates);
     }
 
-    // Opens the next pass, which takes every pixel to passEnd_ samples: one more block of each replicate. False: all done.
+    // Opens the next pass, which takes every pixel to passEnd_ samples: one more block of each replicate. False: all
+    // done.
     bool beginPass() {
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
         const std::uint64_t done = film_.minSamples();
@@ -248,8 +249,8 @@ class CpuEngine final : public app::Engine {
         return true;
     }
 
-    // Workers take tiles until the pass or the time is over. A tile that was cancelled half-way is not committed, so a later
-    // call renders it again.
+    // Workers take tiles until the pass or the time is over. A tile that was cancelled half-way is not committed, so a
+    // later call renders it again.
     void runPass(Clock::time_point deadline, const std::atomic<bool>* cancel) {
         std::atomic<std::uint32_t> next{nextTile_};
         std::atomic<bool> abandoned{false};
@@ -263,7 +264,8 @@ class CpuEngine final : public app::Engine {
             }
             addCounters(counters);
         });
-        // After an interruption tiles below `next` may be unfinished: the pass starts over, and finished tiles are skipped.
+        // After an interruption tiles below `next` may be unfinished: the pass starts over, and finished tiles are
+        // skipped.
         nextTile_ = abandoned.load() ? 0 : std::min(next.load(), film_.tileCount());
     }
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace rt::shared;
 
-// ---- choosing a light -----------------------------------------------------------------------------------------------
+// ---- choosing a light ----------------------------------------------------------------------------------------------
 
 // runningSums() of a group of rows, a row for each light; `total` becomes the last.
 RT_CALL void addRows(const FloatLanes* rows, FloatLanes* sums, FloatLanes& total) {
@@ -120,7 +120,7 @@ RT_FN void chooseLights(const CpuScene& scene, const RenderParams& params, uint 
     }
 }
 
-// ---- sampling it ----------------------------------------------------------------------------------------------------
+// ---- sampling it ---------------------------------------------------------------------------------------------------
 
 // Samples of quads under the automatic method, unless they are near.
 RT_CALL void sampleQuads(PathLanes& lanes) {
@@ -170,7 +170,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
     }
 }
 
-// ---- weighing it ----------------------------------------------------------------------------------------------------
+// ---- weighing it ---------------------------------------------------------------------------------------------------
 
 template <uint kFeatures>
 RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {

@@ -9,7 +9,7 @@ namespace {
 
 using namespace rt::shared;
 
-// ---- tiles ----------------------------------------------------------------------------------------------------------
+// ---- tiles ---------------------------------------------------------------------------------------------------------
 
 // A sample that is not a number is dropped and counted, and stays in the divisor.
 void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& counters) {

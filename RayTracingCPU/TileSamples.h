@@ -14,7 +14,8 @@ class TileSamples {
     TileSamples(const KernelContext& context, const TileTask& task)
         : context_(context), task_(task), count_(task.width * task.height * task.count) {}
 
-    // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is left.
+    // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is
+    // left.
     template <uint kFeatures>
     uint next(PathLanes& lanes, uint lane, Ray& ray) {
         if (next_ == count_) return kNone;

@@ -17,9 +17,9 @@
 
 namespace rt::cpu {
 
-// Calls work(i) once for each i below count. The policies know no number of threads: at most `count` calls run at a time, so
-// each call is a worker that pulls its share of the work itself. The first exception of a worker is thrown again when all
-// are done.
+// Calls work(i) once for each i below count. The policies know no number of threads: at most `count` calls run at a
+// time, so each call is a worker that pulls its share of the work itself. The first exception of a worker is thrown
+// again when all are done.
 template <class Work>
 void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
     if (policy == Policy::Seq || count == 1 || !accel::canStartThreads()) {

@@ -217,7 +217,7 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     return result;
 }
 
-// ---- pipelines ------------------------------------------------------------------------------------------------------
+// ---- pipelines -----------------------------------------------------------------------------------------------------
 
 FilmPipeline::FilmPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, Shader shader,
                            std::uint32_t pushBytes) {

@@ -107,7 +107,7 @@ class GpuEngine final : public app::Engine {
     app::EngineReport report_;
 };
 
-// ---- set-up ---------------------------------------------------------------------------------------------------------
+// ---- set-up --------------------------------------------------------------------------------------------------------
 
 void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) {
     features_ = app::renderFeatures(scene_->compiled(), camera, settings);
@@ -173,7 +173,7 @@ void GpuEngine::setFilm(Film film) {
     sinceRefresh_ = {};
 }
 
-// ---- rendering ------------------------------------------------------------------------------------------------------
+// ---- rendering -----------------------------------------------------------------------------------------------------
 
 app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     if (!region_) throw RenderError("there was no memory for the film");
@@ -302,7 +302,7 @@ app::Snapshot GpuEngine::snapshot() {
     }
 }
 
-// ---- the rest -------------------------------------------------------------------------------------------------------
+// ---- the rest ------------------------------------------------------------------------------------------------------
 
 app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32_t samples) {
     const std::unique_ptr<Kernel> kernel = makeKernel(KernelPurpose::FirstHits);

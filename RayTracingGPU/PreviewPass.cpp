@@ -89,7 +89,7 @@ PreviewPass::PreviewPass(vulkan::VulkanContext& context, const vulkan::PipelineC
     createPipelines(cache);
 }
 
-// ---- set-up ---------------------------------------------------------------------------------------------------------
+// ---- set-up --------------------------------------------------------------------------------------------------------
 
 void PreviewPass::listDraws() {
     const scene::CompiledScene& s = scene_.compiled();
@@ -156,7 +156,7 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
                                         kWhat);
 }
 
-// ---- drawing --------------------------------------------------------------------------------------------------------
+// ---- drawing -------------------------------------------------------------------------------------------------------
 
 // From the camera's record: what of a point's position is along `across`, `down` and towards the plane of focus.
 void PreviewPass::uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {

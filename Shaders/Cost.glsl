@@ -1,5 +1,5 @@
-// What a pixel costs, averaged over its first samples: rays, camera, scattered and shadow; or with RT_TIME ticks of the shader
-// clock, which count all that lanes of a group wait for each other. The includer provides traceRay().
+// What a pixel costs, averaged over its first samples: rays, camera, scattered and shadow; or with RT_TIME ticks of the
+// shader clock, which count all that lanes of a group wait for each other. The includer provides traceRay().
 #ifdef RT_TIME
 #extension GL_ARB_shader_clock : require
 #endif

@@ -8,8 +8,8 @@
 layout(local_size_x = 64) in; // the pixels of one slot
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
-// s + x. Knuth's exact sum, renormalised; then the low word is rounded to 53 bits below the leading bit of the high one, so
-// that a double holds both.
+// s + x. Knuth's exact sum, renormalised; then the low word is rounded to 53 bits below the leading bit of the high
+// one, so that a double holds both.
 void add(inout FilmSum s, vec3 x) {
     precise vec3 sum = s.high + x;
     precise vec3 virtual_ = sum - s.high;

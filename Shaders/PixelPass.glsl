@@ -1,4 +1,5 @@
-// How shaders of one invocation a pixel begin, which go through the pixel's first samples. The includer provides traceRay().
+// How shaders of one invocation a pixel begin, which go through the pixel's first samples. The includer provides
+// traceRay().
 #include "SceneAccess.glsl"
 #include "Common/Shared/Path/PathStep.h"
 

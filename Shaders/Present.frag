@@ -1,5 +1,5 @@
-// The picture in its window: exposure, tone curve, sRGB. Pixels are squares where they are enlarged and averages where they
-// are reduced.
+// The picture in its window: exposure, tone curve, sRGB. Pixels are squares where they are enlarged and averages where
+// they are reduced.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Common/Shared/Tonemap.h"

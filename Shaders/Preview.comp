@@ -1,5 +1,5 @@
-// Finishes some rows of the preview: the sky where nothing was drawn, and media in front of what was. The last group reaches
-// into the next rows, which are still to be drawn.
+// Finishes some rows of the preview: the sky where nothing was drawn, and media in front of what was. The last group
+// reaches into the next rows, which are still to be drawn.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Preview.glsl"

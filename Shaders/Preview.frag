@@ -1,5 +1,5 @@
-// The colour of what a pixel's ray meets first. Surfaces are those of the ray tracer: the same formulas find position, normal,
-// texture and material.
+// The colour of what a pixel's ray meets first. Surfaces are those of the ray tracer: the same formulas find position,
+// normal, texture and material.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Preview.glsl"

@@ -12,10 +12,10 @@ Ray previewRay(uvec2 pixel) {
     return generateCameraRay(kFeatures, constants.camera, pixel, size, vec2(0.5f), vec2(0.5f), 0.0f);
 }
 
-// What a light adds to the radiance of a white diffuse surface at `position`, were there nothing in between: the form factor of
-// a disk of the light's area that is seen from its axis (Howell, "A Catalog of Radiation Heat Transfer Configuration Factors",
-// B-13), times the cosines. A point in a medium, whose normal is zero, gets a quarter of what a surface gets that faces the
-// light.
+// What a light adds to the radiance of a white diffuse surface at `position`, were there nothing in between: the form
+// factor of a disk of the light's area that is seen from its axis (Howell, "A Catalog of Radiation Heat Transfer
+// Configuration Factors", B-13), times the cosines. A point in a medium, whose normal is zero, gets a quarter of what a
+// surface gets that faces the light.
 vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
     vec3 middle = light.position;
     if (light.kind == kLightQuad) middle += 0.5f * (light.edgeU + light.edgeV);
@@ -31,7 +31,8 @@ vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
     return light.emission * (facing * seen / (seen + kPi * squared));
 }
 
-// Of the sky, for a white diffuse surface: exact for a gradient, whose mean over the cosine is its value at 2/3 of the normal.
+// Of the sky, for a white diffuse surface: exact for a gradient, whose mean over the cosine is its value at 2/3 of the
+// normal.
 vec3 skyLight(SceneRef scene, vec3 normal) {
     if (!has(kFeatures, kFeatureSky)) return vec3(0.0f);
     if (has(kFeatures, kFeatureSkyImage) && constants.globals.skyLight != kNone) {
@@ -40,8 +41,8 @@ vec3 skyLight(SceneRef scene, vec3 normal) {
     return skyRadiance(kFeatures & ~kFeatureSkyImage, scene, normal * (2.0f / 3.0f));
 }
 
-// Radiance of a white diffuse surface that is seen from `wo`: the strongest lights, and what comes from all around, most of it
-// from where the camera is, so that shapes show.
+// Radiance of a white diffuse surface that is seen from `wo`: the strongest lights, and what comes from all around,
+// most of it from where the camera is, so that shapes show.
 vec3 incidentLight(SceneRef scene, vec3 position, vec3 normal, vec3 wo) {
     vec3 sum = (launch.ambient + skyLight(scene, normal)) * (0.5f + 0.5f * dot(normal, wo));
     for (uint i = 0u; i < launch.lightCount; i++) {

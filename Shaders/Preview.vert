@@ -1,5 +1,5 @@
-// Places the primitives of a draw, one kind at a time and any number of instances: triangles, quads as two triangles, and for
-// each sphere a cube around it, of which the fragments find out where their rays meet the sphere.
+// Places the primitives of a draw, one kind at a time and any number of instances: triangles, quads as two triangles,
+// and for each sphere a cube around it, of which the fragments find out where their rays meet the sphere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Preview.glsl"

@@ -9,8 +9,8 @@ float rayTMin(Ray ray) {
     return has(kFeatures, kFeatureMovingSpheres) ? ray.time * kTimeToTMin : 0.0f;
 }
 
-// What the ray meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then only the sign of t tells
-// anything. A negative t if there is nothing.
+// What the ray meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then only the sign of t
+// tells anything. A negative t if there is nothing.
 Hit traceRay(Ray ray, bool anyHit, float tMax) {
     uint flags = gl_RayFlagsOpaqueEXT;
     if (anyHit) flags |= gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;

@@ -1,5 +1,5 @@
-// What the engine hands to its shaders, valid as C++20 and as GLSL like Common/Shared: addresses of arrays, the records of
-// the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
+// What the engine hands to its shaders, valid as C++20 and as GLSL like Common/Shared: addresses of arrays, the records
+// of the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
 #include "Common/Shared/Base/SceneArrays.h"
@@ -29,7 +29,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- scene -----------------------------------------------------------------------------------------------------------
+// ---- scene ---------------------------------------------------------------------------------------------------------
 
 #define RT_DECLARE(Type, name, load, title) RT_ARRAY(name##Array, Type)
 RT_SCENE_ARRAYS(RT_DECLARE, RT_DECLARE)
@@ -70,16 +70,17 @@ struct RenderConstants {
     Camera camera;
 };
 
-// ---- film ------------------------------------------------------------------------------------------------------------
-// Slots follow each other as in image::Film: tiles of 8x8 pixels row by row, the replicates of each tile side by side. A value
-// of a pixel stands at slot * kTilePixels + (row * 8 + column) in its array, slots counted from the film's first.
+// ---- film ----------------------------------------------------------------------------------------------------------
+// Slots follow each other as in image::Film: tiles of 8x8 pixels row by row, the replicates of each tile side by side.
+// A value of a pixel stands at slot * kTilePixels + (row * 8 + column) in its array, slots counted from the film's
+// first.
 
 const uint kTile = 8u;
 const uint kTilePixels = 64u;
 const uint kBlock = 16u; // samples of a pixel that are summed in floats, in order
 
-// An unevaluated sum of two floats, high + low, |low| <= half an ulp of high: 48 bits. The sum of both is always exact in a
-// double, so that a film that went through the host goes on bit for bit.
+// An unevaluated sum of two floats, high + low, |low| <= half an ulp of high: 48 bits. The sum of both is always exact
+// in a double, so that a film that went through the host goes on bit for bit.
 struct FilmSum {
     vec3 high;
     vec3 low;
@@ -101,9 +102,9 @@ struct UnfinishedPath {
 };
 RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 
-// Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that each launch
-// has its share of what takes long in the image. Its last paths are left to the launch that follows it; one without slots takes no
-// samples and leaves no paths.
+// Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that
+// each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
+// without slots takes no samples and leaves no paths.
 struct FilmLaunch {
     MutableWordArray samples;          // per slot: samples that its pixels have
     FilmSumArray sums;                 // of closed blocks
@@ -162,13 +163,14 @@ RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint slot, uint done) {
     return max(done, min(done + launch.steps, end));
 }
 
-// Slot i of a launch, i < slotCount. There is none from filmSlots on; only the film of a whole image has such, below its last row.
+// Slot i of a launch, i < slotCount. There is none from filmSlots on; only the film of a whole image has such, below
+// its last row.
 RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }
 
-// The samples of a launch are numbered slot by slot, in each step by step, a step being one sample of each pixel: rays of neighbours,
-// which are alike, are then traced at a time. This is the number of one of slot i of the launch.
+// The samples of a launch are numbered slot by slot, in each step by step, a step being one sample of each pixel: rays
+// of neighbours, which are alike, are then traced at a time. This is the number of one of slot i of the launch.
 RT_FN uint sampleAt(RT_IN(FilmLaunch) launch, uint i, uint step, uint tilePixel) {
     return (i * launch.steps + step) * kTilePixels + tilePixel;
 }
@@ -183,7 +185,7 @@ RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
     return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
 }
 
-// ---- first-hit features and costs ------------------------------------------------------------------------------------
+// ---- first-hit features and costs ----------------------------------------------------------------------------------
 
 RT_MUTABLE_ARRAY(MutableFloatArray, float)
 
@@ -197,11 +199,12 @@ struct PixelLaunch {
 // Albedo, normal, depth.
 const uint kAovValues = 7u;
 
-// ---- preview by rasterisation ----------------------------------------------------------------------------------------
+// ---- preview by rasterisation --------------------------------------------------------------------------------------
 
 RT_MUTABLE_ARRAY(MutableFourArray, vec4)
 
-// Push constants of Preview.vert, .frag and .comp. A point p is drawn at (clipX, clipY, near, clipW), each row times (p, 1).
+// Push constants of Preview.vert, .frag and .comp. A point p is drawn at (clipX, clipY, near, clipW), each row times
+// (p, 1).
 struct PreviewLaunch {
     WordArray indices;       // lightCount lights, then what a draw's instances are: kNone is the world itself
     MutableFourArray pixels; // radiance, and the distance along the pixel's ray, 0 where nothing is drawn
@@ -214,21 +217,21 @@ struct PreviewLaunch {
     uint firstPixel; // of the rows that Preview.comp finishes
 };
 
-// ---- shader binding table -------------------------------------------------------------------------------------------
+// ---- shader binding table ------------------------------------------------------------------------------------------
 
-// A hit group's record is the offset of the instance plus the index of the geometry in its structure, so that a structure may
-// hold triangles and quads.
+// A hit group's record is the offset of the instance plus the index of the geometry in its structure, so that a
+// structure may hold triangles and quads.
 const uint kHitRecordTriangle = 0u;
 const uint kHitRecordQuad = 1u;
 const uint kHitRecordSphere = 2u;
 const uint kHitRecords = 3u;
 
-// ---- rays ------------------------------------------------------------------------------------------------------------
+// ---- rays ----------------------------------------------------------------------------------------------------------
 
-// An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin. That is
-// sound: gl_RayTminEXT is the trace call's own operand in every stage of the ray (Vulkan specification, RayTminKHR; only
-// RayTmaxKHR changes), the same in object and world space. A product with a power of two is exact, its range of 2^-84 to 2^-60
-// normal, and no hit lies that near.
+// An intersection shader sees neither the payload nor any other word of the ray that is free, so time travels in tMin.
+// That is sound: gl_RayTminEXT is the trace call's own operand in every stage of the ray (Vulkan specification,
+// RayTminKHR; only RayTmaxKHR changes), the same in object and world space. A product with a power of two is exact, its
+// range of 2^-84 to 2^-60 normal, and no hit lies that near.
 const float kTimeToTMin = 8.67361738e-19f; // 2^-60
 const float kTMinToTime = 1.15292150e18f;  // 2^60
 

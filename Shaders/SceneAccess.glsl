@@ -19,10 +19,10 @@ LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     c.radius = constants.arrays.lightNodes.at[node].radius[i];
     c.axis = vec3(constants.arrays.lightNodes.at[node].axisX[i], constants.arrays.lightNodes.at[node].axisY[i],
                   constants.arrays.lightNodes.at[node].axisZ[i]);
-    c.alignment = constants.arrays.lightNodes.at[node].alignment[i];
+    c.meanResultantLength = constants.arrays.lightNodes.at[node].meanResultantLength[i];
     c.spreadCosine = constants.arrays.lightNodes.at[node].spreadCosine[i];
-    c.facing = constants.arrays.lightNodes.at[node].facing[i];
-    c.around = constants.arrays.lightNodes.at[node].around[i];
+    c.planarIntensity = constants.arrays.lightNodes.at[node].planarIntensity[i];
+    c.omnidirectionalIntensity = constants.arrays.lightNodes.at[node].omnidirectionalIntensity[i];
     c.child = constants.arrays.lightNodes.at[node].child[i];
     return c;
 }

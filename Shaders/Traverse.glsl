@@ -1,5 +1,5 @@
-// Traverses what Common/Accel/GpuBvh builds. One routine answers both questions, what a ray hits first and whether it hits
-// anything, because lanes of a group ask both at a time.
+// Traverses what Common/Accel/GpuBvh builds. One routine answers both questions, what a ray hits first and whether it
+// hits anything, because lanes of a group ask both at a time.
 #include "Bindings.glsl"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
@@ -12,7 +12,7 @@ layout(constant_id = kListedTrianglesId) const uint kListedTriangles = 0u;
 
 layout(set = 0, binding = 2, scalar) uniform LinearLists { vec4 listVectors[kListVectors]; };
 
-// ---- shapes ----------------------------------------------------------------------------------------------------------
+// ---- shapes --------------------------------------------------------------------------------------------------------
 
 // A ray with what the tests of shapes derive from it.
 struct TracedRay {
@@ -86,7 +86,7 @@ Nearest nothingWithin(float tMax) {
     return nearest;
 }
 
-// ---- lists -----------------------------------------------------------------------------------------------------------
+// ---- lists ---------------------------------------------------------------------------------------------------------
 
 // Every primitive is tested, by all lanes together and without a branch that depends on one.
 Hit traceLinear(Ray ray, float tMax) {
@@ -125,13 +125,14 @@ Hit traceLinear(Ray ray, float tMax) {
     return hit;
 }
 
-// ---- nodes -----------------------------------------------------------------------------------------------------------
+// ---- nodes ---------------------------------------------------------------------------------------------------------
 
-// Below this a direction counts as parallel to a slab: its reciprocal stays finite, and no product with it is not a number.
+// Below this a direction counts as parallel to a slab: its reciprocal stays finite, and no product with it is not a
+// number.
 const float kParallel = 1.0e-20f;
 
-// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in: Ize,
-// "Robust BVH Ray Traversal", JCGT 2(2), 2013.
+// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in:
+// Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
 const float kSlabMargin = 1.0f + 16.0f * kEpsilon;
 
 float slabInverse(float d) {
@@ -149,7 +150,7 @@ void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout ve
     leave = min(leave, max(t.xz, t.yw));
 }
 
-// ---- trees -----------------------------------------------------------------------------------------------------------
+// ---- trees ---------------------------------------------------------------------------------------------------------
 
 void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
     uint first = treeLeafFirst(leaf);
@@ -193,8 +194,8 @@ Ray toObject(uint index, Ray ray) {
     return local;
 }
 
-// The nearer child first; the other waits on the stack. Instances are followed one level down: what lies on the stack above
-// kTreeReturn is in their space.
+// The nearer child first; the other waits on the stack. Instances are followed one level down: what lies on the stack
+// above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
     uint stack[kTreeDepth + 1u];
     uint size = 0u;
@@ -257,8 +258,8 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
     return hit;
 }
 
-// What the ray, of unit direction, meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then only the
-// sign of t tells anything. A negative t if there is nothing.
+// What the ray, of unit direction, meets in (0, tMax): the nearest, or when `anyHit` the first that is found, and then
+// only the sign of t tells anything. A negative t if there is nothing.
 Hit traceRay(Ray ray, bool anyHit, float tMax) {
     if (kIsLinear != 0u) return traceLinear(ray, tMax);
     return traceTree(ray, anyHit, tMax);

@@ -12,7 +12,7 @@ inline constexpr std::uint32_t kWidth = 8; // children of a node and lanes of a 
 // Bounds of the depth of a tree, and so of the stack of a traversal.
 inline constexpr std::uint32_t kMaxTreeDepth = 64;
 
-// ---- references -----------------------------------------------------------------------------------------------------
+// ---- references ----------------------------------------------------------------------------------------------------
 
 // What a child of a node is: another node (its index), or a run of leaf blocks of one kind.
 //   bit 31: leaf    30..28: kind    27..25: blocks - 1    24..0: index of the first block
@@ -27,7 +27,7 @@ inline constexpr std::uint32_t kCountShift = 25;
 inline constexpr std::uint32_t kMaxLeafBlocks = 8;
 inline constexpr std::uint32_t kMaxBlocks = 1u << kCountShift; // of one kind
 
-// ---- records --------------------------------------------------------------------------------------------------------
+// ---- records -------------------------------------------------------------------------------------------------------
 
 // Slabs of the children: planes[2 a] are the lower bounds along axis a, planes[2 a + 1] the upper ones. The slab of a
 // child that does not exist is inverted, so no ray enters it.
@@ -37,8 +37,8 @@ struct alignas(64) WideNode {
 };
 
 // A node in half the memory of a WideNode, for trees in which rays visit many nodes for each leaf that they enter, and
-// which hold no instances. Slabs like a WideNode's, in steps of QuantizationGrid from its origin, rounded outwards. In place of a child that does not
-// exist there is some leaf of the tree.
+// which hold no instances. Slabs like a WideNode's, in steps of QuantizationGrid from its origin, rounded outwards. In
+// place of a child that does not exist there is some leaf of the tree.
 struct alignas(64) QuantizedNode {
     std::uint16_t planes[6][kWidth];
     Reference child[kWidth];
@@ -84,8 +84,8 @@ struct PlacedGeometry {
     std::uint32_t instance;
 };
 
-// All primitives of one kind in a scene that is too small to gain from a tree. Their lanes hold packPrimitive() in place of
-// the index of the primitive.
+// All primitives of one kind in a scene that is too small to gain from a tree. Their lanes hold packPrimitive() in
+// place of the index of the primitive.
 template <class Block>
 struct LinearList {
     const Block* blocks = nullptr;
@@ -98,7 +98,7 @@ constexpr std::uint32_t packPrimitive(std::uint32_t kind, std::uint32_t primitiv
     return kind << kPackedKindShift | primitive;
 }
 
-// ---- the whole ------------------------------------------------------------------------------------------------------
+// ---- the whole -----------------------------------------------------------------------------------------------------
 
 struct AccelView {
     std::uint32_t kinds = 0; // feature bits of the primitives that exist

@@ -18,7 +18,7 @@ using shared::vec4;
 
 static_assert(sizeof(shared::TreeNode) == 64 && sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 48);
 
-// ---- primitives ------------------------------------------------------------------------------------------------------
+// ---- primitives ----------------------------------------------------------------------------------------------------
 
 vec4 sphereVector(const AccelInput& input, std::uint32_t index) {
     return vec4(input.spheres[index].center, input.spheres[index].radius);
@@ -41,7 +41,7 @@ shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index
             vec4(input.positions[v.z], 0.0f)};
 }
 
-// ---- lists -----------------------------------------------------------------------------------------------------------
+// ---- lists ---------------------------------------------------------------------------------------------------------
 
 LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     LinearLists lists;
@@ -66,7 +66,7 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     return lists;
 }
 
-// ---- trees -----------------------------------------------------------------------------------------------------------
+// ---- trees ---------------------------------------------------------------------------------------------------------
 
 class Flattener {
   public:

@@ -1,5 +1,5 @@
-// The acceleration structure of the compute engine: see Common/Shared/TreeRecords.h for its layout and Shaders/Traverse.glsl for
-// its traversal.
+// The acceleration structure of the compute engine: see Common/Shared/TreeRecords.h for its layout and
+// Shaders/Traverse.glsl for its traversal.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -45,7 +45,8 @@ struct GpuBvhSettings {
     GpuBvhSettings();        // those that were measured best
 };
 
-// Nothing when *cancel became true. Throws RenderError when there are more primitives of a kind than references can name.
+// Nothing when *cancel became true. Throws RenderError when there are more primitives of a kind than references can
+// name.
 std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings& settings = {},
                                   const std::atomic<bool>* cancel = nullptr);
 

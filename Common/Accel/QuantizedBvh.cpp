@@ -12,8 +12,9 @@ constexpr std::size_t kManyNodes = 1u << 11; // binary ones, of a tree for which
 constexpr double kLeafShare = 0.1;           // surface of the leaves in that of the inner nodes
 
 constexpr double kSteps = 65535;
-// What planes are moved outwards before they are rounded: more than the rounding of a ray's origin relative to the grid,
-// 2^-24 of its extent. (That of an origin outside the grid is in proportion to the distance, as is the margin of slabs.)
+// What planes are moved outwards before they are rounded: more than the rounding of a ray's origin relative to the
+// grid, 2^-24 of its extent. (That of an origin outside the grid is in proportion to the distance, as is the margin of
+// slabs.)
 constexpr double kMargin = 1.0 / 64;
 
 QuantizationGrid makeGrid(const Box& box) {

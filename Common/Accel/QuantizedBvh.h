@@ -1,6 +1,6 @@
-// 8-wide trees with quantized boxes, traversed breadth-first. They serve scenes in which rays visit many nodes for each leaf
-// that they enter, as among small things far from each other: memory decides there, and the order of the visits hardly
-// matters.
+// 8-wide trees with quantized boxes, traversed breadth-first. They serve scenes in which rays visit many nodes for each
+// leaf that they enter, as among small things far from each other: memory decides there, and the order of the visits
+// hardly matters.
 #pragma once
 #include <vector>
 

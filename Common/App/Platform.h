@@ -37,7 +37,8 @@ class SharedLibrary {
     void* handle_ = nullptr;
 };
 
-// Keeps other processes that lock the same file waiting while it exists. The file is made if need be. Throws RenderError.
+// Keeps other processes that lock the same file waiting while it exists. The file is made if need be. Throws
+// RenderError.
 class FileLock {
   public:
     explicit FileLock(const std::filesystem::path& file);
@@ -49,9 +50,9 @@ class FileLock {
     std::intptr_t handle_;
 };
 
-// While it exists: when the window system ends or takes the window away, whereupon its library would end the program, `rescue`
-// is called, which must leave the window system alone, and the program ends with exit code 1. One at a time; to be made when
-// there is a window.
+// While it exists: when the window system ends or takes the window away, whereupon its library would end the program,
+// `rescue` is called, which must leave the window system alone, and the program ends with exit code 1. One at a time;
+// to be made when there is a window.
 class WindowLossGuard {
   public:
     explicit WindowLossGuard(std::function<void()> rescue);

@@ -22,7 +22,7 @@ std::string withInterval(const Figure& value, const Figure& half); // "0.123 ±4
 std::string nameOf(const Config& config, const std::vector<const Config*>& others,
                    const std::function<bool(const Axis&)>& counts);
 
-// ---- columns that show something -------------------------------------------------------------------------------------
+// ---- columns that show something -----------------------------------------------------------------------------------
 
 template <class T>
 struct Column {

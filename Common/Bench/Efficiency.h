@@ -1,4 +1,5 @@
-// Which setting is the most efficient, by all pixels and by those up to 1 alone, and how much of that the defaults reach.
+// Which setting is the most efficient, by all pixels and by those up to 1 alone, and how much of that the defaults
+// reach.
 #pragma once
 #include <span>
 #include <string>

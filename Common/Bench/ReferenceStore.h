@@ -41,8 +41,8 @@ class ReferenceStore {
     // `folder` empty: nothing is kept. With `fresh` what is there is not read.
     ReferenceStore(std::filesystem::path folder, bool fresh) : folder_(std::move(folder)), fresh_(fresh) {}
 
-    // Adds samples until every image of `measured` is at least three times as far off, standard error against error,
-    // of mse by all pixels, mse by those up to 1, and relmse. The engine has the scene. Nothing when stopped before there
+    // Adds samples until every image of `measured` is at least three times as far off, standard error against error, of
+    // mse by all pixels, mse by those up to 1, and relmse. The engine has the scene. Nothing when stopped before there
     // was anything.
     std::optional<ReferenceResult> provide(const ReferenceRequest& request,
                                            std::span<const image::Image* const> measured, app::Engine& engine,

@@ -82,12 +82,12 @@ Table seriesTable(const std::vector<const Series*>& rows) {
                                             (s.slopeError ? " ± " + threeDigits(s.slopeError) : "");
                                  }},
                                 {"at the end", [](const Series& s) { return threeDigits(s.tailSlope); }},
-                                {"s to relmse 1e-2", [](const Series& s) { return until(s, s.secondsTo1e2, 1e-2); }},
+                                {"s to relMSE 1e-2", [](const Series& s) { return until(s, s.secondsTo1e2, 1e-2); }},
                                 {"1e-3", [](const Series& s) { return until(s, s.secondsTo1e3, 1e-3); }},
                                 {"1e-4", [](const Series& s) { return until(s, s.secondsTo1e4, 1e-4); }},
                                 {"equal time, s", [](const Series& s) { return threeDigits(s.equalTime); }},
-                                {"relmse then", [](const Series& s) { return threeDigits(s.relmseAtEqualTime); }},
-                                {"equal relmse", [](const Series& s) { return threeDigits(s.equalError); }},
+                                {"relMSE then", [](const Series& s) { return threeDigits(s.relmseAtEqualTime); }},
+                                {"equal relMSE", [](const Series& s) { return threeDigits(s.equalError); }},
                                 {"seconds to it", [](const Series& s) { return threeDigits(s.secondsAtEqualError); }},
                                 {"gain", [](const Series& s) { return threeDigits(s.gain); }},
                             });
@@ -188,7 +188,7 @@ std::vector<Block> publishedBlocks(const Suite& suite, const std::vector<const R
 // Of each experiment and scene the configuration that comes first to the error that all reach.
 std::vector<Block> winners(const Suite& suite, const Results& results) {
     const auto isNamed = [](const Axis& axis) { return axis.name != "scene" && axis.name != "height"; };
-    Table table{{"experiment", "scene", "least time to equal relmse", "relmse", "seconds", "gain over baseline"}, {}};
+    Table table{{"experiment", "scene", "least time to equal relMSE", "relmse", "seconds", "gain over baseline"}, {}};
     for (const Experiment& experiment : suite.experiments) {
         std::vector<const Series*> own;
         for (const Series& series : results.series)
@@ -266,10 +266,10 @@ const Table& columnMeanings() {
             {"fireflies", "pixels brighter than the reference by more than ten times the rmse"},
             {"speed-up, gain",
              "ratio to the baseline of samples/s; of 1 / (mse s) or, where curves are compared, of the seconds "
-             "to equal relmse"},
+             "to equal relMSE"},
             {"slope of mse",
              "of log mse over log samples, −1 for independent samples; at the end: of the last two steps"},
-            {"s to relmse", "interpolated between steps; ~: extrapolated with slope −1"},
+            {"s to relMSE", "interpolated between steps; ~: extrapolated with slope −1"},
         }};
     return table;
 }
@@ -304,7 +304,7 @@ Document makeReport(const Results& results, const Suite& suite) {
         document.push_back(Heading{2, "References"});
         document.push_back(
             Paragraph{"Rendered with another seed; their time counts nowhere. Their variance is subtracted from mse, "
-                      "rmse and relmse."});
+                      "RMSE and relMSE."});
         document.push_back(referenceTable(rows));
     }
     if (!results.rows.empty()) {

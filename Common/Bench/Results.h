@@ -99,7 +99,7 @@ struct Results {
     std::vector<PictureGrid> grids; // not part of the JSON
 };
 
-// ---- rows as columns -------------------------------------------------------------------------------------------------
+// ---- rows as columns -----------------------------------------------------------------------------------------------
 
 template <class T>
 struct FigureColumn {

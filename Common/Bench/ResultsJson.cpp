@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using scene::JsonNode;
 
-// ---- writing ---------------------------------------------------------------------------------------------------------
+// ---- writing -------------------------------------------------------------------------------------------------------
 
 Json orNull(const Figure& figure) {
     return figure ? Json(*figure) : Json(nullptr);
@@ -85,7 +85,7 @@ Json listOf(const std::vector<T>& rows, Function toJson) {
     return list;
 }
 
-// ---- reading ---------------------------------------------------------------------------------------------------------
+// ---- reading -------------------------------------------------------------------------------------------------------
 
 Figure readFigure(const JsonNode& node) {
     if (node.value().is_null()) return std::nullopt;
@@ -124,7 +124,7 @@ Row readRow(const JsonNode& node) {
     return row;
 }
 
-// ---- CSV -------------------------------------------------------------------------------------------------------------
+// ---- CSV -----------------------------------------------------------------------------------------------------------
 
 std::string field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) return text;

@@ -31,7 +31,7 @@ std::string text(const char* format, double x) {
     return buffer;
 }
 
-// ---- scenes ------------------------------------------------------------------------------------------------------------
+// ---- scenes --------------------------------------------------------------------------------------------------------
 
 SceneDesc seenFrom(const dvec3& from, const dvec3& at, double fov) {
     SceneDesc desc;
@@ -105,7 +105,7 @@ SceneDesc stillLife(double scale, const dvec3& shift) {
     return desc;
 }
 
-// ---- measurements ------------------------------------------------------------------------------------------------------
+// ---- measurements --------------------------------------------------------------------------------------------------
 
 struct Rendered {
     double mean = 0; // over pixels and channels
@@ -236,8 +236,9 @@ class Suite {
         body.emission = dvec3(0.5), body.sides = Sides::Both;
         desc.materials["balanced"] = body;
         desc.objects.push_back({ball});
-        // Single precision knows the ground's surface to a unit only, as large as the ball: light sampling loses a thousandth
-        // (measured: 0.0007 on processors, 0.0013 on an NVIDIA H200; scattering alone loses less than 0.00002).
+        // Single precision knows the ground's surface to a unit only, as large as the ball: light sampling loses a
+        // thousandth (measured: 0.0007 on processors, 0.0013 on an NVIDIA H200; scattering alone loses less than
+        // 0.00002).
         addMean("radius ratio 1e7", render(desc, 256), 1, 2e-3);
     }
 

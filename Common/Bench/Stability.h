@@ -1,5 +1,5 @@
-// Numerical stability of an engine: scenes whose answer is known, pushed to where single precision hurts. The same rows are
-// asserted by tests and printed by `ray-tracing-bench --stability`.
+// Numerical stability of an engine: scenes whose answer is known, pushed to where single precision hurts. The same rows
+// are asserted by tests and printed by `ray-tracing-bench --stability`.
 #pragma once
 #include <functional>
 #include <string>

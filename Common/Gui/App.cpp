@@ -52,7 +52,8 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     if (options.given.count("--scene") == 0) setup.fallbackScene = app::GuiSettings().scene;
     setup.atEnd = endFiles(options, settings);
     setup.preview = !settings.rayTracing;
-    // Threads of the processor wait for each other at the end of a slice, and requests that do not interrupt it for that end.
+    // Threads of the processor wait for each other at the end of a slice, and requests that do not interrupt it for
+    // that end.
     setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
@@ -143,8 +144,8 @@ bool App::isFrameDue() {
     return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= least);
 }
 
-// For input, for something new of the session, or for the time of another frame. The session's threads leave the window system
-// alone, which therefore ends the program, where it does, on this thread.
+// For input, for something new of the session, or for the time of another frame. The session's threads leave the window
+// system alone, which therefore ends the program, where it does, on this thread.
 void App::wait() {
     const bool isBusy = gui_.state.activity == app::Activity::Rendering || !gui_.state.stage.empty();
     // A stage tells how long it has taken, and a field of text has a cursor that blinks.

@@ -1,4 +1,5 @@
-// Dear ImGui in a window. What differs between its versions is in the sources of this file and of Layout.h, and nowhere else.
+// Dear ImGui in a window. What differs between its versions is in the sources of this file and of Layout.h, and nowhere
+// else.
 #pragma once
 #include <cstdint>
 #include <filesystem>

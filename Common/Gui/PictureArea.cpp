@@ -16,7 +16,7 @@ constexpr float kZoomStep = 1.2f, kLeastZoom = 0.02f, kMostZoom = 64;
 
 } // namespace
 
-// ---- where the picture lies ------------------------------------------------------------------------------------------
+// ---- where the picture lies ----------------------------------------------------------------------------------------
 
 float PictureArea::fitScale() const {
     const image::Image* image = gui_.state.picture.image.get();
@@ -48,7 +48,7 @@ PresentConstants PictureArea::constants() const {
     return constants;
 }
 
-// ---- the mouse -------------------------------------------------------------------------------------------------------
+// ---- the mouse -----------------------------------------------------------------------------------------------------
 
 std::optional<PictureArea::Pixel> PictureArea::pixelUnderPointer() const {
     const image::Image* image = gui_.state.picture.image.get();

@@ -1,5 +1,5 @@
-// Between the interface and the session that renders: what has come about there is shown, what was changed here is sent, each
-// of it once.
+// Between the interface and the session that renders: what has come about there is shown, what was changed here is
+// sent, each of it once.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -198,11 +198,6 @@ std::string bytesText(std::uint64_t bytes) {
     return format("%.1f MiB", value / (1u << 20));
 }
 
-std::string durationText(double seconds) {
-    const auto all = static_cast<long long>(std::llround(std::min(seconds, 1e12) * 1000));
-    return format("%lld h %lld min %lld s %lld ms", all / 3600000, all / 60000 % 60, all / 1000 % 60, all % 1000);
-}
-
 std::string shortDuration(double seconds) {
     if (seconds < 1) return format("%.3g ms", std::round(seconds * 1e5) / 100); // nothing below 0.01 ms
     if (seconds < 60) return format("%.2f s", seconds);

@@ -57,8 +57,6 @@ bool button(const char* label, const char* tip, bool enabled, float width = 0);
 // "1.23 M", "456 k"
 std::string withPrefix(double value);
 std::string bytesText(std::uint64_t bytes);
-// "0 h 0 min 1 s 234 ms"
-std::string durationText(double seconds);
 std::string shortDuration(double seconds); // "12.3 ms", "4.56 s", "1:23:45 h"
 std::string roughDuration(double seconds); // "5 s", "1:23:45 h"
 

@@ -38,7 +38,8 @@ class Window {
     void setTitle(const std::string& title);
     // Handles what has happened; waits for it at most this long.
     void waitEvents(double seconds);
-    // Since the last call: whether anything has come from the user, and whether the window is another or has to be drawn anew.
+    // Since the last call: whether anything has come from the user, and whether the window is another or has to be
+    // drawn anew.
     bool takeInput();
     bool takeChange();
     // Keys that went down since the last call, as GLFW numbers them, with its modifiers.

@@ -1,5 +1,6 @@
 // Encoders and decoders of single formats, for ImageIo. Decoders throw InputError naming `name`; they allocate no more
-// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values, and hold no more than a few rows in memory; whether `out` took it all is asked of that.
+// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values, and hold no more than a
+// few rows in memory; whether `out` took it all is asked of that.
 #pragma once
 #include <cstddef>
 #include <iosfwd>

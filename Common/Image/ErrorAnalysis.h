@@ -21,8 +21,8 @@ struct MeanSquares {
     double mseError = 0;
 };
 
-// Of the pixels that the reference has at 1 or less in every channel, which a screen shows unclamped: without the lights
-// that one sees, and what mirrors them. The images must be such as compare() accepts.
+// Of the pixels that the reference has at 1 or less in every channel, which a screen shows unclamped: without the
+// lights that one sees, and what mirrors them. The images must be such as compare() accepts.
 MeanSquares meanSquaresUpTo1(const Image& image, const Reference& reference);
 
 struct ErrorAnalysis {

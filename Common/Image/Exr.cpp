@@ -39,7 +39,7 @@ struct Channel {
     std::size_t bytes() const { return type == kHalf ? 2 : 4; }
 };
 
-// ---- reading --------------------------------------------------------------------------------------------------------
+// ---- reading -------------------------------------------------------------------------------------------------------
 
 // Reads numbers and strings in order, never beyond the end.
 class Cursor {
@@ -248,7 +248,7 @@ std::optional<std::string> findExrText(std::span<const std::byte> bytes, const s
     return readHeader(in).description;
 }
 
-// ---- writing --------------------------------------------------------------------------------------------------------
+// ---- writing -------------------------------------------------------------------------------------------------------
 
 namespace {
 

@@ -82,9 +82,9 @@ class Film {
     // Mean radiance: sum over all replicates / true count; pixels without samples are black.
     Image resolve() const;
     // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for
-    // every sampler; with one it is taken across blocks, as if these were independent: unbiased for independent samples,
-    // too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than two replicates or blocks
-    // have samples it is 0. Requires secondMoments or replicates >= 2.
+    // every sampler; with one it is taken across blocks, as if these were independent: unbiased for independent
+    // samples, too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than two replicates
+    // or blocks have samples it is 0. Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
     Image sampleCounts() const; // one channel
 

@@ -19,7 +19,7 @@ using glm::vec3;
 
 constexpr double kPi = 3.14159265358979323846;
 
-// ---- colour spaces: linear sRGB, XYZ relative to white, YCxCz (opponent, linear), L*a*b* -----------------------------
+// ---- colour spaces: linear sRGB, XYZ relative to white, YCxCz (opponent, linear), L*a*b* ---------------------------
 
 const glm::mat3& xyzFromRgb() {
     static const glm::mat3 matrix = [] {
@@ -62,7 +62,7 @@ float hyab(vec3 a, vec3 b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
-// ---- filters ---------------------------------------------------------------------------------------------------------
+// ---- filters -------------------------------------------------------------------------------------------------------
 
 using Plane = Image;               // of one channel
 using Kernel = std::vector<float>; // of odd length, centred
@@ -154,7 +154,7 @@ Plane filterBySensitivity(const Plane& in, const std::vector<Gaussian>& gaussian
     return out;
 }
 
-// ---- the two halves of the metric ------------------------------------------------------------------------------------
+// ---- the two halves of the metric ----------------------------------------------------------------------------------
 
 constexpr float kColorExponent = 0.7f;   // q_c
 constexpr float kKnee = 0.4f;            // p_c: this share of the largest difference is mapped ...

@@ -29,10 +29,10 @@ Image readImage(const std::filesystem::path& path);
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
 Texels loadTexels(const std::filesystem::path& path);
 
-// Writes 1 or 3 channels, a row at a time, replacing the file atomically. NaN is written as 0 and an infinity, or what a
-// format cannot hold, as the nearest value that it can. Throws UsageError for an extension that is unknown, RenderError
-// when writing fails or memory for a few rows cannot be had.
-// `description` is kept in a PNG (as iTXt "ray-tracing") and an EXR (attribute of that name), and left out elsewhere.
+// Writes 1 or 3 channels, a row at a time, replacing the file atomically. NaN is written as 0 and an infinity, or what
+// a format cannot hold, as the nearest value that it can. Throws UsageError for an extension that is unknown,
+// RenderError when writing fails or memory for a few rows cannot be had. `description` is kept in a PNG (as iTXt
+// "ray-tracing") and an EXR (attribute of that name), and left out elsewhere.
 void writeImage(const std::filesystem::path& path, const ImageRows& image, const std::string& description = {});
 
 // What writeImage was given as description; nothing where the file holds none. Throws InputError as readImage does.

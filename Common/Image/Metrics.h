@@ -29,8 +29,8 @@ Image heatMap(const Image& image, const Image& reference);
 // Values from 0 to 1 in the same colours; what is outside is clamped.
 Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint32_t height);
 
-// The part of a relMSE against `reference` that its own variance makes: mean(variance / (reference^2 + 0.01)). What relMSE
-// a picture with this variance has itself says estimateRelMse() of ErrorEstimate.h.
+// The part of a relMSE against `reference` that its own variance makes: mean(variance / (reference^2 + 0.01)). What
+// relMSE a picture with this variance has itself says estimateRelMse() of ErrorEstimate.h.
 double referenceRelMse(const Image& reference, const Image& variance);
 
 // Per channel: the mean over all pixels, and the standard error of that mean when pixels are independent. Three equal

@@ -37,7 +37,8 @@ inline Affine scaling(const glm::dvec3& factors) {
 // Nothing when the map is singular or not finite.
 std::optional<Affine> inverse(const Affine& map);
 
-// A Q with a rotation Q that puts the columns at right angles: the half axes of the ellipsoid that A makes of the unit sphere.
+// A Q with a rotation Q that puts the columns at right angles: the half axes of the ellipsoid that A makes of the unit
+// sphere.
 glm::dmat3 orthogonalColumns(const glm::dmat3& a);
 
 // The factor s when the map scales all lengths by s (rotations and reflections included, to a relative 1e-6).

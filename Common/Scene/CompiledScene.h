@@ -13,8 +13,8 @@
 
 namespace rt::scene {
 
-// Produced by compileScene(), immutable afterwards, shared by everything that renders it. Every index in a record is valid;
-// every number is finite; geometry 0 (the world) always exists.
+// Produced by compileScene(), immutable afterwards, shared by everything that renders it. Every index in a record is
+// valid; every number is finite; geometry 0 (the world) always exists.
 struct CompiledScene : shared::SceneArraysOf<std::vector> {
     std::string id; // "cornell-box-lights", "white-spheres:500", or the file's name
     std::string title;

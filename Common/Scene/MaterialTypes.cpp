@@ -7,7 +7,7 @@ namespace rt::scene {
 
 namespace {
 
-// ---- the words that rows are written in ------------------------------------------------------------------------------
+// ---- the words that rows are written in ----------------------------------------------------------------------------
 
 constexpr bool kRequired = true;
 constexpr bool kOptional = false;
@@ -31,7 +31,7 @@ constexpr bool fitsRecord(std::span<const MaterialParameter> parameters) {
     return colors <= 1 && parameters.size() - colors <= shared::kMaterialParameters;
 }
 
-// ---- the rows --------------------------------------------------------------------------------------------------------
+// ---- the rows ------------------------------------------------------------------------------------------------------
 
 #define RT_PARAMETERS(Name, parameters)                     \
     constexpr auto kParametersOf##Name = listOf parameters; \

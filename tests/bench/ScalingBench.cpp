@@ -1,5 +1,5 @@
-// What more threads bring: the renderer's samples per second and, as the yardstick for this machine, Embree's rays per second,
-// each on one thread and on many. The four take turns, so that a busy machine disturbs all alike.
+// What more threads bring: the renderer's samples per second and, as the yardstick for this machine, Embree's rays per
+// second, each on one thread and on many. The four take turns, so that a busy machine disturbs all alike.
 //   scaling-bench [REPEATS] [THREADS] [SCENE]
 #include <algorithm>
 #include <cstdio>

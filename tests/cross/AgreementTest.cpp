@@ -1,5 +1,5 @@
-// CPU and GPU trace the same paths: with the same seed their images agree sample for sample, until rounding makes a path
-// decide differently. Every built-in scene; the validation layers watch, synchronization included.
+// CPU and GPU trace the same paths: with the same seed their images agree sample for sample, until rounding makes a
+// path decide differently. Every built-in scene; the validation layers watch, synchronization included.
 #include <algorithm>
 #include <cmath>
 #include <memory>

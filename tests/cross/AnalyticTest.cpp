@@ -1,4 +1,5 @@
-// Scenes whose radiance is known in closed form, on the GPU: the comparison with the CPU would not see a mistake that both make.
+// Scenes whose radiance is known in closed form, on the GPU: the comparison with the CPU would not see a mistake that
+// both make.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -15,8 +15,8 @@ vulkan::VulkanContext& device();
 // Both ways to trace rays on it, as parameters of tests.
 inline const auto kBothEngines = ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Compute);
 
-// One proves a formula, which both compile from one header. The other one's proof has the prefix Nightly, by which ctest
-// leaves it to the nightly tests; that both trace the same paths is proved with kBothEngines.
+// One proves a formula, which both compile from one header. The other one's proof has the prefix Nightly, by which
+// ctest leaves it to the nightly tests; that both trace the same paths is proved with kBothEngines.
 inline const auto kFirstEngine = ::testing::Values(app::GpuEngineKind::Compute);
 inline const auto kSecondEngine = ::testing::Values(app::GpuEngineKind::Pipeline);
 

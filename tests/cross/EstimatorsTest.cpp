@@ -23,7 +23,8 @@ constexpr std::uint32_t kSpp = 16;
 class EstimatorsTest : public ::testing::TestWithParam<std::size_t> {};
 
 // Bias that this can see: 4 standard errors of the difference, stated on failure; a tile that is some per cent off is a
-// discovery. Seeds are fixed. The CPU's image is the one of least variance: that all its estimators agree, tests/image proves.
+// discovery. Seeds are fixed. The CPU's image is the one of least variance: that all its estimators agree, tests/image
+// proves.
 TEST_P(EstimatorsTest, EnginesAgree) {
     const scene::BuiltinScene& builtin = scene::builtinScenes()[GetParam()];
     std::string id(builtin.id);

@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::uint32_t kInputs = 100'000;
 
-// Bound on the difference of a formula's results, absolute or relative, whichever is smaller. Devices may round divisions and
-// roots otherwise than the host, so where a formula decides something, or is ill-conditioned, `exceptions` of the kInputs
-// may be off by more.
+// Bound on the difference of a formula's results, absolute or relative, whichever is smaller. Devices may round
+// divisions and roots otherwise than the host, so where a formula decides something, or is ill-conditioned,
+// `exceptions` of the kInputs may be off by more.
 struct Bound {
     std::uint32_t formula;
     const char* name;

@@ -213,7 +213,7 @@ TEST_P(GpuEngineTest, PartsGoOnFromAFilm) {
     EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
 }
 
-// ---- failure --------------------------------------------------------------------------------------------------------
+// ---- failure -------------------------------------------------------------------------------------------------------
 
 class FailingContext : public vulkan::VulkanContext {
   public:
@@ -260,7 +260,7 @@ TEST_P(GpuEngineTest, MoreMemoryThanThereIsIsAnError) {
     }
 }
 
-// ---- what a scene does not need: ShaderGroupsTest.cpp counts it, and reports name it ----------------------------------
+// ---- what a scene does not need: ShaderGroupsTest.cpp counts it, and reports name it -------------------------------
 
 TEST_P(GpuEngineTest, KernelsAreNamedByTheirFeatures) {
     const auto kernel = [](const char* id, const app::RenderSettings& settings) {

@@ -95,7 +95,7 @@ TEST(MemoryTest, UploadsOfAnySizeArriveWhole) {
     EXPECT_EQ(contents(context, buffer), expected);
 }
 
-// ---- failure ---------------------------------------------------------------------------------------------------------
+// ---- failure -------------------------------------------------------------------------------------------------------
 
 class FaultyContext : public VulkanContext {
   public:

@@ -52,7 +52,8 @@ TEST_F(PipelineCacheTest, IsSavedAndReadBack) {
     EXPECT_EQ(bytes(), saved);
 }
 
-// Damage, or another device's data with a valid hash, is no error: neither a crash nor a message of the validation layers.
+// Damage, or another device's data with a valid hash, is no error: neither a crash nor a message of the validation
+// layers.
 TEST_F(PipelineCacheTest, DamageIsIgnored) {
     use();
     const std::string whole = bytes();

@@ -1,5 +1,5 @@
-// The preview by rasterisation against the ray tracer's first hits: the same surfaces at the same distances, in the same
-// colours.
+// The preview by rasterisation against the ray tracer's first hits: the same surfaces at the same distances, in the
+// same colours.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -51,8 +51,8 @@ app::AovImages firstHits(const Scene& scene, scene::CameraDesc camera, std::uint
     return engine->renderAovs({true, true, true}, 1);
 }
 
-// Share of the pixels in which each value of `traced` is, up to this relative margin, among those that `preview` has in the pixel
-// and around it: the ray of a sample does not go through the pixel's middle.
+// Share of the pixels in which each value of `traced` is, up to this relative margin, among those that `preview` has in
+// the pixel and around it: the ray of a sample does not go through the pixel's middle.
 double agreement(const Image& preview, const Image& traced, float margin) {
     const auto isNear = [&](std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
         float low = 1e30f, high = 0;
@@ -86,7 +86,7 @@ glm::dvec3 directionOf(const Scene& scene, std::uint32_t x, std::uint32_t y) {
     return glm::normalize(glm::dvec3(c.corner) + glm::dvec3(c.across) * u + glm::dvec3(c.down) * v);
 }
 
-// ---- distances -------------------------------------------------------------------------------------------------------
+// ---- distances -----------------------------------------------------------------------------------------------------
 
 class PreviewDepthTest : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, PreviewDepthTest,
@@ -109,7 +109,8 @@ TEST_P(PreviewDepthTest, IsTheRayTracers) {
     EXPECT_GE(depthAgreement(preview, firstHits(scene, camera, 61, 83).depth), 0.97);
 }
 
-// Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest sphere, a reflected one.
+// Every kind of primitive in instances that are turned, stretched and reflected; the camera is inside of the largest
+// sphere, a reflected one.
 constexpr const char* kInstances = R"({"version": 1,
     "camera": {"look_from": [0.5, 1, 6], "look_at": [0, 0, 0], "vertical_fov": 50},
     "background": {"type": "constant", "color": [1, 1, 1]},
@@ -138,8 +139,8 @@ TEST(PreviewTest, InstancesAreWhereTheRayTracerMeetsThem) {
     EXPECT_GE(depthAgreement(preview.depth, firstHits(scene, scene->camera).depth), 0.99);
 }
 
-// Two bands of rows, and so many primitives that they are drawn some at a time: how many is found out while the first image is
-// drawn, so that the second one is put together from other pieces.
+// Two bands of rows, and so many primitives that they are drawn some at a time: how many is found out while the first
+// image is drawn, so that the second one is put together from other pieces.
 TEST(PreviewTest, APictureInPiecesIsThePicture) {
     const Scene scene = app::compile(app::loadScene("white-spheres:3000"), true);
     constexpr std::uint32_t kLargeWidth = 1300, kLargeHeight = 1000;
@@ -151,10 +152,10 @@ TEST(PreviewTest, APictureInPiecesIsThePicture) {
     EXPECT_GE(depthAgreement(first.depth, firstHits(scene, scene->camera, kLargeWidth, kLargeHeight).depth), 0.97);
 }
 
-// ---- colours ---------------------------------------------------------------------------------------------------------
+// ---- colours -------------------------------------------------------------------------------------------------------
 
-// Under a white sky a white surface has radiance 1.05 (0.5 + 0.5 cos) with the angle that it is seen at: textures, instances'
-// materials and interpolated normals all enter as in the ray tracer's albedo and normal.
+// Under a white sky a white surface has radiance 1.05 (0.5 + 0.5 cos) with the angle that it is seen at: textures,
+// instances' materials and interpolated normals all enter as in the ray tracer's albedo and normal.
 TEST(PreviewTest, ColoursAreTheMaterialsTimesTheLight) {
     for (const std::string& scene : {std::string(kInstances), std::string(R"({"version": 1,
             "camera": {"look_from": [0, 1, 5], "look_at": [0, 0, 0], "vertical_fov": 40},
@@ -213,7 +214,7 @@ TEST(PreviewTest, NothingIsDrawnWhereThereIsNothing) {
     EXPECT_NEAR(preview.picture.pixel(32, 32)[1], 0.5 * std::exp(-2.0), 1e-3);
 }
 
-// ---- beside the film -------------------------------------------------------------------------------------------------
+// ---- beside the film -----------------------------------------------------------------------------------------------
 
 class PreviewEngineTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, PreviewEngineTest, kBothEngines, engineName);

@@ -119,7 +119,8 @@ bool SamplerDomain::hasKnownDensity() const {
     return isLight_ && isUniform && !isInside_;
 }
 
-// Spheres and ellipsoids are uniform where they are the unit sphere; M takes densities to the world, by |M w|^3 / |det M|.
+// Spheres and ellipsoids are uniform where they are the unit sphere; M takes densities to the world, by |M w|^3 / |det
+// M|.
 std::optional<double> SamplerDomain::knownDensity(const dvec3& w) const {
     const bool isByArea = shared::probeShape(family_, which_) == shared::kShapeArea;
     if (isRound_) {

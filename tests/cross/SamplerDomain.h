@@ -1,5 +1,5 @@
-// The directions that a case of probes/SamplerProbe.h can draw, in cells of known measure. In double precision, without any of the
-// shared formulas that are to be proved.
+// The directions that a case of probes/SamplerProbe.h can draw, in cells of known measure. In double precision, without
+// any of the shared formulas that are to be proved.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace rt::test {
 
-// The measure is, of lights, what they contribute to the irradiance, of scattering the cosine for diffuse and the solid angle for
-// others.
+// The measure is, of lights, what they contribute to the irradiance, of scattering the cosine for diffuse and the solid
+// angle for others.
 class SamplerDomain {
   public:
     SamplerDomain(std::uint32_t family, std::uint32_t which);

@@ -52,7 +52,8 @@ class Sampler {
     Sampler(const Case& c, const std::vector<Words>& onDevice)
         : family_(c.family), which_(c.which), where_(c.where), onDevice_(onDevice) {}
 
-    // Twelve decades of size and distance, slivers, edge-on, touching, far from the origin, grazing directions, tiny lobes.
+    // Twelve decades of size and distance, slivers, edge-on, touching, far from the origin, grazing directions, tiny
+    // lobes.
     void leavesNothingUnderStressThatIsNotFinite() const {
         for (std::uint32_t i = 0; i < kDraws; ++i) ASSERT_EQ(drawn(shared::kProbeStress, i)[0], 0u) << "draw " << i;
     }
@@ -74,7 +75,7 @@ class Sampler {
     const std::vector<Words>& onDevice_;
 };
 
-// ---- directions -----------------------------------------------------------------------------------------------------
+// ---- directions ----------------------------------------------------------------------------------------------------
 
 class Directions : public Sampler {
   public:
@@ -89,7 +90,8 @@ class Directions : public Sampler {
   private:
     static dvec3 direction(const Words& words) { return {number(words, 0), number(words, 1), number(words, 2)}; }
 
-    // What a sample stands for: its part of the measure, if densities are right. `bug`: relative, in half of the domain.
+    // What a sample stands for: its part of the measure, if densities are right. `bug`: relative, in half of the
+    // domain.
     double weight(const Words& words, double bug = 0) const {
         const dvec3 w = direction(words);
         const double density = number(words, 3);
@@ -199,7 +201,7 @@ void Directions::keepStrata() const {
     EXPECT_LT(4 * variance(shared::kProbeStrata), variance(shared::kProbeDraws));
 }
 
-// ---- choice among lights --------------------------------------------------------------------------------------------
+// ---- choice among lights -------------------------------------------------------------------------------------------
 
 // The mean of max(x, 0) over x uniform in [middle - spread, middle + spread].
 double clampedMean(double middle, double spread) {
@@ -207,7 +209,8 @@ double clampedMean(double middle, double spread) {
     return (high * high - low * low) / (4 * spread);
 }
 
-// Irradiance that a flat light with this bound is estimated to cause on a surface with the normal `n`, or anywhere if that is 0.
+// Irradiance that a flat light with this bound is estimated to cause on a surface with the normal `n`, or anywhere if
+// that is 0.
 double estimatedIrradiance(const shared::LightBound& bound, const dvec3& position, const dvec3& n) {
     const dvec3 toLight = dvec3(bound.center) - position;
     const double radius = static_cast<double>(bound.radius);
@@ -267,7 +270,7 @@ void Choice::keepsStrata() const {
     }
 }
 
-// ---- all ------------------------------------------------------------------------------------------------------------
+// ---- all -----------------------------------------------------------------------------------------------------------
 
 // Families by the kind of device: a process compiles what it draws from.
 class Samplers : public testing::TestWithParam<std::tuple<std::uint32_t, Where>> {};

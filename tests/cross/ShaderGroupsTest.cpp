@@ -1,4 +1,5 @@
-// Of a ray tracing pipeline exist only the shader groups that a scene needs: counted in what the driver is asked to make.
+// Of a ray tracing pipeline exist only the shader groups that a scene needs: counted in what the driver is asked to
+// make.
 #include <cstdint>
 #include <ostream>
 #include <span>

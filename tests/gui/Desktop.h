@@ -18,8 +18,8 @@ class Desktop : public testing::Test {
     void SetUp() override;
     void TearDown() override;
 
-    // Starts "ray-tracing-cpu" or "ray-tracing-gpu" with validation, a small image and no stored settings but those of this
-    // test; waits for its window.
+    // Starts "ray-tracing-cpu" or "ray-tracing-gpu" with validation, a small image and no stored settings but those of
+    // this test; waits for its window.
     void start(const std::string& program, const std::vector<std::string>& arguments = {});
     // Closes the window by Ctrl+Q; the exit code tells of validation's messages, too.
     int quit();

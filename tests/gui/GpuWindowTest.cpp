@@ -1,4 +1,5 @@
-// What only the window of ray-tracing-gpu has: its engines, the preview without ray tracing, heat maps by the shader clock.
+// What only the window of ray-tracing-gpu has: its engines, the preview without ray tracing, heat maps by the shader
+// clock.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -160,8 +161,8 @@ TEST_F(GpuWindowTest, TheEngineIsTheOneThatWasChosen) {
     }
 }
 
-// Where the row is depends on the interface: each place of that part is tried, with one of the entries below it; again and more
-// slowly where the machine is busy.
+// Where the row is depends on the interface: each place of that part is tried, with one of the entries below it; again
+// and more slowly where the machine is busy.
 TEST_F(GpuWindowTest, TheEngineIsExchangedWhileTheWindowIsOpen) {
     store({{"engine", {{"kind", "compute"}}}});
     start();

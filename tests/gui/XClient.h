@@ -1,4 +1,5 @@
-// What xdotool cannot do: another program that files are dragged from, a window manager's part in minimising, and violence.
+// What xdotool cannot do: another program that files are dragged from, a window manager's part in minimising, and
+// violence.
 #pragma once
 #include <string>
 #include <vector>

@@ -16,9 +16,9 @@ constexpr std::uint32_t kSpp = 16;
 
 class Agreement : public ::testing::TestWithParam<std::string> {};
 
-// Bias that this can see: 4 standard errors of the difference, stated on failure. A tile that is 5 % off, a missing weight or
-// a light that one estimator does not know are discoveries. Seeds are fixed; with 81 comparisons of two chances each a clean
-// build would fail once in some sixty changes of the random numbers.
+// Bias that this can see: 4 standard errors of the difference, stated on failure. A tile that is 5 % off, a missing
+// weight or a light that one estimator does not know are discoveries. Seeds are fixed; with 81 comparisons of two
+// chances each a clean build would fail once in some sixty changes of the random numbers.
 void expectAgreement(const scene::SceneDesc& desc) {
     scene::CompileOptions options;
     options.generatedAssets = true;

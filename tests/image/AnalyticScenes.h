@@ -26,8 +26,8 @@ inline constexpr double kFloorAlbedo = 0.7;
 // The floor y = 0 around the origin, looked at from the side, and a material "light" of radiance (3, 2, 1).
 scene::SceneDesc floorScene();
 
-// A sphere of radiance 1 that also reflects, under this transform, seen as large from `distance` as from anywhere: nothing else
-// lights it, so that it is seen at 1.
+// A sphere of radiance 1 that also reflects, under this transform, seen as large from `distance` as from anywhere:
+// nothing else lights it, so that it is seen at 1.
 scene::SceneDesc lampAlone(const scene::Transform& transform, double distance);
 // Flat, sheared and mirrored ones for it.
 std::vector<scene::Transform> lampTransforms();

@@ -58,8 +58,8 @@ double error(app::Engine& engine, const CompiledScene& scene, app::SamplerKind s
 }
 
 // Independent numbers: -1/2. Sobol's over position in the pixel and on the light, four dimensions: at least -0.7; a
-// scrambling that is not nested, or one for several dimensions, makes it -1/2. At a distance of 3 the way in which the quad is
-// sampled changes within many pixels; where equal numbers then led to other points, it was -0.66.
+// scrambling that is not nested, or one for several dimensions, makes it -1/2. At a distance of 3 the way in which the
+// quad is sampled changes within many pixels; where equal numbers then led to other points, it was -0.66.
 TEST(Convergence, SobolIsSteeperThanIndependentAndNeverWorse) {
     for (const SceneDesc& desc : {litFloor(true), litFloor(false), litFloor(false, 3)}) {
         const auto scene = compileScene(desc);
@@ -97,8 +97,8 @@ double blockError(app::Engine& engine, const CompiledScene& scene, app::SamplerK
     return std::sqrt(squares * static_cast<double>(block * block) / (8 * kSide * kSide));
 }
 
-// Errors as blue noise: pixels are as good as ever, means of 4 x 4 of them have less than 0.7 of the error. The errors of
-// independent pixels would leave the ratio at 1, within a tenth by the number of blocks.
+// Errors as blue noise: pixels are as good as ever, means of 4 x 4 of them have less than 0.7 of the error. The errors
+// of independent pixels would leave the ratio at 1, within a tenth by the number of blocks.
 TEST(Convergence, BlueNoiseMovesErrorsToHighFrequencies) {
     for (const bool sphere : {false, true}) {
         const auto scene = compileScene(litFloor(sphere));

@@ -35,7 +35,8 @@ TEST(Furnace, RouletteChangesNothingButVariance) {
     }
 }
 
-// Far from the origin rounding would decide whether a ray starts inside: half a lamp is as thick there as 170 roundings.
+// Far from the origin rounding would decide whether a ray starts inside: half a lamp is as thick there as 170
+// roundings.
 TEST(Furnace, ConvexLampsDoNotLightThemselves) {
     for (const Transform& transform : lampTransforms()) {
         for (const double distance : {6.0, 1000.0}) {
@@ -75,7 +76,8 @@ TEST(Furnace, WhiteMediumIsInvisibleInAWhiteSky) {
     }
 }
 
-// A ray that meets rough metal at cosine c loses the fraction max(0, (1 - c / fuzz) / 2) to directions below the surface.
+// A ray that meets rough metal at cosine c loses the fraction max(0, (1 - c / fuzz) / 2) to directions below the
+// surface.
 TEST(Furnace, RoughMetalLosesWhatLeavesItsHemisphere) {
     for (double fuzz : {0.3, 1.0}) {
         for (double cosine : {0.1, 0.5, 0.9}) {

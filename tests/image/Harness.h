@@ -47,8 +47,8 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
 // Asserts the rows of the stability suite that ray-tracing-bench prints. What they can detect is in their criteria.
 void expectStability(app::Engine& engine);
 
-// Asserts that the depth of a pixel is the mean over the samples that hit something: of a square before the sky, whose edges go
-// through pixels.
+// Asserts that the depth of a pixel is the mean over the samples that hit something: of a square before the sky, whose
+// edges go through pixels.
 void expectDepthOfWhatIsHit(app::Engine& engine);
 
 // 32 square images of independent seeds and independent samples, for tests that compare images tile by tile.

@@ -75,8 +75,8 @@ TEST(Irradiance, UnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
-// The light stands next to the camera, where coordinates are small, and the wall far away: its shadow rays are long against the
-// coordinates of the light, and rounding must not let them end behind it.
+// The light stands next to the camera, where coordinates are small, and the wall far away: its shadow rays are long
+// against the coordinates of the light, and rounding must not let them end behind it.
 TEST(Irradiance, OfAWallFarAway) {
     for (const double distance : {1e2, 1e3, 1e4}) {
         SceneDesc desc = emptyScene({0.1, 0.2, 0.3}, {0.2 * distance, distance, 0.6 * distance}, 1e-3);

@@ -1,7 +1,8 @@
-// A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about otherwise.
-// RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the third call of the one
-// return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a line on standard error.
-// RT_MAX_ALLOCATIONS is how many pieces of memory may exist at a time, as drivers have such a limit.
+// A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about
+// otherwise. RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the
+// third call of the one return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a
+// line on standard error. RT_MAX_ALLOCATIONS is how many pieces of memory may exist at a time, as drivers have such a
+// limit.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
@@ -91,7 +92,7 @@ VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, co
     next<PFN_vkFreeMemory>(device, device, "vkFreeMemory")(device, memory, allocator);
 }
 
-// ---- what makes it a layer -------------------------------------------------------------------------------------------
+// ---- what makes it a layer -----------------------------------------------------------------------------------------
 
 template <class Info>
 Info* link(const void* chain, VkStructureType type) {

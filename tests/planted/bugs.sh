@@ -18,7 +18,7 @@ bug 'probability of a light chosen uniformly' LightSelection.h 's/choice\.probab
 
 # ---- paths -----------------------------------------------------------------------------------------------------------
 bug 'weight of multiple importance sampling' Sampling.h 's/square\(pdfB \/ pdfA\)/pdfB \/ pdfA/' image.Irradiance
-bug 'Russian roulette without its weight' PathStep.h 's/s\.throughput \/= survival;//' image.Furnace
+bug 'Russian roulette without its weight' PathStep.h 's/s\.throughput \/= probability;//' image.Furnace
 bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth\);/return transmittance(0.5f * depth);/' image.Transmittance
 
 # ---- materials, media, textures --------------------------------------------------------------------------------------

@@ -82,7 +82,7 @@ TEST_F(Gpu, TheImageDependsOnNothingButSettings) {
 TEST_F(Gpu, TheStatisticsNameTheEngine) {
     EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "compute"}).exitCode, 0);
     EXPECT_EQ(jsonOf("s.json")["engine"], "compute");
-    EXPECT_EQ(jsonOf("s.json")["kernel"], "flat+quads+spheres");
+    EXPECT_EQ(jsonOf("s.json")["kernel"], "list+quads+spheres");
     EXPECT_EQ(gpu({"--stats", "s.json", "--engine", "auto"}).exitCode, 0);
     EXPECT_TRUE(jsonOf("s.json")["engine"] == "compute" || jsonOf("s.json")["engine"] == "pipeline");
 }
@@ -123,8 +123,8 @@ TEST_F(Gpu, WritesEveryImageWithoutAMessageOfTheValidationLayers) {
 
 #ifdef RT_LAYER_DIR
 
-// 10 000 meshes, each with an acceleration structure of its own, on a driver that allows no more allocations than Vulkan
-// guarantees.
+// 10 000 meshes, each with an acceleration structure of its own, on a driver that allows no more allocations than
+// Vulkan guarantees.
 TEST_F(Gpu, TenThousandPrototypesNeedFewAllocations) {
     std::string mesh; // a strip of as many triangles as make a prototype worth its instances
     for (int i = 0; i <= 32; ++i)

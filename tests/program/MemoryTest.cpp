@@ -1,5 +1,5 @@
-// Too little memory, in steps from none to enough: whatever it suffices for is done, and what it does not suffice for ends with
-// one line and the documented exit code.
+// Too little memory, in steps from none to enough: whatever it suffices for is done, and what it does not suffice for
+// ends with one line and the documented exit code.
 #include "tests/program/Program.h"
 
 #if !defined(_WIN32) && !defined(__APPLE__) && !defined(RT_SANITIZED) // sanitizers reserve terabytes

@@ -47,7 +47,8 @@ class ProgramTest : public testing::Test {
 std::filesystem::path cacheFolder();
 std::string programPath(const std::string& program);
 
-// Exactly one line on standard error that begins with the program's name, nothing on standard output, and the exit code.
+// Exactly one line on standard error that begins with the program's name, nothing on standard output, and the exit
+// code.
 testing::AssertionResult failsWith(const Outcome& outcome, int exitCode, const std::string& mentioning);
 
 } // namespace rt::test

@@ -178,8 +178,8 @@ TEST_F(Render, TargetError) {
     EXPECT_GE(stats["settings"]["replicates"], 4);
 }
 
-// The noise of 64 samples, much of it fireflies of the glass sphere, was once stated as 0.6 of what it is, and so ended a render
-// with a target of 0.03 at an error of 0.05.
+// The noise of 64 samples, much of it fireflies of the glass sphere, was once stated as 0.6 of what it is, and so ended
+// a render with a target of 0.03 at an error of 0.05.
 TEST_F(Render, StatedErrorsCountFireflies) {
     const auto stated = [this](Arguments more) {
         more.insert(more.begin(), {"-q", "--headless", "--no-config", "--scene", "cornell-box-lights", "--width", "48",

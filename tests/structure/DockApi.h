@@ -1,5 +1,5 @@
-// What docking adds to Dear ImGui's interface, as far as the windows use it: declared for versions without. What is compiled with
-// it is never linked.
+// What docking adds to Dear ImGui's interface, as far as the windows use it: declared for versions without. What is
+// compiled with it is never linked.
 #pragma once
 #include <imgui.h>
 #include <imgui_internal.h>

@@ -1,5 +1,5 @@
-// The guides name files and symbols of this tree, and only such: in README.md and docs/*.md, whatever stands between backquotes
-// and looks like a path, a file or a name has to exist.
+// The guides name files and symbols of this tree, and only such: in README.md and docs/*.md, whatever stands between
+// backquotes and looks like a path, a file or a name has to exist.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -95,9 +95,12 @@ bool existsInTree(const Tree& tree, std::string span) {
     for (const char c : span)
         pattern += c == '*' ? std::string(".*") : c == '.' ? std::string("\\.") : std::string(1, c);
     const std::regex ending("(.*/)?" + pattern);
-    for (const std::string& file : tree.files)
-        if (std::regex_match(file, ending)) return true;
-    return false;
+    const auto isNamed = [&](const std::string& file) { return std::regex_match(file, ending); };
+    if (std::ranges::any_of(tree.files, isNamed)) return true;
+    // X.Variant.ext is a shader that is made of X.ext.
+    static const std::regex variant(R"((\w+)(\.\w+)+(\.\w+))");
+    std::smatch parts;
+    return std::regex_match(span, parts, variant) && existsInTree(tree, parts[1].str() + parts[3].str());
 }
 
 // Extensions of Vulkan are named by Vulkan.

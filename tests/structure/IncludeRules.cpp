@@ -62,8 +62,8 @@ std::vector<Include> quotedIncludes(const fs::path& file) {
     return includes;
 }
 
-// Path relative to the root of what `target` names in `file`; empty when there is no such file of ours. The header X.rgen.h
-// is generated from Shaders/X.rgen and counts as that.
+// Path relative to the root of what `target` names in `file`; empty when there is no such file of ours. The header
+// X.rgen.h is generated from Shaders/X.rgen and counts as that.
 fs::path resolve(const fs::path& file, const std::string& target) {
     const fs::path shader = fs::path("Shaders") / fs::path(target).stem();
     if (fs::exists(kRoot / shader)) return shader;
@@ -74,8 +74,8 @@ fs::path resolve(const fs::path& file, const std::string& target) {
     return {};
 }
 
-// Sources of a folder whose includes are bound by the rule: the mains of the two programs and of the benchmark alone may see
-// everything.
+// Sources of a folder whose includes are bound by the rule: the mains of the two programs and of the benchmark alone
+// may see everything.
 std::vector<fs::path> sourcesOf(const std::string& folder) {
     std::vector<fs::path> sources;
     if (!fs::exists(kRoot / folder)) return sources;

@@ -196,7 +196,8 @@ TEST(Shapes, BlocksAgreeWithTheSharedFormulas) {
     }
 }
 
-// A strip is as long and as wide as its edges say: what rounding asks for along the short ones must not lengthen the long ones.
+// A strip is as long and as wide as its edges say: what rounding asks for along the short ones must not lengthen the
+// long ones.
 TEST(Shapes, StripsEndWhereTheirEdgesAre) {
     Random random(25);
     Geometry strip;

@@ -40,7 +40,7 @@ dvec3 inPlane(double cosine, double phi = 0.3) {
     return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
-// ---- lambertian -----------------------------------------------------------------------------------------------------
+// ---- lambertian ----------------------------------------------------------------------------------------------------
 
 TEST(Lambertian, SampleAndEvaluationAgree) {
     Uniforms uniform(1);
@@ -58,7 +58,7 @@ TEST(Lambertian, SampleAndEvaluationAgree) {
     EXPECT_FALSE(isDelta(kFeatureAll, lambertian()));
 }
 
-// ---- metal ----------------------------------------------------------------------------------------------------------
+// ---- metal ---------------------------------------------------------------------------------------------------------
 
 // Probability that normalize(r + fuzz s), s uniform on the sphere, is within the angle gamma of r. The cone of that
 // angle meets the sphere about the tip of r in two circles: beyond the far one and before the near one lie two caps.
@@ -176,7 +176,7 @@ TEST(Metal, MirrorsDoNotDrift) {
     EXPECT_NEAR(length(w), 1.0f, 3e-7f);
 }
 
-// ---- dielectric -----------------------------------------------------------------------------------------------------
+// ---- dielectric ----------------------------------------------------------------------------------------------------
 
 // Unpolarised reflectance and the refracted cosine in long double; eta = index here over index there.
 std::pair<double, double> exactFresnel(double cosine, double eta) {
@@ -288,7 +288,7 @@ TEST(Dielectric, SlabIsParallel) {
     }
 }
 
-// ---- others ---------------------------------------------------------------------------------------------------------
+// ---- others --------------------------------------------------------------------------------------------------------
 
 TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
     Material emitter{};

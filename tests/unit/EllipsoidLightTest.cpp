@@ -1,4 +1,5 @@
-// What spheres become under maps that scale unequally: the density of their directions, stress, and the compiler's record.
+// What spheres become under maps that scale unequally: the density of their directions, stress, and the compiler's
+// record.
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -57,10 +58,10 @@ const std::vector<Shape> kShapes = {
     {{0.3, 0.3, 0.01}, false, {0.1, 0, 1}}, {{0.05, 0.05, 1}, true, {1, 1, 1}}, {{1, 1, 1}, false, {3, 0, 0}},
 };
 
-// ---- the density of directions --------------------------------------------------------------------------------------
+// ---- the density of directions -------------------------------------------------------------------------------------
 
-// The ratio of the solid angles of a small triangle of directions before and after the map, from the stretched cone, in which
-// they are uniform.
+// The ratio of the solid angles of a small triangle of directions before and after the map, from the stretched cone, in
+// which they are uniform.
 TEST(Ellipsoids, DensityOfDirectionsIsTheJacobianOfTheirMap) {
     Uniforms uniform(1);
     for (int i = 0; i < 2000; ++i) {
@@ -167,8 +168,8 @@ TEST(Ellipsoids, DrawsHaveTheDistributionOfTheDensity) {
     }
 }
 
-// Relative variances of single samples of the irradiance under the middle of a disk and of a needle, to 10 %. What looks round is
-// sampled uniformly in solid angle; by area it is tens of times as much.
+// Relative variances of single samples of the irradiance under the middle of a disk and of a needle, to 10 %. What
+// looks round is sampled uniformly in solid angle; by area it is tens of times as much.
 TEST(Ellipsoids, VarianceOfConesAndAreaSampling) {
     const auto variance = [](const dvec3& axes, double height, uint method) {
         const Light light = ellipsoid({0, 0, height}, {axes.x, 0, 0, 0, axes.y, 0, 0, 0, axes.z});
@@ -213,7 +214,7 @@ TEST(Ellipsoids, DensityIntegratesToOne) {
     }
 }
 
-// ---- inside, mirrored, one-sided ------------------------------------------------------------------------------------
+// ---- inside, mirrored, one-sided -----------------------------------------------------------------------------------
 
 TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
     Uniforms uniform(4);
@@ -260,7 +261,7 @@ TEST(Ellipsoids, MirrorsChangeNothing) {
     }
 }
 
-// ---- stress ---------------------------------------------------------------------------------------------------------
+// ---- stress --------------------------------------------------------------------------------------------------------
 
 TEST(Ellipsoids, TwelveDecadesOfSizeDistanceAndShapeLeaveNothingThatIsNotFinite) {
     Uniforms uniform(6);
@@ -295,7 +296,7 @@ TEST(Ellipsoids, TwelveDecadesOfSizeDistanceAndShapeLeaveNothingThatIsNotFinite)
     EXPECT_GT(drawn, 200000u);
 }
 
-// ---- the record -----------------------------------------------------------------------------------------------------
+// ---- the record ----------------------------------------------------------------------------------------------------
 
 double exactArea(const dmat3& axes) {
     const dmat3 cofactors = glm::determinant(axes) * glm::transpose(glm::inverse(axes));

@@ -96,9 +96,11 @@ TEST(FilmRun, StopsAtTheTargetErrorAndNotBefore) {
     RenderSettings wanted = settings(1'000'000);
     wanted.replicates = 4;
     FilmRun run(engine, {}, wanted);
-    run.limit({.targetError = 0.005}); // 1/12 / n / (1/4 + 0.01) at n = 64
+    run.limit({.targetError = 0.005}); // 1/12 / n / (1/4 + 0.01) at n = 64; see SessionTest for what comes on top
     EXPECT_EQ(run.untilStopped(kGoOn), StopReason::TargetError);
-    EXPECT_NEAR(static_cast<double>(engine.film().minSamples()), 64, 16);
+    const auto samples = static_cast<double>(engine.film().minSamples());
+    EXPECT_GT(samples, 64);
+    EXPECT_LT(samples, 64 * 1.16 * 1.1 * 1.1 * 1.1);
 }
 
 TEST(FilmRun, SavesBetweenSlicesAsOftenAsAsked) {

@@ -86,7 +86,8 @@ TEST_F(InteractiveFailureTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
     EXPECT_EQ(made, 2);
 }
 
-// What had been rendered can be saved, and is what the program leaves at its end; only what needs rays makes another engine.
+// What had been rendered can be saved, and is what the program leaves at its end; only what needs rays makes another
+// engine.
 TEST_F(InteractiveFailureTest, AFilmThatFailedKeepsItsSamples) {
     const std::string atEnd = (folder_ / "end.pfm").string(), saved = (folder_ / "saved.pfm").string();
     InteractiveSession::Setup s = setup(100);

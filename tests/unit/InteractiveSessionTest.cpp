@@ -131,8 +131,8 @@ class PacedEngine : public FakeEngine {
     RenderSettings settings_;
 };
 
-// The camera moves on whenever samples are taken, so that the next change waits at the end of every picture. With drafts no
-// film is begun meanwhile; what else is asked for in between finds the film that belongs to the last draft.
+// The camera moves on whenever samples are taken, so that the next change waits at the end of every picture. With
+// drafts no film is begun meanwhile; what else is asked for in between finds the film that belongs to the last draft.
 TEST_F(InteractiveSessionTest, ACameraInMotionShowsPictures) {
     for (const std::uint32_t width : {24u, 400u}) {
         constexpr int kMoves = 64;

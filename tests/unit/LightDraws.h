@@ -13,7 +13,8 @@ inline RenderParams withMethod(uint method) {
     return params;
 }
 
-// Estimates of the irradiance at the origin of a surface with the normal kUp, under a light of radiance 1, from a sample each.
+// Estimates of the irradiance at the origin of a surface with the normal kUp, under a light of radiance 1, from a
+// sample each.
 inline test::Mean irradianceEstimates(const Light& light, uint method, std::uint32_t seed, int count) {
     test::Uniforms uniform(seed);
     test::Mean mean;

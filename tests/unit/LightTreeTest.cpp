@@ -72,11 +72,11 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
     for (std::uint32_t node = 0; node < s.lightNodes.size(); ++node) {
         for (std::uint32_t i = 0; i < kLightNodeChildren; ++i) {
             const LightNode& n = s.lightNodes[node];
-            if (n.around[i] == 0 && n.facing[i] == 0) continue;
+            if (n.omnidirectionalIntensity[i] == 0 && n.planarIntensity[i] == 0) continue;
             if (n.child[i] & kLightLeaf) {
                 const std::uint32_t light = n.child[i] & ~kLightLeaf;
                 ++seen[light];
-                EXPECT_EQ(s.lightPlaces[light], node * kLightNodeChildren + i);
+                EXPECT_EQ(s.lightToLeaf[light], node * kLightNodeChildren + i);
             } else {
                 EXPECT_EQ(loadLightNodeParent(viewOf(s, s.globals), n.child[i]), node * kLightNodeChildren + i);
             }
@@ -86,7 +86,7 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
         const LightBound& bound = s.lightBounds[i];
         ASSERT_EQ(seen[i], bound.intensity > 0 ? 1 : 0) << i;
         if (!(bound.intensity > 0)) continue;
-        for (std::uint32_t place = loadLightNodeParent(viewOf(s, s.globals), s.lightPlaces[i] / kLightNodeChildren);
+        for (std::uint32_t place = loadLightNodeParent(viewOf(s, s.globals), s.lightToLeaf[i] / kLightNodeChildren);
              place != kNone; place = loadLightNodeParent(viewOf(s, s.globals), place / kLightNodeChildren)) {
             const LightCluster c =
                 loadLightCluster(viewOf(s, s.globals), place / kLightNodeChildren, place % kLightNodeChildren);
@@ -178,7 +178,7 @@ TEST(LightTreePower, ChiSquareSeesTwoPercent) {
 // The sky is a child of the root, whatever else shines, and is drawn as stated.
 TEST(LightTree, HoldsTheSky) {
     CompiledScene s = randomLights(200, 8);
-    s.lightBounds.clear(), s.lightNodes.clear(), s.lightPlaces.clear();
+    s.lightBounds.clear(), s.lightNodes.clear(), s.lightToLeaf.clear();
     Light sky{};
     sky.kind = kLightSky;
     sky.sides = kSidesBoth;
@@ -188,7 +188,7 @@ TEST(LightTree, HoldsTheSky) {
     s.globals.skyLight = 200;
     s.lights.push_back(sky);
     scene::finishLights(s);
-    EXPECT_EQ(s.lightPlaces[200], 0u);
+    EXPECT_EQ(s.lightToLeaf[200], 0u);
     Uniforms uniform(9);
     for (int k = 0; k < 4; ++k) {
         const vec3 position = vec3(inBox(uniform, 4)), normal = glm::normalize(vec3(inBox(uniform, 1)));
@@ -226,7 +226,7 @@ TEST(LightTree, ScalesExactly) {
     for (Light& light : scaled.lights) {
         light.position *= k, light.edgeU *= k, light.edgeV *= k, light.radius *= k, light.area *= k * k;
     }
-    scaled.lightBounds.clear(), scaled.lightNodes.clear(), scaled.lightPlaces.clear();
+    scaled.lightBounds.clear(), scaled.lightNodes.clear(), scaled.lightToLeaf.clear();
     scene::finishLights(scaled);
     Uniforms uniform(7);
     for (int i = 0; i < 2000; ++i) {

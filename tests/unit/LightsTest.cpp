@@ -1,4 +1,5 @@
-// Sampling of single lights: estimates and densities against exact irradiances and solid angles, what cannot contribute, stress.
+// Sampling of single lights: estimates and densities against exact irradiances and solid angles, what cannot
+// contribute, stress.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -210,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(Lights, LightCase, testing::ValuesIn(cases()), [](const
     return name;
 });
 
-// ---- what cannot contribute -----------------------------------------------------------------------------------------
+// ---- what cannot contribute ----------------------------------------------------------------------------------------
 
 TEST(Lights, DarkSideAndHorizon) {
     Uniforms uniform(5);
@@ -234,8 +235,8 @@ TEST(Lights, DarkSideAndHorizon) {
     EXPECT_EQ(edge.pdf, 0.0f);
 }
 
-// Half of the quad is below the horizon, to which an edge is parallel: no number is lost on that half, and the density is that of
-// the other half alone. Area sampling, which the others are compared with, takes all of it.
+// Half of the quad is below the horizon, to which an edge is parallel: no number is lost on that half, and the density
+// is that of the other half alone. Area sampling, which the others are compared with, takes all of it.
 TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
     const Light whole = quad({1, -1, -1}, {0.2, 2, 0}, {0, 0, 2}), above = quad({1, -1, 0}, {0.2, 2, 0}, {0, 0, 1});
     const vec3 normal(0, 0, 1);
@@ -257,8 +258,9 @@ TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
     }
 }
 
-// On a diffuse surface: of a sphere wholly above the horizon nothing is left, of a near rectangle a fifth of what uniform solid
-// angle leaves, whether the horizon cuts it or not; overhead, where the cosine is the same at all corners, not more.
+// On a diffuse surface: of a sphere wholly above the horizon nothing is left, of a near rectangle a fifth of what
+// uniform solid angle leaves, whether the horizon cuts it or not; overhead, where the cosine is the same at all
+// corners, not more.
 TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     const auto variance = [](const Light& light, uint method) {
         return irradianceEstimates(light, method, 21, 1 << 14).relativeVariance();
@@ -274,8 +276,8 @@ TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     EXPECT_LT(variance(overhead, kShapeAuto), 1.01 * variance(overhead, kShapeSolidAngle));
 }
 
-// Where the way of sampling a rectangle changes, as a strip or by solid angle, equal numbers lead to much the same point: points
-// that are stratified within a pixel stay so. Both ways round, and seen from either side of the middle.
+// Where the way of sampling a rectangle changes, as a strip or by solid angle, equal numbers lead to much the same
+// point: points that are stratified within a pixel stay so. Both ways round, and seen from either side of the middle.
 TEST(Lights, EqualNumbersLeadToNeighboursWhereTheMethodChanges) {
     const auto rectangle = [](bool swapped, double shift, double distance) {
         const dvec3 along(2, 0, 0), across(0, 1.5, 0);
@@ -323,8 +325,8 @@ TEST(Lights, InsideASphere) {
     EXPECT_TRUE(agrees(medium, 4 * kPiD));
 }
 
-// Rounding may take a point near a huge sphere to be inside of it, while a ray meets the near side: no sample lies there, so
-// that the ray's light counts in full.
+// Rounding may take a point near a huge sphere to be inside of it, while a ray meets the near side: no sample lies
+// there, so that the ray's light counts in full.
 TEST(Lights, SideOfASphereThatIsNotSampledHasNoDensity) {
     const vec3 up(0, 1, 0);
     for (const uint method : {kShapeAuto, kShapeSolidAngle, kShapeArea}) {
@@ -351,8 +353,8 @@ TEST(Lights, MovingSphereIsWhereItIsAtTheRaysTime) {
     EXPECT_EQ(moved.pdf, still.pdf);
 }
 
-// On an unoccluded diffuse surface a light sampled by projected solid angle has no variance; that of a sphere cut by the horizon
-// is what the fit leaves.
+// On an unoccluded diffuse surface a light sampled by projected solid angle has no variance; that of a sphere cut by
+// the horizon is what the fit leaves.
 TEST_P(LightCase, ProjectedHasNoVariance) {
     const auto& [name, light, areaIsHopeless] = GetParam();
     if (light.kind == kLightEllipsoid) return; // sampled by the cone

@@ -1,5 +1,5 @@
-// What holds for every row of the table of materials, whoever adds one: it is sampled as its density says, survives a scene file,
-// and the published schema describes it.
+// What holds for every row of the table of materials, whoever adds one: it is sampled as its density says, survives a
+// scene file, and the published schema describes it.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -41,7 +41,7 @@ class Materials : public testing::TestWithParam<std::size_t> {
     }
 };
 
-// ---- sampling -------------------------------------------------------------------------------------------------------
+// ---- sampling ------------------------------------------------------------------------------------------------------
 
 constexpr int kRows = 16, kColumns = 16; // cells of equal solid angle around the normal
 
@@ -115,7 +115,7 @@ TEST_P(Materials, AreSampledAsTheirDensitySays) {
     }
 }
 
-// ---- scene files ----------------------------------------------------------------------------------------------------
+// ---- scene files ---------------------------------------------------------------------------------------------------
 
 TEST_P(Materials, SurviveASceneFile) {
     Json material = {{"type", type_.name}, {"emission", {1, 2, 3}}};

@@ -66,8 +66,8 @@ inline double sphereIrradiance(const dvec3& center, double radius, const dvec3& 
     return std::atan2(g, c) - c * g + s * s * cz * std::atan2(g, -cz * c);
 }
 
-// Points on the outline, as seen from the origin outside, of the ellipsoid of points center + axes * (unit vector): where the
-// unit sphere is touched by rays from the origin's preimage. As a polygon it takes 4e-7 off the solid angle.
+// Points on the outline, as seen from the origin outside, of the ellipsoid of points center + axes * (unit vector):
+// where the unit sphere is touched by rays from the origin's preimage. As a polygon it takes 4e-7 off the solid angle.
 inline std::vector<dvec3> ellipsoidOutline(const dvec3& center, const glm::dmat3& axes) {
     constexpr int kCorners = 4096;
     const dvec3 eye = -(glm::inverse(axes) * center);

@@ -24,7 +24,7 @@ dvec3 direction(Uniforms& uniform) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// ---- sphere ---------------------------------------------------------------------------------------------------------
+// ---- sphere --------------------------------------------------------------------------------------------------------
 
 struct Cap {
     vec3 toCenter;
@@ -100,7 +100,7 @@ TEST(ProjectedCap, WeightedCountsAreTheMeasure) {
     }
 }
 
-// ---- flat lights ----------------------------------------------------------------------------------------------------
+// ---- flat lights ---------------------------------------------------------------------------------------------------
 
 struct Flat {
     vec3 corner, edgeU, edgeV, plane, normal;
@@ -186,8 +186,8 @@ TEST_P(ProjectedPolygonOfSize, TotalIsTheIrradianceOfLightsSeenEdgeOn) {
     }
 }
 
-// A sample stands at the place in the azimuth cdf that its number names: what lies before its slice, by Lambert's formula in double
-// precision, is that share of the whole.
+// A sample stands at the place in the azimuth cdf that its number names: what lies before its slice, by Lambert's
+// formula in double precision, is that share of the whole.
 TEST_P(ProjectedPolygonOfSize, NumbersAreSharesOfTheAzimuthCdf) {
     Uniforms uniform(7);
     std::vector<double> errors;

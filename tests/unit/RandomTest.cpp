@@ -26,7 +26,7 @@ RenderParams paramsOf(uint kind, uint strataX = 16, uint strataY = 16, uint seed
 
 constexpr uint kKinds[] = {kSamplerIndependent, kSamplerStratified, kSamplerSobol, kSamplerSobolBlue};
 
-// ---- numbers --------------------------------------------------------------------------------------------------------
+// ---- numbers -------------------------------------------------------------------------------------------------------
 
 TEST(Uniform, IsTheGridWithoutOne) {
     for (uint k = 0; k < 1u << 24; ++k) {
@@ -54,7 +54,7 @@ TEST(Uniform, StretchReusesTheRest) {
     EXPECT_EQ(stretch(0.2f, 0.25f, 0.75f), 0.0f);
 }
 
-// ---- hashes ---------------------------------------------------------------------------------------------------------
+// ---- hashes --------------------------------------------------------------------------------------------------------
 
 // One flipped input bit changes half of the output bits that matter. Products carry upwards only, so the highest input
 // bits leave the lowest output bits alone; a uniform's upper half, its first 2^-16, must not notice.
@@ -123,7 +123,7 @@ TEST(Hash, SeedsPixelsAndReplicatesDiffer) {
     }
 }
 
-// ---- Sobol ----------------------------------------------------------------------------------------------------------
+// ---- Sobol ---------------------------------------------------------------------------------------------------------
 
 // Every elementary box 2^-j x 2^(j-m) holds exactly one of any 2^m consecutive, aligned points.
 void expectNet(const std::function<uvec2(uint)>& point, uint m, uint first, const std::string& what) {
@@ -182,7 +182,7 @@ TEST(Sobol, OwenScrambleFlipsEveryDigitFairly) {
     }
 }
 
-// ---- strata ---------------------------------------------------------------------------------------------------------
+// ---- strata --------------------------------------------------------------------------------------------------------
 
 TEST(Permute, IsABijection) {
     for (uint n = 1; n < 300; ++n) {
@@ -224,7 +224,7 @@ TEST(Stratified, CoversEveryCellOnce) {
     }
 }
 
-// ---- all kinds ------------------------------------------------------------------------------------------------------
+// ---- all kinds -----------------------------------------------------------------------------------------------------
 
 // Pairs of different dimensions and of neighbouring pixels must be independent whatever the stratification inside a
 // pair.
@@ -319,8 +319,8 @@ TEST(Samplers, ErrorsAreBlueNoise) {
     EXPECT_LT(rms(kSamplerSobolBlue, 4) * 2, rms(kSamplerSobol, 4));
 }
 
-// A quadrant's pixels together are a net: 64 samples of 4 pixels have one in each of 64 strips, and 16 of one pixel in each
-// of 16.
+// A quadrant's pixels together are a net: 64 samples of 4 pixels have one in each of 64 strips, and 16 of one pixel in
+// each of 16.
 TEST(Samplers, BlueNoiseSharesOneSequence) {
     for (const uint pixels : {1u, 4u}) {
         std::vector<int> x(16 * pixels), y(16 * pixels);

@@ -16,7 +16,7 @@
 namespace rt::scene {
 namespace {
 
-// ---- transforms -----------------------------------------------------------------------------------------------------
+// ---- transforms ----------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, NestedTransformsActInsideOut) {
     SceneDesc scene = withMaterials();
@@ -105,7 +105,7 @@ TEST(SceneCompiler, NormalsFollowTheInverseTranspose) {
     }
 }
 
-// ---- media ----------------------------------------------------------------------------------------------------------
+// ---- media ---------------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
     SceneDesc scene = withMaterials();
@@ -138,7 +138,7 @@ TEST(SceneCompiler, MediaMapTheWorldToTheirUnitShapes) {
     EXPECT_EQ(compiled->notices[0], "1 media without volume or density were dropped");
 }
 
-// ---- degenerate geometry (numerics.md N7) ---------------------------------------------------------------------------
+// ---- degenerate geometry (numerics.md N7) --------------------------------------------------------------------------
 
 bool isFinite(const shared::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -239,7 +239,7 @@ TEST(SceneCompiler, WrongIndicesInCodeAreErrors) {
     EXPECT_NE(errorOf(scene).find("refers to itself"), std::string::npos);
 }
 
-// ---- nested checkers ------------------------------------------------------------------------------------------------
+// ---- nested checkers -----------------------------------------------------------------------------------------------
 
 // Textures "1" to "`depth`": checkers of the one before them, the innermost of two colours.
 SceneDesc withNestedCheckers(int depth) {
@@ -273,7 +273,7 @@ TEST(SceneCompiler, CheckersNestToTheLimitOfTheKernels) {
     EXPECT_NO_THROW(compileScene(noisy));
 }
 
-// ---- the world's origin ---------------------------------------------------------------------------------------------
+// ---- the world's origin --------------------------------------------------------------------------------------------
 
 // numerics.md N20: the authored camera position is subtracted in double, so that distance costs nothing.
 TEST(SceneCompiler, TranslatedScenesAreTheSame) {
@@ -311,7 +311,7 @@ TEST(SceneCompiler, CoordinatesAreRelativeToTheCamera) {
     EXPECT_EQ(compiled->spheres[0].center, shared::vec3(530 - 278, 530 - 278, 277 + 800));
 }
 
-// ---- hash -----------------------------------------------------------------------------------------------------------
+// ---- hash ----------------------------------------------------------------------------------------------------------
 
 TEST(SceneCompiler, TheHashTellsScenesApart) {
     const SceneDesc scene = findBuiltinScene("rest-of-life-cornell-box-glass");

@@ -1,5 +1,5 @@
-// Where rays meet spheres, against double precision: never farther off the sphere than what leaving rays are offset by, and near a
-// huge sphere as exact as the ray is, not as the sphere's coordinates.
+// Where rays meet spheres, against double precision: never farther off the sphere than what leaving rays are offset by,
+// and near a huge sphere as exact as the ray is, not as the sphere's coordinates.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -85,7 +85,8 @@ TEST(SpherePointTest, LiesOnTheSphereWithinTheOffset) {
     }
 }
 
-// Seen under an angle that is not grazing, the point keeps the digits of its own coordinates: 100 times more than the sphere has.
+// Seen under an angle that is not grazing, the point keeps the digits of its own coordinates: 100 times more than the
+// sphere has.
 TEST(SpherePointTest, NearAHugeSphereItIsAsExactAsTheRay) {
     std::mt19937 random(1);
     double worst = 0;

@@ -22,7 +22,7 @@ dvec3 randomDirection(Uniforms& uniform) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
-// ---- sphere ---------------------------------------------------------------------------------------------------------
+// ---- sphere --------------------------------------------------------------------------------------------------------
 
 TEST(SphereCone, SolidAngleAtEveryDistance) {
     Uniforms uniform(1);
@@ -84,7 +84,7 @@ TEST_P(SphereConeAt, IsUniformInTheCone) {
 
 INSTANTIATE_TEST_SUITE_P(DistanceOverRadius, SphereConeAt, testing::Values(1.0001, 1.1, 2.0, 10.0, 1e3, 1e5));
 
-// ---- triangle -------------------------------------------------------------------------------------------------------
+// ---- triangle ------------------------------------------------------------------------------------------------------
 
 SphericalTriangle seen(const dvec3& a, const dvec3& b, const dvec3& c) {
     return makeSphericalTriangle(vec3(a), vec3(b), vec3(c), vec3(glm::cross(b - a, c - a)));
@@ -225,7 +225,7 @@ TEST(SphericalTriangle, CornersOfTheUnitSquareAreHarmless) {
         for (const float y : {0.0f, last}) EXPECT_NEAR(length(sampleSphericalTriangle(t, vec2(x, y))), 1.0f, 1e-6f);
 }
 
-// ---- rectangle ------------------------------------------------------------------------------------------------------
+// ---- rectangle -----------------------------------------------------------------------------------------------------
 
 SphericalRectangle seen(double x0, double x1, double y0, double y1, double h) {
     return makeSphericalRectangle(vec3(float(x0), float(y0), float(h)), vec3(float(x1 - x0), 0, 0),
@@ -321,7 +321,7 @@ TEST(SphericalRectangle, FacesOfACube) {
     EXPECT_EQ(seen(1, 2, 1, 2, 0).solidAngle, 0.0f);
 }
 
-// ---- strips ---------------------------------------------------------------------------------------------------------
+// ---- strips --------------------------------------------------------------------------------------------------------
 
 struct StripCase {
     double start, distance; // in units of the edge
@@ -364,11 +364,10 @@ TEST_P(StripOf, DensityIsThatOfTheSamples) {
 INSTANTIATE_TEST_SUITE_P(Positions, StripOf,
                          testing::Values(StripCase{-0.5, 1}, StripCase{0, 0.3}, StripCase{-1, 0.3},
                                          StripCase{-0.3, 0.05}, StripCase{0.3, 0.01}, StripCase{-1.3, 0.01},
-                                         StripCase{5, 0.1}, StripCase{-6, 3}, StripCase{2, 1e-3},
-                                         StripCase{-0.5, 10}),
+                                         StripCase{5, 0.1}, StripCase{-6, 3}, StripCase{2, 1e-3}, StripCase{-0.5, 10}),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
-// ---- area -----------------------------------------------------------------------------------------------------------
+// ---- area ----------------------------------------------------------------------------------------------------------
 
 TEST(Area, TriangleIsUniform) {
     Uniforms uniform(9);

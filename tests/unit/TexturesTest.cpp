@@ -72,7 +72,7 @@ vec3 evaluate(const TextureScene& scene, uint texture, const vec3& point, const 
     return evalTexture(kFeatureAll, scene, texture, point, uv);
 }
 
-// ---- coordinates ----------------------------------------------------------------------------------------------------
+// ---- coordinates ---------------------------------------------------------------------------------------------------
 
 TEST(Textures, SphereCoordinates) {
     EXPECT_NEAR(sphereUv(vec3(1, 0, 0)).x, 0.5f, 1e-6f);
@@ -91,7 +91,7 @@ TEST(Textures, SphereCoordinates) {
     }
 }
 
-// ---- checker --------------------------------------------------------------------------------------------------------
+// ---- checker -------------------------------------------------------------------------------------------------------
 
 TextureScene checkerScene() {
     TextureScene scene;
@@ -144,7 +144,7 @@ TEST(Textures, CheckersNestedTooDeepAreNotTakenForNoise) {
     EXPECT_EQ(evalTexture(features, scene, 0, vec3(0.5f), vec2(0)), vec3(0.25f)) << "one too deep";
 }
 
-// ---- noise ----------------------------------------------------------------------------------------------------------
+// ---- noise ---------------------------------------------------------------------------------------------------------
 
 TEST(Textures, NoiseMatchesTheBook) {
     const TextureScene scene = perlinScene(2);
@@ -195,7 +195,7 @@ TEST(Textures, NoiseKinds) {
     }
 }
 
-// ---- images ---------------------------------------------------------------------------------------------------------
+// ---- images --------------------------------------------------------------------------------------------------------
 
 TextureScene imageScene() {
     TextureScene scene;

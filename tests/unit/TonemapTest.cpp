@@ -86,7 +86,8 @@ TEST(Tonemap, DisplaysWholeImages) {
     EXPECT_EQ(toImage(image::toDisplay(radiance, 1, kTonemapNone)).data, (std::vector<float>{0.5f, 1, 1, 0, 0.25f, 1}));
     image::Image grey(2, 1, 1);
     grey.data = {0.25f, 3.0f};
-    EXPECT_EQ(toImage(image::toDisplay(grey, 0, kTonemapNone)).data, (std::vector<float>{0.25f, 0.25f, 0.25f, 1, 1, 1}));
+    EXPECT_EQ(toImage(image::toDisplay(grey, 0, kTonemapNone)).data,
+              (std::vector<float>{0.25f, 0.25f, 0.25f, 1, 1, 1}));
 }
 
 } // namespace

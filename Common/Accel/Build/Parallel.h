@@ -34,7 +34,8 @@ inline std::size_t threadCount(std::size_t threads) {
 // the program if one could not be started later, when memory has run short.
 bool canStartThreads();
 
-// The first exception of work on several threads, which must not leave a parallel algorithm: that would end the program.
+// The first exception of work on several threads, which must not leave a parallel algorithm: that would end the
+// program.
 class FirstFailure {
   public:
     template <class Function>
@@ -60,8 +61,9 @@ class FirstFailure {
 };
 
 #ifdef RT_THREADS_SANITIZED
-// Calls work(i) for each i in [0, count), each on a thread of its own. ThreadSanitizer cannot see how oneTBB's library, which
-// is not compiled with it, hands work from thread to thread and takes each hand-over for a race; it sees how these do.
+// Calls work(i) for each i in [0, count), each on a thread of its own. ThreadSanitizer cannot see how oneTBB's library,
+// which is not compiled with it, hands work from thread to thread and takes each hand-over for a race; it sees how
+// these do.
 template <class Work>
 void onThreads(std::size_t count, const Work& work) {
     std::vector<std::thread> threads;
@@ -72,8 +74,8 @@ void onThreads(std::size_t count, const Work& work) {
 #endif
 
 // Calls f(i) once for each i in [0, count), on up to `threads` threads (0: as many as the machine has). Calls start in
-// order of i, so the largest pieces of work belong first. When one throws, no more are started, and the first exception is
-// thrown again when those that run are done.
+// order of i, so the largest pieces of work belong first. When one throws, no more are started, and the first exception
+// is thrown again when those that run are done.
 template <class Function>
 void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
     const std::size_t workers = std::min(threadCount(threads), count);

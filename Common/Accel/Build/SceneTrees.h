@@ -1,5 +1,5 @@
-// The binary trees of a compiled scene, whatever layout they end up in: one for each geometry that instances place, and the world's
-// over its own primitives and the instances.
+// The binary trees of a compiled scene, whatever layout they end up in: one for each geometry that instances place, and
+// the world's over its own primitives and the instances.
 #pragma once
 #include <atomic>
 #include <cstdint>

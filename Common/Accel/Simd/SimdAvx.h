@@ -1,4 +1,5 @@
-// What AVX2 with FMA and AVX-512 have in common of Simd.h: vectors of eight, without masks. The includer has immintrin.h.
+// What AVX2 with FMA and AVX-512 have in common of Simd.h: vectors of eight, without masks. The includer has
+// immintrin.h.
 #pragma once
 #include "Common/Shared/Base/Shim.h"
 

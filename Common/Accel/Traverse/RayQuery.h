@@ -1,5 +1,5 @@
-// Traversal, compiled once for each instruction set and each set of primitives that pays. It is the one part of rendering that
-// gains by the widest registers, so callers choose it at run time, and a call costs nothing beside it.
+// Traversal, compiled once for each instruction set and each set of primitives that pays. It is the one part of
+// rendering that gains by the widest registers, so callers choose it at run time, and a call costs nothing beside it.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +15,8 @@ struct Tracer {
     shared::Hit (*closest)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
     // Whether it hits anything there.
     bool (*occluded)(const AccelView& view, const shared::Ray& ray, float tMax) = nullptr;
-    // Both for rays from one point, faster in small scenes: what `ray` hits first with t > 0, and whether one in the direction of
-    // the shadow ray hits anything with t in (0, shadowEnd).
+    // Both for rays from one point, faster in small scenes: what `ray` hits first with t > 0, and whether one in the
+    // direction of the shadow ray hits anything with t in (0, shadowEnd).
     shared::Hit (*both)(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
                         float shadowEnd, bool& isOccluded) = nullptr;
 };

@@ -82,8 +82,8 @@ RT_FN bool occludedLinear(shared::uint features, const AccelView& view, const Sh
     return bits(hits) != 0;
 }
 
-// Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether anything lies
-// along `shadow` before shadowEnd.
+// Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether
+// anything lies along `shadow` before shadowEnd.
 RT_FN shared::Hit traceLinearWithShadow(shared::uint features, const AccelView& view, const ShapeRay& ray,
                                         const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
     const Float8 end = broadcast(shadowEnd);

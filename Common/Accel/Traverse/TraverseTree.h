@@ -113,8 +113,8 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
     }
 }
 
-// Whether anything is hit below `root`. Nodes are visited some at a time, without a branch that depends on what is met: so
-// a processor overlaps them.
+// Whether anything is hit below `root`. Nodes are visited some at a time, without a branch that depends on what is met:
+// so a processor overlaps them.
 template <bool World, bool Ahead>
 RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax) {
@@ -148,7 +148,7 @@ RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference 
     return false;
 }
 
-// ---- quantized trees, breadth-first --------------------------------------------------------------------------------------------------
+// ---- quantized trees, breadth-first --------------------------------------------------------------------------------
 
 // Calls testLeaf(reference) for the leaves of the world that the ray may meet before tMax, which it may lower, until it
 // returns true. Nodes are visited in the order in which they are found: which one is next does not depend on the last,

@@ -7,8 +7,8 @@
 
 namespace rt::app {
 
-// Directions are those of the camera; distances are in world units. The camera never gets an orientation that makeCamera()
-// refuses, whatever it is told.
+// Directions are those of the camera; distances are in world units. The camera never gets an orientation that
+// makeCamera() refuses, whatever it is told.
 class CameraController {
   public:
     // The camera of a scene: reset() leads back to it, and its distance from what it looks at sets the pace.
@@ -28,8 +28,8 @@ class CameraController {
     void changeSpeed(double steps);
     double speed() const { return speed_; } // units a second
 
-    // The focus distance that makes a point at this distance along a view ray sharp, for a ray that leaves the view's axis by
-    // `cosine`.
+    // The focus distance that makes a point at this distance along a view ray sharp, for a ray that leaves the view's
+    // axis by `cosine`.
     void focusAt(double distanceAlongRay, double cosine);
 
     // As text for the clipboard, and back. Nothing where the text is no pose.

@@ -11,8 +11,8 @@
 
 namespace rt::app {
 
-// Everything that can be written is; returns what cannot, one line each. `options`: of the film, complete but for what the
-// request says.
+// Everything that can be written is; returns what cannot, one line each. `options`: of the film, complete but for what
+// the request says.
 std::vector<std::string> writeFilm(const SaveRequest& request, Options options, const LoadedScene& scene,
                                    const FilmRun& film, const FilmReference& reference, StopReason reason,
                                    PublishedState& state);

@@ -22,7 +22,8 @@ class RenderSpeed {
 // With the size in pixels.
 RenderSettings sizedSettings(const RenderRequest& request, const scene::CompiledScene& scene);
 
-// `round`: films since the last change, each with a seed of its own. `wantsVariance`: of a frame that is not accumulated.
+// `round`: films since the last change, each with a seed of its own. `wantsVariance`: of a frame that is not
+// accumulated.
 RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledScene& scene, std::uint32_t round,
                             bool wantsVariance, const RenderSpeed& speed);
 

@@ -1,5 +1,5 @@
-// A render that a window watches and steers. The engine lives on a thread of its own; the window posts what it wants and reads
-// what there is, and neither waits for the other.
+// A render that a window watches and steers. The engine lives on a thread of its own; the window posts what it wants
+// and reads what there is, and neither waits for the other.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -40,13 +40,13 @@ class InteractiveSession {
     void view(const ViewRequest& view) {
         mailbox_.post(Cancel::Slice, [&](Requests& requests) { requests.view = view; });
     }
-    // Shows the preview instead of the film, where the engine has one; rays rest meanwhile, and the film goes on afterwards
-    // unless something that concerns it has changed.
+    // Shows the preview instead of the film, where the engine has one; rays rest meanwhile, and the film goes on
+    // afterwards unless something that concerns it has changed.
     void preview(bool on) {
         mailbox_.post(Cancel::FirstPicture, [on](Requests& requests) { requests.preview = on; });
     }
-    // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear image
-    // file of the present size. Stop gives a render up, and what was the reference before stays.
+    // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear
+    // image file of the present size. Stop gives a render up, and what was the reference before stays.
     void renderReference(std::uint32_t spp) {
         mailbox_.post(Cancel::FirstPicture, [spp](Requests& requests) { requests.referenceSpp = spp; });
     }
@@ -64,8 +64,8 @@ class InteractiveSession {
     // How the window has answered so far, for the statistics.
     void tell(const WindowFigures& figures) { state_.tell(figures); }
 
-    // Ends the render and its thread, within 100 ms but for what the engine is building. Returns what of writeAtEnd() could
-    // not be written, one line each. Nothing but state() may be called any more.
+    // Ends the render and its thread, within 100 ms but for what the engine is building. Returns what of writeAtEnd()
+    // could not be written, one line each. Nothing but state() may be called any more.
     std::vector<std::string> close();
 
     SessionState state() const;

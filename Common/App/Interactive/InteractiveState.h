@@ -41,8 +41,8 @@ struct RenderRequest {
     SizeRequest size;
     bool oneSidedLights = true;
     bool accumulate = true; // false: every frame is an image of its own, with other random numbers
-    // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second; frames of an old sum
-    // may have more. 0: as many as there is time for between two frames.
+    // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second; frames of an
+    // old sum may have more. 0: as many as there is time for between two frames.
     std::uint32_t samplesPerFrame = 25;
     bool loop = false;               // begin again when done, with the next seed
     std::optional<double> timeLimit; // seconds of sampling

@@ -16,8 +16,8 @@ constexpr double kLeastInterval = 0.04; // they cost the render a little, and di
 constexpr double kMostInterval = 0.25;
 constexpr double kEarlySeconds = 2;       // after which a film's pictures have the number of samples that is asked for
 constexpr double kLongFrameSeconds = 0.5; // after which a frame is shown while it is being rendered
-// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a film, and soon only one a
-// second, when they differ less.
+// Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a film, and soon
+// only one a second, when they differ less.
 constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
 constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take

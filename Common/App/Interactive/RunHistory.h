@@ -29,7 +29,8 @@ struct RunRecord {
     double efficiency() const { return relmse > 0 && renderSeconds > 0 ? 1 / (relmse * renderSeconds) : 0; }
 };
 
-// history.jsonl: a JSON object with "version" a line. Lines that are damaged or of a later version are kept but not shown.
+// history.jsonl: a JSON object with "version" a line. Lines that are damaged or of a later version are kept but not
+// shown.
 class RunHistory {
   public:
     static constexpr std::size_t kMostLines = 10'000; // kept in the file

@@ -95,8 +95,8 @@ void SessionFilm::renderDraft(const FilmSubject& subject, const RenderSettings& 
     if (draft.status().finished) publisher.showDraft(draft, settings);
 }
 
-// The first samples of all pixels, or what of them `patience` suffices for, in seconds. The next change does not interrupt
-// them soon: a camera in motion would never show anything.
+// The first samples of all pixels, or what of them `patience` suffices for, in seconds. The next change does not
+// interrupt them soon: a camera in motion would never show anything.
 void SessionFilm::renderFirst(FilmRun& run, double sliceSeconds, double patience) {
     const auto isTimeLeft = [&] {
         return run.seconds() < (mailbox_.cancelled(Cancel::Slice) ? kMostFirstSeconds : patience);

@@ -1,4 +1,5 @@
-// The film that a window looks at: first a draft, or a pass over all pixels, then slices; another as soon as one is wanted.
+// The film that a window looks at: first a draft, or a pass over all pixels, then slices; another as soon as one is
+// wanted.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -29,7 +29,8 @@ std::vector<std::string> SessionThread::run() {
         if (requests.atEnd) atEnd_ = requests.atEnd;
         if (requests.quit) break;
         try {
-            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last one.
+            // While nothing but the camera moves, draft follows draft. All else wants the film that belongs to the last
+            // one.
             if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
             apply(std::move(requests));
             if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
@@ -45,7 +46,7 @@ std::vector<std::string> SessionThread::run() {
     return endFailures_;
 }
 
-// ---- what was asked for ----------------------------------------------------------------------------------------------
+// ---- what was asked for --------------------------------------------------------------------------------------------
 
 void SessionThread::apply(Requests requests) {
     film_.publisher.awaitPicture(requests.changed);
@@ -278,7 +279,7 @@ bool SessionThread::record() {
     }
 }
 
-// ---- files -----------------------------------------------------------------------------------------------------------
+// ---- files ---------------------------------------------------------------------------------------------------------
 
 void SessionThread::writeWaiting() {
     const bool isComing = !isReady()       ? activity_ != Activity::Failed
@@ -311,8 +312,9 @@ std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, S
 void SessionThread::writeEnd(StopReason reason) {
     if (!atEnd_ || endIsWritten_) return;
     endIsWritten_ = true;
-    endFailures_ = film_.hasSamples() ? writeFiles(*atEnd_, reason)
-                                      : std::vector<std::string>{"nothing was rendered that could be written"};
+    // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
+    endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
+                               : std::vector<std::string>{"nothing was rendered that could be written"};
     for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
 }
 

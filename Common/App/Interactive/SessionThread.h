@@ -1,5 +1,5 @@
-// The thread of a window's session: it alone has the engine, and strings together what was asked for, the film, its pictures,
-// its reference and its files.
+// The thread of a window's session: it alone has the engine, and strings together what was asked for, the film, its
+// pictures, its reference and its files.
 #pragma once
 #include <memory>
 #include <optional>

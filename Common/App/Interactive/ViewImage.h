@@ -60,8 +60,8 @@ ViewImage showNoise(const image::Film& film, double scale);
 // |picture - reference| relative to the reference, likewise.
 ViewImage showError(const image::Image& picture, const image::Image& reference, double scale);
 
-// The cost of each pixel on a logarithmic scale: the most that any pixel costs, divided by `scale`, has the brightest colour. Of
-// times it is the most but for one pixel in 200, which were interrupted.
+// The cost of each pixel on a logarithmic scale: the most that any pixel costs, divided by `scale`, has the brightest
+// colour. Of times it is the most but for one pixel in 200, which were interrupted.
 ViewImage showCost(Cost cost, const image::Image& costs, double scale);
 
 } // namespace rt::app

@@ -18,7 +18,7 @@ std::string inQuotes(const std::string& text) {
     return '"' + excerpt(text) + '"';
 }
 
-// ---- JSON ------------------------------------------------------------------------------------------------------------
+// ---- JSON ----------------------------------------------------------------------------------------------------------
 
 std::string textOf(const nlohmann::json& value, const std::string& name, const std::string& file) {
     if (value.is_string()) return value.get<std::string>();
@@ -47,7 +47,7 @@ std::vector<ConfigEntry> readJson(const std::string& text, const std::string& fi
     return entries;
 }
 
-// ---- lines -----------------------------------------------------------------------------------------------------------
+// ---- lines ---------------------------------------------------------------------------------------------------------
 
 class LineReader {
   public:

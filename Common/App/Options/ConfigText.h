@@ -19,8 +19,8 @@ struct ConfigEntry {
 //     sampler = "stratified"              text in quotes, of either kind, is taken as it is
 //     output = ["a.png", "b.exr"]         may go on over several lines
 //
-// Throws UsageError, which names file and line, for whatever is neither, for names that appear twice, for sections and for bytes
-// that are no text. `file` is what errors call it.
+// Throws UsageError, which names file and line, for whatever is neither, for names that appear twice, for sections and
+// for bytes that are no text. `file` is what errors call it.
 std::vector<ConfigEntry> readConfigText(const std::string& text, const std::string& file);
 
 } // namespace rt::app

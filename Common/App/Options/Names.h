@@ -1,5 +1,5 @@
-// The tables of what can be chosen: names on the command line, in statistics and in checkpoints, titles in windows. The first row is
-// the default.
+// The tables of what can be chosen: names on the command line, in statistics and in checkpoints, titles in windows. The
+// first row is the default.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -23,7 +23,8 @@ enum class Tonemap : std::uint32_t {
 // Images beside the picture: first-hit features, and what the film knows of each pixel.
 enum class Aov { Albedo, Normal, Depth, Variance, Samples };
 
-// A value of an enumeration: on the command line, in files and in statistics; in a window; and a sentence on what it does.
+// A value of an enumeration: on the command line, in files and in statistics; in a window; and a sentence on what it
+// does.
 template <class E>
 struct Named {
     std::string_view name;
@@ -75,8 +76,8 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"samples", Aov::Samples}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
-// Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with dashes it is
-// the flag. Of one RenderSettings, or of several side by side.
+// Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
+// dashes it is the flag. Of one RenderSettings, or of several side by side.
 template <typename Visit, typename... Settings>
 void forEachMethod(const Visit& visit, Settings&... settings) {
     visit("light_sampling", "Direct-lighting estimator", "how light is found", kLightSamplings,

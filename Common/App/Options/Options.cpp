@@ -54,7 +54,7 @@ struct Parsed {
     std::string engine;
 };
 
-// ---- the flags ------------------------------------------------------------------------------------------------------
+// ---- the flags -----------------------------------------------------------------------------------------------------
 
 void addScene(FlagSet& flags, Parsed& parsed) {
     Options& options = parsed.options;
@@ -136,7 +136,9 @@ void addOutput(FlagSet& flags, Options& options) {
 void addDuration(FlagSet& flags, Options& options) {
     flags.group("Duration");
     flags.addSeconds("--time-limit", options.timeLimit, "stop after so long, or at --spp");
-    flags.add("--target-error", "E", "stop when the estimated relMSE is surely below (95 %), or at --spp; implies --replicates 4",
+    flags.add("--target-error", "E",
+              "stop when the estimated relMSE is surely below (95 %), or at --spp; "
+              "implies --replicates 4",
               [&options](const std::string& flag, const std::string& text) {
                   options.targetError =
                       parseReal(flag, text, 1e-30, 1e30, "a relative squared error from 1e-30 to 1e30");
@@ -189,7 +191,7 @@ void addProgram(FlagSet& flags, Parsed& parsed) {
     flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
 }
 
-// ---- what goes together ---------------------------------------------------------------------------------------------
+// ---- what goes together --------------------------------------------------------------------------------------------
 
 void settleCommand(const FlagSet& flags, Parsed& parsed) {
     Options& options = parsed.options;

@@ -14,8 +14,8 @@
 
 namespace rt::app {
 
-// Bounds one call of Engine::renderSome. Work in flight when `cancel` becomes true is abandoned within 100 ms; what had been
-// committed to the film stays.
+// Bounds one call of Engine::renderSome. Work in flight when `cancel` becomes true is abandoned within 100 ms; what had
+// been committed to the film stays.
 struct Budget {
     std::chrono::duration<double> time{0.2};
     const std::atomic<bool>* cancel = nullptr;
@@ -91,14 +91,14 @@ struct Engine {
     // After reset: goes on from this film, whose desc() must be that of the new one.
     virtual void restore(image::Film film) = 0;
     virtual RenderStatus renderSome(const Budget& budget) = 0;
-    // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to date that
-    // is a RenderError, once: later calls return it as it was.
+    // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to
+    // date that is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
     // film() resolved, but for rounding; it may cost far less than the film on the host.
     virtual Snapshot snapshot();
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
-    // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine that
-    // does not know the cost returns an image without pixels.
+    // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine
+    // that does not know the cost returns an image without pixels.
     virtual bool knowsCost(Cost cost) const {
         (void)cost;
         return false;

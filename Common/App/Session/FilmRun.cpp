@@ -55,8 +55,8 @@ std::optional<StopReason> FilmRun::slice(double seconds, const std::atomic<bool>
     return std::nullopt;
 }
 
-// Two looks one after the other must agree. Looks only when there are 10 % more samples than the last time, so that looking
-// costs little and chance gets few opportunities.
+// Two looks one after the other must agree. Looks only when there are 10 % more samples than the last time, so that
+// looking costs little and chance gets few opportunities.
 bool FilmRun::reachesTargetError() {
     if (!limits_.targetError || static_cast<double>(status_.samplesDone) < nextCheck_) return false;
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);

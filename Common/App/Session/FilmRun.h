@@ -1,4 +1,5 @@
-// One render of one film, from its beginning to its end: headless programs, windows and the benchmark drive engines by it.
+// One render of one film, from its beginning to its end: headless programs, windows and the benchmark drive engines by
+// it.
 #pragma once
 #include <atomic>
 #include <cstdint>
@@ -19,7 +20,8 @@ inline constexpr Named<StopReason> kStopReasons[] = {{"spp", StopReason::Spp},
                                                      {"interrupted", StopReason::Interrupted},
                                                      {"failure", StopReason::Failure}};
 
-// What a run heeds besides its samples. Time is that of its slices, with the error estimates and checkpoints between them.
+// What a run heeds besides its samples. Time is that of its slices, with the error estimates and checkpoints between
+// them.
 struct RunLimits {
     std::optional<double> seconds{};     // from now on
     std::optional<double> targetError{}; // the estimated relMSE's confidence interval lies below it
@@ -38,9 +40,9 @@ class FilmRun {
     // In place of the limits before; none at first.
     void limit(RunLimits limits);
 
-    // Samples for at most so many seconds. Returns what has ended the run, if anything has; after Interrupted, because `cancel`
-    // became true, and after new limits it may go on. Returns within 100 ms once `cancel` is true, if the engine keeps its
-    // promise. Throws what the engine throws: what had been committed to the film stays.
+    // Samples for at most so many seconds. Returns what has ended the run, if anything has; after Interrupted, because
+    // `cancel` became true, and after new limits it may go on. Returns within 100 ms once `cancel` is true, if the
+    // engine keeps its promise. Throws what the engine throws: what had been committed to the film stays.
     std::optional<StopReason> slice(double seconds, const std::atomic<bool>& cancel);
     StopReason untilStopped(const std::atomic<bool>& cancel); // slices until one ends the run
 

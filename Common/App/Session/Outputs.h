@@ -25,8 +25,8 @@ struct OutputResult {
     std::vector<std::string> failures; // one line each
 };
 // Writes all that can be written. PNG gets exposure and tone curve; what lies beside a PNG is brought into its range:
-// normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum. PNG and EXR tell how they were
-// made (RenderNote.h).
+// normals as (n + 1) / 2 without transfer curve, other quantities divided by their maximum. PNG and EXR tell how they
+// were made (RenderNote.h).
 OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camera, const image::Film& film,
                           Engine& engine);
 

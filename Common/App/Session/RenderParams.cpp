@@ -19,9 +19,9 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-// RenderParams::russianRoulette. Most paths under a plain sky soon leave for it, which no light sampling has done for them:
-// ending bright ones by chance saves little and triples the variance. (One Weekend's final scene: 4 takes 1.15 times the rays
-// of 1 for a third of the variance.)
+// RenderParams::russianRoulette. Most paths under a plain sky soon leave for it, which no light sampling has done for
+// them: ending bright ones by chance saves little and triples the variance. (One Weekend's final scene: 4 takes 1.15
+// times the rays of 1 for a third of the variance.)
 constexpr std::uint32_t kRoulette = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
 

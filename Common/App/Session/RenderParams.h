@@ -15,7 +15,8 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
 std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                              const RenderSettings& settings);
 
-// How each shape of light that exists is sampled, strategies of `auto` named: "sphere: cone, quad: auto (area, strip, ...)".
+// How each shape of light that exists is sampled, strategies of `auto` named: "sphere: cone, quad: auto (area, strip,
+// ...)".
 std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features);
 
 } // namespace rt::app

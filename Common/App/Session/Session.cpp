@@ -41,7 +41,7 @@ std::string describeEnd(const Statistics& statistics) {
                        : reason == StopReason::TimeLimit   ? "time limit reached"
                        : reason == StopReason::TargetError ? "target error reached"
                                                            : "done";
-    if (statistics.error) text += ", relmse " + std::to_string(statistics.error->relmse);
+    if (statistics.error) text += ", relMSE " + std::to_string(statistics.error->relmse);
     return text;
 }
 
@@ -136,7 +136,8 @@ void HeadlessRender::sample() {
     progress.finish(run_->progress(), describeEnd(statistics_));
 }
 
-// The checkpoint first, as all else can be made again from it. Whatever can be written is; then the first failure counts.
+// The checkpoint first, as all else can be made again from it. Whatever can be written is; then the first failure
+// counts.
 void HeadlessRender::write() {
     memoryForWriting_.reset();
     const Stopwatch watch;

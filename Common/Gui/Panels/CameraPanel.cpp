@@ -23,7 +23,8 @@ void drawCameraPanel(Gui& gui) {
     const double distance = glm::length(camera.lookAt - camera.lookFrom);
     bool changed = sliderReal("Field of view", "Vertical, in degrees", camera.verticalFov, 1, 170, "%.1f");
     changed |=
-        sliderReal("Aperture", "Angle of the cone of light that the lens takes in, in degrees; 0: everything is sharp",
+        sliderReal("Defocus angle",
+                   "Of the cone of rays through the lens to the point in focus, in degrees; 0: everything is sharp",
                    camera.defocusAngle, 0, 20, "%.2f");
     // The range follows the scene's size: boxes of 500 units as well as spheres of one.
     changed |= sliderReal("Focus distance", "Where things are sharp, in units of the scene", camera.focusDistance,

@@ -8,8 +8,8 @@
 
 namespace rt::gui {
 
-// What was chosen another time, without what this machine does not have; what `options` ask for stays, and fails where it
-// cannot be had.
+// What was chosen another time, without what this machine does not have; what `options` ask for stays, and fails where
+// it cannot be had.
 app::EngineChoice servedChoice(app::EngineChoice choice, const std::vector<app::EngineDevice>& devices,
                                const app::Options& options);
 

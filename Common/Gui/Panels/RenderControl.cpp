@@ -51,20 +51,21 @@ std::string timeLeft(const app::SessionState& state) {
 void drawRenderControl(Gui& gui) {
     const app::SessionState& state = gui.state;
     const float space = ImGui::GetStyle().ItemSpacing.x, all = ImGui::GetContentRegionAvail().x;
-    const float columns = 4 * buttonWidth("Render") + 3 * space <= all ? 4.0f : 2.0f;
+    const float columns = 4 * buttonWidth("Resume") + 3 * space <= all ? 4.0f : 2.0f;
     const float width = std::floor((all - (columns - 1) * space) / columns);
     const bool isPreview = state.picture.isPreview;
     const bool rendering = !isPreview && state.activity == Activity::Rendering;
     const bool paused = !isPreview && state.activity == Activity::Paused;
-    if (button("Render", "Renders from the beginning, or goes on after a pause (Space)", !rendering, width)) {
+    if (button(paused ? "Resume" : "Start", "Starts the render, or resumes it after a pause (Space)", !rendering,
+               width)) {
         isPreview ? gui.setRayTracing(true) : gui.session.render();
     }
     besideIfItFits(width);
-    if (button("Pause", "Holds the render; Render goes on (Space)", rendering, width)) gui.session.pause();
+    if (button("Pause", "Pauses the render (Space)", rendering, width)) gui.session.pause();
     besideIfItFits(width);
     if (button("Stop", "Ends the render; what there is of it stays", rendering || paused, width)) gui.session.stop();
     besideIfItFits(width);
-    if (button("Reset", "Throws the samples away and renders from the beginning", !isPreview, width)) {
+    if (button("Restart", "Discards the samples and renders from the beginning", !isPreview, width)) {
         gui.session.reset();
     }
 
@@ -87,9 +88,9 @@ void drawRenderControl(Gui& gui) {
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
         ImGui::PushTextWrapPos(0);
-        ImGui::Text("Last rendering time: %.1f ms", 1000 * run.seconds.render);
+        const std::string time = shortDuration(run.seconds.render);
+        ImGui::Text("Render time %s, %llu spp", time.c_str(), static_cast<unsigned long long>(run.spp));
         tooltip("Wall time of sampling alone, as in the statistics of a render without a window");
-        ImGui::Text("%s, %llu spp", durationText(run.seconds.render).c_str(), static_cast<unsigned long long>(run.spp));
         ImGui::PopTextWrapPos();
         note("load " + shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
              ", render " + shortDuration(run.seconds.render));
@@ -97,8 +98,7 @@ void drawRenderControl(Gui& gui) {
                  shortDuration(run.pipeline))
                     .c_str());
     } else {
-        for (const char* text : {"Last rendering time: none yet", " ", " "})
-            note(text); // nothing moves when there is one
+        for (const char* text : {"Render time: none yet", " "}) note(text); // nothing moves when there is one
     }
     ImGui::Separator();
 }

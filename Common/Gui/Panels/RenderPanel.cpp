@@ -16,8 +16,8 @@
 namespace rt::gui {
 namespace {
 
-// Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to others: one
-// digit too many is not to end the program.
+// Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to
+// others: one digit too many is not to end the program.
 std::uint32_t mostWidth(double aspect) {
     constexpr double kPixelBytes = 100;
     const double least = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
@@ -40,9 +40,9 @@ void drawSize(Gui& gui) {
         const char* name;
         double value; // 0: the scene's
     };
-    constexpr Aspect kAspects[] = {{"As the scene", 0}, {"1:1", 1},        {"5:4", 1.25},      {"4:3", 4.0 / 3},
-                                   {"3:2", 1.5},        {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
-                                   {"3:4", 0.75},       {"9:16", 9.0 / 16}};
+    constexpr Aspect kAspects[] = {{"From scene", 0}, {"1:1", 1},        {"5:4", 1.25},      {"4:3", 4.0 / 3},
+                                   {"3:2", 1.5},      {"16:10", 1.6},    {"16:9", 16.0 / 9}, {"21:9", 21.0 / 9},
+                                   {"3:4", 0.75},     {"9:16", 9.0 / 16}};
     const double ratio = size.aspect                 ? *size.aspect
                          : size.width && size.height ? static_cast<double>(*size.width) / *size.height
                                                      : 0;
@@ -84,14 +84,14 @@ void drawMethods(app::RenderSettings& settings) {
 
 void drawLights(app::RenderRequest& request) {
     checkbox("One-sided lights",
-             "Flat lights emit from their front only, the predecessors' 'unidirectional light'. Off: from both sides. "
+             "Quads and triangles emit from their front only. Off: from both sides. "
              "A light whose scene says which side it emits from is not concerned",
              request.oneSidedLights);
 }
 
 void drawFrames(app::RenderRequest& request) {
     checkbox(
-        "Accumulate rays",
+        "Accumulate samples",
         "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other random "
         "numbers",
         request.accumulate);
@@ -115,7 +115,7 @@ void drawRenderPanel(Gui& gui) {
     app::RenderSettings& settings = request.settings;
     drawEnginePanel(gui);
     inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
-    inputCount("Depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
     drawSize(gui);
     drawMethods(settings);
     drawLights(request);

@@ -46,7 +46,7 @@ void drawSceneCombo(Gui& gui) {
     const ImVec2 most{36 * font, 0.8f * ImGui::GetMainViewport()->Size.y};
     ImGui::SetNextWindowSizeConstraints({std::min(most.x, 0.9f * ImGui::GetMainViewport()->Size.x), 0}, most);
     const bool isOpen = ImGui::BeginCombo("##scene", title.c_str());
-    if (!isOpen) return tooltip("Keys 1 to 9 choose the first nine, Page Up and Page Down the one before and behind");
+    if (!isOpen) return tooltip("Keys 1 to 9 choose the first nine, Page Up and Page Down the previous and the next");
     for (const scene::BuiltinScene& scene : scene::builtinScenes()) {
         const bool selected = findBuiltin(gui.state.source) == &scene;
         if (drawChoice(gui, scene, selected)) gui.openScene(std::string(scene.id));

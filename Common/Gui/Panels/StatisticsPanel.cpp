@@ -47,17 +47,18 @@ void drawStatisticsPanel(Gui& gui) {
     figure("Samples", "Paths from the camera", perSecond(static_cast<double>(state.status.samplesDone)));
     figure("Rays", "All of them, camera, scattered and shadow",
            perSecond(static_cast<double>(rays.camera + rays.scattered + rays.shadow)));
-    figure("Rendering for", nullptr, shortDuration(seconds));
+    figure("Render time", nullptr, shortDuration(seconds));
     figure("Memory", "Of this process; and what the engine holds of scene and film",
            bytesText(app::residentBytes()) + ", engine " + bytesText(report.deviceBytes));
     figure("Engine", nullptr,
            report.engine + (report.threads > 0 ? ", " + std::to_string(report.threads) + " threads" : std::string()));
     figure("Device", nullptr, report.device);
-    figure("Kernel", "The specialisation that runs", report.kernel);
+    figure("Kernel", "The specialization that runs", report.kernel);
     figure("Lights", "How the shapes of light are sampled", report.lightSampling);
-    figure("In force", "What the scene needs", joined(app::featureNames(report.features)));
-    figure("Skipped", "What it does not need, and no code runs for", joined(app::absentFeatureNames(report.features)));
-    figure("Not finite", "Samples that were no number; they count as black", std::to_string(report.nonfiniteSamples));
+    figure("Active features", "What the scene needs", joined(app::featureNames(report.features)));
+    figure("Compiled out", "What it does not need, and no code runs for",
+           joined(app::absentFeatureNames(report.features)));
+    figure("NaN or Inf samples", "They count as black", std::to_string(report.nonfiniteSamples));
 }
 
 } // namespace rt::gui

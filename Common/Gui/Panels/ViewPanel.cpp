@@ -21,7 +21,7 @@ struct Mode {
     const char* tip;
 };
 constexpr Mode kModes[] = {
-    {"Picture", ViewMode::Picture, "Radiance, with exposure and tone curve"},
+    {"Picture", ViewMode::Picture, "Radiance, with exposure and tone mapping"},
     {"Albedo", ViewMode::Albedo, "Colour of the first surface"},
     {"Normal", ViewMode::Normal, "Direction of the first surface, as red, green, blue"},
     {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright"},
@@ -61,7 +61,7 @@ void drawModes(Gui& gui) {
     ImGui::Checkbox("Inspect pixels", &view.inspect);
     tooltip("Shows what the pixel under the pointer holds");
     ImGui::SameLine();
-    if (button(gui.held ? "Let go" : "Hold picture (B)",
+    if (button(gui.held ? "Unpin (B)" : "Pin for A/B (B)",
                "Keeps what is shown; it stays on the left of a line that the mouse moves, the picture is on the right",
                gui.held || gui.state.picture.image, -1)) {
         gui.hold();
@@ -69,9 +69,9 @@ void drawModes(Gui& gui) {
     if (gui.held) {
         const image::Image* shown = gui.state.picture.image.get();
         if (shown != nullptr && (shown->width != gui.held->width || shown->height != gui.held->height)) {
-            note("The held picture is of another size and cannot be shown beside this one.");
+            note("The pinned picture is of another size and cannot be shown beside this one.");
         }
-        row("Split", "Share of the held picture");
+        row("Split", "Share of the pinned picture");
         ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     }
 }
@@ -85,7 +85,7 @@ void drawViewPanel(Gui& gui) {
     if (sliderReal("Exposure", "Stops, of what is shown and of PNG files", exposure, -10, 10, "%.2f")) {
         settings.exposure = static_cast<float>(exposure);
     }
-    combo("Tone curve", "How radiance beyond white is shown", app::kTonemaps, settings.tonemap);
+    combo("Tone mapping", "How radiance beyond white is shown", app::kTonemaps, settings.tonemap);
     const float space = ImGui::GetStyle().ItemSpacing.x;
     const float width = (ImGui::GetContentRegionAvail().x - space) / 2;
     if (button("Fit", "The whole picture (F); Ctrl + wheel zooms, Ctrl + right drag moves it", true, width))
@@ -97,7 +97,7 @@ void drawViewPanel(Gui& gui) {
     inputText("##folder", "pictures folder", settings.saveFolder);
     if (button("Save PNG and EXR", "F12 or Ctrl+S", true, -1)) gui.saveRequested = true;
     ImGui::Spacing();
-    combo("Colours", "Of the interface", kColorModeNames, settings.colorMode);
+    combo("Theme", "Colours of the interface", kColorModeNames, settings.colorMode);
 
     row("Interface scale", "Ctrl + plus, Ctrl + minus");
     static float draft = 0; // while the slider is held: the slider itself would move away from the mouse

@@ -22,8 +22,8 @@ shared::Light triangleLight(const shared::vec3& a, const shared::vec3& b, const 
 // The sky image as a light that surrounds `bounds`; fills skyCdf. False when the image is black.
 bool appendSkyLight(const Bounds& bounds, CompiledScene& out);
 
-// For the lights appended so far: probabilities of power-proportional selection, bounds and their tree. Importance targets are
-// appended afterwards; they are never selected by power. Throws InputError beyond 2^24 lights.
+// For the lights appended so far: probabilities of power-proportional selection, bounds and their tree. Importance
+// targets are appended afterwards; they are never selected by power. Throws InputError beyond 2^24 lights.
 void finishLights(CompiledScene& out);
 void appendTarget(const shared::Light& target, CompiledScene& out);
 

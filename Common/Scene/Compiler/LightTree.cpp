@@ -47,14 +47,14 @@ NormalCone unite(const NormalCone& a, const NormalCone& b) {
 struct Cluster {
     Bounds box;
     NormalCone cone;
-    double facing = 0; // intensity of flat lights that emit to one side
-    double around = 0; // of the others, mean over directions
+    double planarIntensity = 0;          // intensity of flat lights that emit to one side
+    double omnidirectionalIntensity = 0; // of the others, mean over directions
 
     void add(const Cluster& other) {
         if (!other.box.empty()) box.add(other.box.lower), box.add(other.box.upper);
         cone = unite(cone, other.cone);
-        facing += other.facing;
-        around += other.around;
+        planarIntensity += other.planarIntensity;
+        omnidirectionalIntensity += other.omnidirectionalIntensity;
     }
 };
 
@@ -63,17 +63,18 @@ Cluster clusterOf(const shared::LightBound& bound) {
     c.box.add(dvec3(bound.center), static_cast<double>(bound.radius));
     const double intensity = static_cast<double>(bound.intensity);
     if (bound.axis == shared::vec3(0.0f)) {
-        c.around = intensity;
+        c.omnidirectionalIntensity = intensity;
     } else if (bound.twoSided > 0.0f) {
-        c.around = 0.5 * intensity; // mean of |cos|
+        c.omnidirectionalIntensity = 0.5 * intensity; // mean of |cos|
     } else {
-        c.facing = intensity;
+        c.planarIntensity = intensity;
         c.cone = {glm::normalize(dvec3(bound.axis)), 0};
     }
     return c;
 }
 
-// Of the directions that a cone of emitters serves, weighed by the cosine to the nearest normal (Conty Estevez & Kulla).
+// Of the directions that a cone of emitters serves, weighed by the cosine to the nearest normal (Conty Estevez &
+// Kulla).
 double orientationMeasure(const NormalCone& cone) {
     if (cone.angle < 0) return 0;
     const double wide = std::min(cone.angle + 0.5 * kPi, kPi);
@@ -87,7 +88,8 @@ double orientationMeasure(const NormalCone& cone) {
 double spreadCost(const Cluster& c) {
     if (c.box.empty()) return 0;
     const dvec3 size = c.box.upper - c.box.lower;
-    return (c.around * 4 * kPi + c.facing * orientationMeasure(c.cone)) * glm::dot(size, size);
+    return (c.omnidirectionalIntensity * 4 * kPi + c.planarIntensity * orientationMeasure(c.cone)) *
+           glm::dot(size, size);
 }
 
 struct Item {
@@ -177,7 +179,7 @@ class Builder {
             if (!(bound.intensity > 0.0f) || i == out_.globals.skyLight) continue;
             items.push_back({i, dvec3(bound.center), clusterOf(bound)});
         }
-        out_.lightPlaces.assign(out_.globals.lightCount, shared::kNone);
+        out_.lightToLeaf.assign(out_.globals.lightCount, shared::kNone);
         const bool sky = out_.globals.skyLight != shared::kNone;
         const std::uint32_t root = addNode(shared::kNone);
         std::uint32_t slot = 0;
@@ -194,13 +196,13 @@ class Builder {
             node.child[i] = shared::kLightLeaf;
         }
         out_.lightNodes.push_back(node);
-        out_.lightPlaces.push_back(parent);
+        out_.lightToLeaf.push_back(parent);
         return static_cast<std::uint32_t>(out_.lightNodes.size() - 1);
     }
 
-    // The group divided into at most `slots`. What is more than two levels of nodes can hold is divided where it spreads
-    // most; the rest so that few nodes are needed: into groups that fit into a node, and then small groups dissolve where
-    // there is room for their lights.
+    // The group divided into at most `slots`. What is more than two levels of nodes can hold is divided where it
+    // spreads most; the rest so that few nodes are needed: into groups that fit into a node, and then small groups
+    // dissolve where there is room for their lights.
     static std::vector<Group> divide(const Group& whole, std::size_t slots) {
         const auto smaller = [](const Group& a, const Group& b) { return a.items.size() < b.items.size(); };
         const auto denser = [](const Group& a, const Group& b) {
@@ -248,10 +250,10 @@ class Builder {
         placeSphere(n, slot, bound.center, -bound.radius);
         placeCone(n, slot, bound.axis, 1.0f, 0.0);
         const bool isFlat = bound.axis != shared::vec3(0.0f);
-        n.facing[slot] = !isFlat ? 0.0f : bound.twoSided > 0.0f ? -bound.intensity : bound.intensity;
-        n.around[slot] = isFlat ? 0.0f : bound.intensity;
+        n.planarIntensity[slot] = !isFlat ? 0.0f : bound.twoSided > 0.0f ? -bound.intensity : bound.intensity;
+        n.omnidirectionalIntensity[slot] = isFlat ? 0.0f : bound.intensity;
         n.child[slot] = light | shared::kLightLeaf;
-        out_.lightPlaces[light] = node * kLightNodeChildren + slot;
+        out_.lightToLeaf[light] = node * kLightNodeChildren + slot;
     }
 
     void placeGroup(std::uint32_t node, std::uint32_t slot, const Group& group) {
@@ -262,25 +264,26 @@ class Builder {
         for (const Item& item : group.items) {
             const double reach = static_cast<double>(out_.lightBounds[item.light].radius);
             radius = std::max(radius, glm::length(item.center - center) + reach);
-            normals += item.cluster.cone.axis * item.cluster.facing;
+            normals += item.cluster.cone.axis * item.cluster.planarIntensity;
         }
         // Rounding must not leave a light outside.
         const auto rounded = static_cast<float>(radius * (1 + 1e-6) + 1e-7 * glm::length(center));
         placeSphere(n, slot, shared::vec3(center), rounded);
         // The cone is that around the mean normal.
-        const double facing = group.cluster.facing, length = glm::length(normals);
-        dvec3 axis = length > 1e-6 * facing ? normals / length : group.cluster.cone.axis;
+        const double planarIntensity = group.cluster.planarIntensity, length = glm::length(normals);
+        dvec3 axis = length > 1e-6 * planarIntensity ? normals / length : group.cluster.cone.axis;
         double widest = 0;
         for (const Item& item : group.items) {
-            if (!(item.cluster.facing > 0)) continue;
+            if (!(item.cluster.planarIntensity > 0)) continue;
             // By the chord, which is exact for small angles too.
             const dvec3 normal = item.cluster.cone.axis;
             widest = std::max(widest, 2 * std::atan2(glm::length(normal - axis), glm::length(normal + axis)));
         }
-        placeCone(n, slot, shared::vec3(axis), facing > 0 ? static_cast<float>(std::min(1.0, length / facing)) : 0.0f,
+        placeCone(n, slot, shared::vec3(axis),
+                  planarIntensity > 0 ? static_cast<float>(std::min(1.0, length / planarIntensity)) : 0.0f,
                   std::min(widest + 1e-6, kPi));
-        n.facing[slot] = static_cast<float>(facing);
-        n.around[slot] = static_cast<float>(group.cluster.around);
+        n.planarIntensity[slot] = static_cast<float>(planarIntensity);
+        n.omnidirectionalIntensity[slot] = static_cast<float>(group.cluster.omnidirectionalIntensity);
     }
 
     static void placeSphere(shared::LightNode& n, std::uint32_t slot, const shared::vec3& center, float radius) {
@@ -290,12 +293,12 @@ class Builder {
         n.radius[slot] = radius;
     }
 
-    static void placeCone(shared::LightNode& n, std::uint32_t slot, const shared::vec3& axis, float alignment,
+    static void placeCone(shared::LightNode& n, std::uint32_t slot, const shared::vec3& axis, float meanResultantLength,
                           double angle) {
         n.axisX[slot] = axis.x;
         n.axisY[slot] = axis.y;
         n.axisZ[slot] = axis.z;
-        n.alignment[slot] = alignment;
+        n.meanResultantLength[slot] = meanResultantLength;
         // Rounding must not narrow the cone.
         n.spreadCosine[slot] = angle > 0 ? std::nextafter(static_cast<float>(std::cos(angle)), -1.0f) : 1.0f;
     }

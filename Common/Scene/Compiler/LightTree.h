@@ -4,8 +4,8 @@
 
 namespace rt::scene {
 
-// Fills lightNodes and lightPlaces from the lights proper and their bounds if there are more than `contribution` weighs one by
-// one. Lights without intensity are left out. Deterministic.
+// Fills lightNodes and lightToLeaf from the lights proper and their bounds if there are more than `contribution` weighs
+// one by one. Lights without intensity are left out. Deterministic.
 void buildLightTree(CompiledScene& out);
 
 } // namespace rt::scene

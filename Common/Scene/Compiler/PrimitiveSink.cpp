@@ -33,8 +33,8 @@ bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
 }
 
-// Whether single precision inverts the map of an ellipsoid, as its sampling does. Long ones whose axes the map does not keep at
-// right angles take too many digits.
+// Whether single precision inverts the map of an ellipsoid, as its sampling does. Long ones whose axes the map does not
+// keep at right angles take too many digits.
 bool isInvertible(const shared::Light& light) {
     const shared::Ellipsoid e = shared::makeEllipsoid(light.edgeU, light.edgeV, light.normal);
     const double determinant = glm::determinant(glm::dmat3(light.edgeU, light.edgeV, light.normal));

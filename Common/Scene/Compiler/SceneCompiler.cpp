@@ -101,7 +101,7 @@ class Compiler {
         bounds_.add(cube, boundary);
     }
 
-    // ---- geometries and instances -----------------------------------------------------------------------------------
+    // ---- geometries and instances ----------------------------------------------------------------------------------
 
     void emitWorld(const InstancePlan& plan, const Affine& toWorld) {
         emit(desc_.objects, {toWorld, {}, Part::All, nullptr, "/objects"});

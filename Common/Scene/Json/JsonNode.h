@@ -13,8 +13,8 @@
 
 namespace rt::scene {
 
-// Numbers of a scene stay within this, and lengths above its inverse: their fourth powers are finite and not 0 in single
-// precision.
+// Numbers of a scene stay within this, and lengths above its inverse: their fourth powers are finite and not 0 in
+// single precision.
 inline constexpr double kLargest = 1e9;
 
 // Refers to its parent, which must outlive it. All readers throw InputError when the value is not of their kind.

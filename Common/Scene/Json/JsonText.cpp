@@ -32,7 +32,7 @@ std::string reason(const std::string& message) {
     return message.substr(start, 200);
 }
 
-// ---- parsing --------------------------------------------------------------------------------------------------------
+// ---- parsing -------------------------------------------------------------------------------------------------------
 
 // Walks over a text and leaves word of how far; a 0 stands for each element that is left out.
 struct Reader {
@@ -61,8 +61,8 @@ struct Reader {
     bool operator!=(const Reader& other) const { return at != other.at; }
 };
 
-// Builds values from what the library's parser reports. The library's own builder takes time in proportion to the square of
-// an array's length once a callback watches it, and without one a repeated key goes unnoticed.
+// Builds values from what the library's parser reports. The library's own builder takes time in proportion to the
+// square of an array's length once a callback watches it, and without one a repeated key goes unnoticed.
 class Builder : public nlohmann::json_sax<Json> {
   public:
     Builder(const std::string& text, const std::string& file, std::string_view part, Elements leftOut)
@@ -140,9 +140,10 @@ class Builder : public nlohmann::json_sax<Json> {
     Json* member_ = nullptr;  // of the innermost object, what comes next
 };
 
-// ---- finding the elements of an array -------------------------------------------------------------------------------
+// ---- finding the elements of an array ------------------------------------------------------------------------------
 
-// Looks at quotes and brackets only; whatever else is wrong shows when it is parsed. Positions beyond the end are the end.
+// Looks at quotes and brackets only; whatever else is wrong shows when it is parsed. Positions beyond the end are the
+// end.
 class Scanner {
   public:
     explicit Scanner(std::string_view text) : text_(text) {}
@@ -186,7 +187,8 @@ class Scanner {
     std::size_t at_ = 0;
 };
 
-// The elements of the array that is the root's member `name`; none when one of them is no object, or there is no such array.
+// The elements of the array that is the root's member `name`; none when one of them is no object, or there is no such
+// array.
 std::vector<std::string_view> findObjects(std::string_view text, std::string_view name) {
     Scanner in(text);
     in.skipSpace();

@@ -1,5 +1,5 @@
-// The text of a JSON document. Mistakes are InputErrors that name file, line and column: syntax, numbers out of range, a key
-// that appears twice in an object, values nested deeper than 256.
+// The text of a JSON document. Mistakes are InputErrors that name file, line and column: syntax, numbers out of range,
+// a key that appears twice in an object, values nested deeper than 256.
 #pragma once
 #include <cstddef>
 #include <string>
@@ -12,8 +12,8 @@ namespace rt::scene {
 
 nlohmann::json parseJson(const std::string& text, const std::string& file);
 
-// A document of which one array, a member of the root, may be long: where it holds nothing but objects they are left out of
-// the document and parsed one by one, as all at once take ten times the memory of the text.
+// A document of which one array, a member of the root, may be long: where it holds nothing but objects they are left
+// out of the document and parsed one by one, as all at once take ten times the memory of the text.
 class LongJson {
   public:
     // Both must outlive this.

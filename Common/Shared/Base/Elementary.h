@@ -31,7 +31,8 @@ RT_FN vec2 sinCosOctant(float r) {
 
 // (sin, cos) of 2 pi u, 0 <= u <= 1: reduced exactly to an octant. Absolute error <= 1.2e-7.
 RT_FN vec2 sinCos2Pi(float u) {
-    // At most 4. The mask keeps GCC from taking the way to an integer and back for a call of trunc(), of which it makes no vectors.
+    // At most 4. The mask keeps GCC from taking the way to an integer and back for a call of trunc(), of which it makes
+    // no vectors.
     uint quadrant = uint(4.0f * u + 0.5f) & 7u;
     vec2 sc = sinCosOctant(u - 0.25f * float(quadrant));
     conditionalSwap((quadrant & 1u) != 0u, sc.x, sc.y);

@@ -1,6 +1,6 @@
-// The feature mask: what a scene and its settings need. The scene compiler ORs the bits while it flattens; a bit that is
-// absent means that the code, the buffers and the shader groups behind it are absent too. `features` is a plain first
-// argument of shared functions: a template constant on the CPU, a specialization constant on the GPU.
+// The feature mask: what a scene and its settings need. The scene compiler ORs the bits while it flattens; a bit that
+// is absent means that the code, the buffers and the shader groups behind it are absent too. `features` is a plain
+// first argument of shared functions: a template constant on the CPU, a specialization constant on the GPU.
 #ifndef RT_SHARED_FEATURES_H
 #define RT_SHARED_FEATURES_H
 #include "Common/Shared/Base/Shim.h"

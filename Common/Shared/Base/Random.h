@@ -7,7 +7,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- dimensions -----------------------------------------------------------------------------------------------------
+// ---- dimensions ----------------------------------------------------------------------------------------------------
 // A sample dimension is a 2D point of the unit square. Dimensions of the camera come first, then kDimensionsPerVertex
 // for each vertex of the path.
 const uint kDimensionPixel = 0u; // position in the pixel
@@ -25,7 +25,7 @@ RT_FN uint vertexDimension(uint vertex, uint dimension) {
     return kCameraDimensions + vertex * kDimensionsPerVertex + dimension;
 }
 
-// ---- hashing --------------------------------------------------------------------------------------------------------
+// ---- hashing -------------------------------------------------------------------------------------------------------
 
 // Three words to three words. Jarzynski & Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020: pcg3d.
 RT_FN uvec3 hash3(uvec3 v) {
@@ -60,7 +60,7 @@ RT_FN float toFineUniform(uint high, uint low) {
                0.999999940395355f);
 }
 
-// ---- Owen-scrambled Sobol -------------------------------------------------------------------------------------------
+// ---- Owen-scrambled Sobol ------------------------------------------------------------------------------------------
 
 // Nested uniform scrambling of a word whose most significant digit is bit 0. Laine & Karras, "Stratified Sampling for
 // Stochastic Transparency", 2011, with the constants that Vegdahl found to scramble well for all seeds.
@@ -96,7 +96,7 @@ RT_FN uvec2 sobolWords(uint index, uvec3 key) {
                  bitfieldReverse(laineKarras(sobolSecondReversed(shuffled), key.y)));
 }
 
-// ---- jittered strata ------------------------------------------------------------------------------------------------
+// ---- jittered strata -----------------------------------------------------------------------------------------------
 
 // Element i of a pseudo-random permutation of [0, n), n >= 1. Kensler, "Correlated Multi-Jittered Sampling", Pixar
 // 2013, with cycle walking over a hash that is a bijection of the words below the next power of two.
@@ -132,7 +132,7 @@ RT_FN uint permute(uint i, uint n, uint key) {
 
 const uint kSobolKey = 0x50b01u; // keeps the scrambling apart from independent numbers
 
-// ---- the sampler ----------------------------------------------------------------------------------------------------
+// ---- the sampler ---------------------------------------------------------------------------------------------------
 
 struct Sampler {
     uint kind;  // kSamplerIndependent, kSamplerStratified, kSamplerSobol

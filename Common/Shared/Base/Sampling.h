@@ -7,7 +7,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- frames ---------------------------------------------------------------------------------------------------------
+// ---- frames --------------------------------------------------------------------------------------------------------
 
 // Right-handed, orthonormal; local z is `normal`.
 struct Frame {
@@ -50,7 +50,7 @@ RT_FN float luminance(vec3 rgb) {
     return 0.2126f * rgb.x + 0.7152f * rgb.y + 0.0722f * rgb.z;
 }
 
-// ---- standard domains -----------------------------------------------------------------------------------------------
+// ---- standard domains ----------------------------------------------------------------------------------------------
 
 // Where in an interval, [0,1], the integral of the linear function from a at 0 to b at 1 reaches `part`.
 RT_FN float invertLinear(float a, float b, float part) {
@@ -89,7 +89,7 @@ RT_FN vec3 sampleSphere(vec2 u) {
     return vec3(r * sc.y, r * sc.x, z);
 }
 
-// ---- multiple importance sampling -----------------------------------------------------------------------------------
+// ---- multiple importance sampling ----------------------------------------------------------------------------------
 
 // Weight of the technique whose density is pdfA, against one of density pdfB. As 1 / (1 + ratio) nothing overflows.
 RT_FN float balanceHeuristic(float pdfA, float pdfB) {
@@ -100,7 +100,7 @@ RT_FN float powerHeuristic(float pdfA, float pdfB) {
     return pdfA > 0.0f ? 1.0f / (1.0f + square(pdfB / pdfA)) : 0.0f;
 }
 
-// ---- origins of secondary rays --------------------------------------------------------------------------------------
+// ---- origins of secondary rays -------------------------------------------------------------------------------------
 
 // Moves p, known to within +-error per axis, along the geometric normal n to the side of w, so far that it lies beyond
 // the true surface whatever the error and the rounding of the result. No absolute length enters: scaling by 2^k is
@@ -110,10 +110,10 @@ RT_FN vec3 offsetOrigin(vec3 p, vec3 error, vec3 n, vec3 w) {
     return p + n * (dot(n, w) < 0.0f ? -reach : reach);
 }
 
-// What a device's own test of a flat primitive may round by, in every direction: it works with the distances of the corners
-// from the ray. A ray that leaves a large floor may so meet it again, although its height there is exact: without this an
-// NVIDIA GPU lost up to a fifth of the light that reaches a point on the diagonal of a quad of 100 by 100. There 1 is too
-// little and 2 is enough; much more would lift the origins of rays noticeably.
+// What a device's own test of a flat primitive may round by, in every direction: it works with the distances of the
+// corners from the ray. A ray that leaves a large floor may so meet it again, although its height there is exact:
+// without this an NVIDIA GPU lost up to a fifth of the light that reaches a point on the diagonal of a quad of 100 by
+// 100. There 1 is too little and 2 is enough; much more would lift the origins of rays noticeably.
 const float kExtentError = 3.0f;
 
 RT_FN float extentError(vec3 edgeU, vec3 edgeV) {

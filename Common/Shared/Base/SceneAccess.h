@@ -1,5 +1,5 @@
-// How formulas read the scene. SceneRef says which, and load...() fetches element i of an array of SceneArrays.h. In C++ a scene is
-// a view of arrays, whoever owns them; a shader is bound to one, and defines what is declared here.
+// How formulas read the scene. SceneRef says which, and load...() fetches element i of an array of SceneArrays.h. In
+// C++ a scene is a view of arrays, whoever owns them; a shader is bound to one, and defines what is declared here.
 #ifndef RT_SHARED_SCENE_ACCESS_H
 #define RT_SHARED_SCENE_ACCESS_H
 #include "Common/Shared/Base/SceneArrays.h"
@@ -75,10 +75,10 @@ RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     c.center = vec3(n.centerX[i], n.centerY[i], n.centerZ[i]);
     c.radius = n.radius[i];
     c.axis = vec3(n.axisX[i], n.axisY[i], n.axisZ[i]);
-    c.alignment = n.alignment[i];
+    c.meanResultantLength = n.meanResultantLength[i];
     c.spreadCosine = n.spreadCosine[i];
-    c.facing = n.facing[i];
-    c.around = n.around[i];
+    c.planarIntensity = n.planarIntensity[i];
+    c.omnidirectionalIntensity = n.omnidirectionalIntensity[i];
     c.child = n.child[i];
     return c;
 }
@@ -116,7 +116,7 @@ RT_SHARED_BEGIN
 
 // Place of a node of the light tree in its parent: node * kLightNodeChildren + child; kNone: the root.
 RT_FN uint loadLightNodeParent(SceneRef scene, uint node) {
-    return loadLightPlace(scene, loadGlobals(scene).lightCount + node);
+    return loadLightLeaf(scene, loadGlobals(scene).lightCount + node);
 }
 
 RT_SHARED_END

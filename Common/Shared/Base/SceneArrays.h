@@ -1,5 +1,5 @@
-// The arrays of a scene, each declared once. From these rows follow the compiled scene's members and its hash, the CPU's view,
-// the GPU's buffers and their addresses, and what fetches an element. A row:
+// The arrays of a scene, each declared once. From these rows follow the compiled scene's members and its hash, the
+// CPU's view, the GPU's buffers and their addresses, and what fetches an element. A row:
 //     (type of an element, name, function that fetches, what errors call the array)
 // Functions of PLAIN rows return element i; those of OWN rows do more, and each engine defines them.
 #ifndef RT_SHARED_SCENE_ARRAYS_H
@@ -34,7 +34,7 @@
     PLAIN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \
     /* node * kLightNodeChildren + child, or kNone: of each of those lights, then of each node, in its parent */ \
-    PLAIN(uint, lightPlaces, loadLightPlace, "the light tree")
+    PLAIN(uint, lightToLeaf, loadLightLeaf, "the light tree")
 // clang-format on
 
 #define RT_SCENE_ARRAYS(PLAIN, OWN) RT_SCENE_SOURCE_ARRAYS(PLAIN, OWN) RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN)

@@ -1,5 +1,5 @@
-// The one place where C++ and GLSL differ, but for SceneAccess.h. Every other header of Common/Shared is valid as C++20 and as GLSL 460
-// (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
+// The one place where C++ and GLSL differ, but for SceneAccess.h. Every other header of Common/Shared is valid as C++20
+// and as GLSL 460 (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
 //
 //   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
 //                    linkage keeps the copies compiled for different instruction sets apart.
@@ -18,6 +18,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <math.h>
 
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
@@ -64,7 +65,6 @@ using glm::max;
 using glm::min;
 using glm::mix;
 using glm::normalize;
-using glm::sqrt;
 using std::acos;
 using std::asin;
 using std::atan;
@@ -73,6 +73,10 @@ using std::exp2;
 using std::log;
 using std::pow;
 
+// std::sqrt is a weak function, of which compilers may leave a copy in the kernel of one instruction set.
+RT_FN float sqrt(float x) {
+    return ::sqrtf(x);
+}
 // GLM's own is a comparison, which becomes a branch that no processor predicts.
 RT_FN float abs(float x) {
     return std::fabs(x);

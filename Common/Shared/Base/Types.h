@@ -1,5 +1,5 @@
-// The compiled scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world units,
-// relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
+// The compiled scene's records: what kernels see, CPU or GPU, byte for byte (scalar block layout). Lengths are in world
+// units, relative to SceneGlobals::origin; radiance is linear RGB with Rec. 709 primaries.
 #ifndef RT_SHARED_TYPES_H
 #define RT_SHARED_TYPES_H
 #include "Common/Shared/Base/Shim.h"
@@ -17,7 +17,7 @@ const uint kSphere = 0u;
 const uint kQuad = 1u;
 const uint kTriangle = 2u;
 
-// ---- geometry --------------------------------------------------------------------------------------------------------
+// ---- geometry ------------------------------------------------------------------------------------------------------
 
 struct Sphere {
     vec3 center;  // at time 0
@@ -67,7 +67,7 @@ struct Instance {
     uint light;    // of a unit sphere that emits; kNone for all others
 };
 
-// ---- appearance ------------------------------------------------------------------------------------------------------
+// ---- appearance ----------------------------------------------------------------------------------------------------
 
 const uint kSidesFront = 1u;
 const uint kSidesBoth = 3u;
@@ -114,7 +114,7 @@ struct Image {
 // Perlin's tables: kPerlinSize unit gradients and three permutations of [0, kPerlinSize).
 const uint kPerlinSize = 256u;
 
-// ---- participating media ---------------------------------------------------------------------------------------------
+// ---- participating media -------------------------------------------------------------------------------------------
 
 const uint kMediumSphere = 0u; // boundary: the unit sphere under the inverse of toLocal
 const uint kMediumBox = 1u;    // boundary: the cube [-1,1]^3 under the inverse of toLocal
@@ -127,7 +127,7 @@ struct Medium {
     uint texture;     // replaces albedo; kNone: constant
 };
 
-// ---- lights ----------------------------------------------------------------------------------------------------------
+// ---- lights --------------------------------------------------------------------------------------------------------
 
 const uint kLightSphere = 0u;
 const uint kLightQuad = 1u;
@@ -174,7 +174,7 @@ struct LightPick {
     float total;  // of all weights
 };
 
-// ---- light tree ------------------------------------------------------------------------------------------------------
+// ---- light tree ----------------------------------------------------------------------------------------------------
 // Over more lights `contribution` descends a tree. Node 0 is the root.
 
 const uint kLightNodeChildren = 8u;
@@ -187,13 +187,13 @@ struct LightNode {
     float centerY[8];
     float centerZ[8];
     float radius[8]; // negative: the child is a single light
-    float axisX[8];  // unit axis of a cone that holds the normals of the lights counted in `facing`
+    float axisX[8];  // unit axis of a cone that holds the normals of the lights counted in `planarIntensity`
     float axisY[8];
     float axisZ[8];
-    float alignment[8];    // length of the mean of those normals, weighed by intensity
-    float spreadCosine[8]; // of the cone's half angle
-    float facing[8]; // intensity of flat lights along their normals; negative: a single light that emits to both sides
-    float around[8]; // mean intensity of the lights that emit to all sides
+    float meanResultantLength[8];      // of those normals, weighed by intensity
+    float spreadCosine[8];             // of the cone's half angle
+    float planarIntensity[8];          // of planar lights along their normals; negative: a single light with two sides
+    float omnidirectionalIntensity[8]; // mean intensity of the lights that emit in all directions
     uint child[8];
 };
 
@@ -202,10 +202,10 @@ struct LightCluster {
     vec3 center;
     float radius;
     vec3 axis;
-    float alignment;
+    float meanResultantLength;
     float spreadCosine;
-    float facing;
-    float around;
+    float planarIntensity;
+    float omnidirectionalIntensity;
     uint child;
 };
 
@@ -213,7 +213,7 @@ struct ClusterWeights {
     float weight[kLightNodeChildren];
 };
 
-// ---- the scene as a whole --------------------------------------------------------------------------------------------
+// ---- the scene as a whole ------------------------------------------------------------------------------------------
 
 const uint kSkyBlack = 0u;
 const uint kSkyConstant = 1u; // skyTop
@@ -280,7 +280,7 @@ struct RenderParams {
     uint russianRoulette; // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
 };
 
-// ---- rays ------------------------------------------------------------------------------------------------------------
+// ---- rays ----------------------------------------------------------------------------------------------------------
 
 struct Ray {
     vec3 origin;
@@ -298,7 +298,7 @@ struct Hit {
     float v;        // quad: along edgeV; triangle: weight of vertex 2
 };
 
-// ---- paths -----------------------------------------------------------------------------------------------------------
+// ---- paths ---------------------------------------------------------------------------------------------------------
 
 struct LightChoice {
     uint light;        // kNone: nothing to choose
@@ -325,9 +325,9 @@ struct PathState {
     LightContext last; // where ray starts, for the weights of multiple importance sampling
 };
 
-// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes on,
-// at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be remembered
-// meanwhile.
+// What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes
+// on, at PathState::last.position; it is traced only after the step is complete, so that nothing else has to be
+// remembered meanwhile.
 struct DirectLight {
     vec3 radiance;
     vec3 direction; // unit

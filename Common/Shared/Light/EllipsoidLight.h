@@ -1,5 +1,5 @@
-// Sampling of ellipsoids, which spheres become when they are scaled unequally: by the cone of the unit sphere that they are the
-// image of (Ellipsoids.h). There is no projected sampling.
+// Sampling of ellipsoids, which spheres become when they are scaled unequally: by the cone of the unit sphere that they
+// are the image of (Ellipsoids.h). There is no projected sampling.
 #ifndef RT_SHARED_ELLIPSOID_LIGHT_H
 #define RT_SHARED_ELLIPSOID_LIGHT_H
 #include "Common/Shared/Light/LightSample.h"
@@ -39,7 +39,8 @@ RT_CALL LightSample sampleEllipsoidLight(RT_IN(RenderParams) params, RT_IN(Light
     EllipsoidCone cone = makeEllipsoidCone(e, center);
     EllipsoidConeSample drawn = sampleEllipsoidCone(cone, u);
     vec3 onSphere = byArea ? sampleSphere(u) : drawn.onSphere;
-    // The point must lie on the ray; near the ellipsoid only the direction guarantees it, far from it its own place is finer.
+    // The point must lie on the ray; near the ellipsoid only the direction guarantees it, far from it its own place is
+    // finer.
     bool close = !byArea && cone.distance < 2.0f;
     vec3 fromCenter = fromSphere(e, onSphere);
     vec3 toPoint = close ? fromSphere(e, drawn.toPoint) : toCenter + fromCenter;

@@ -6,7 +6,8 @@
 RT_SHARED_BEGIN
 
 // Estimate of the irradiance that the lights of a cluster cause without occluders. 0 only where none of them can
-// contribute: all below the horizon of `normal` (zero: in a medium), or all turned away from the point. Without a branch.
+// contribute: all below the horizon of `normal` (zero: in a medium), or all turned away from the point. Without a
+// branch.
 RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 normal) {
     vec3 v = c.center - position;
     float radius = abs(c.radius);
@@ -32,10 +33,10 @@ RT_FN float clusterContribution(RT_IN(LightCluster) c, vec3 position, vec3 norma
     // A hair wider than rounding. Positive `within`: inside the cone, or the cone or the sphere is all around.
     float within = max(cosine - wideCosine + 1.0e-6f, max(-wideSine, fillSine - 0.999999940395355f));
     float highest = within > 0.0f ? 1.0f : cosine * wideCosine + sine * wideSine + 2.0e-6f;
-    float mean = cosine * c.alignment;
-    mean = c.facing < 0.0f ? abs(mean) : mean;
+    float mean = cosine * c.meanResultantLength;
+    mean = c.planarIntensity < 0.0f ? abs(mean) : mean;
     float emitter = meanClamped(mean, max(highest - mean, 0.0f));
-    return (c.around + abs(c.facing) * emitter) * receiver * inverse2;
+    return (c.omnidirectionalIntensity + abs(c.planarIntensity) * emitter) * receiver * inverse2;
 }
 
 RT_SHARED_END

@@ -121,7 +121,7 @@ RT_CALL TreeChoice chooseFromTree(SceneRef scene, vec2 selection, vec3 position,
 // Probability with which chooseFromTree draws `light`: the product of the shares on the way from it to the root.
 RT_CALL float treeProbability(SceneRef scene, uint light, vec3 position, vec3 normal) {
     float probability = 1.0f;
-    uint place = loadLightPlace(scene, light);
+    uint place = loadLightLeaf(scene, light);
     if (place == kNone) return 0.0f;
     while (place != kNone) {
         uint node = place / kLightNodeChildren;

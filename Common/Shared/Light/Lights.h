@@ -1,5 +1,5 @@
-// Sampling of one light: a direction towards it, and the density of that direction given this light. sampleLight and lightPdf
-// take every decision from the same function of the light and the shading point, never from the sample.
+// Sampling of one light: a direction towards it, and the density of that direction given this light. sampleLight and
+// lightPdf take every decision from the same function of the light and the shading point, never from the sample.
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Common/Shared/Light/EllipsoidLight.h"
@@ -14,8 +14,9 @@ RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
     return light.sides == kSidesBoth || dot(light.normal, position - light.position) > 0.0f;
 }
 
-// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray: several
-// times that of the point itself, since the device that traces the ray also rounds when it tests the light's shape.
+// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray:
+// several times that of the point itself, since the device that traces the ray also rounds when it tests the light's
+// shape.
 RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         return ellipsoidError(ellipsoidOf(light), light.position);
@@ -33,8 +34,8 @@ RT_FN LightSample completeSample(uint features, RT_IN(Light) light, vec3 normal,
     LightSample s = drawn;
     s.radiance = light.emission;
     s.error = lightPointError(features, light);
-    // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which is
-    // then infinitely far, or behind.
+    // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which
+    // is then infinitely far, or behind.
     bool isAhead = s.distance > 0.0f && s.distance < kInfinity;
     if (!(s.pdf < kInfinity && isAhead && dot(s.wi, s.wi) < 2.0f)) s.pdf = 0.0f;
     if (isSurface(normal) && dot(normal, s.wi) <= 0.0f) s.pdf = 0.0f;

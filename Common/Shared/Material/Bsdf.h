@@ -5,7 +5,8 @@
 
 RT_SHARED_BEGIN
 
-// isLambertian(features, m), and so on. Kinds that the scene lacks are false by `features` alone, which keeps them out of the code.
+// isLambertian(features, m), and so on. Kinds that the scene lacks are false by `features` alone, which keeps them out
+// of the code.
 #define RT_IS_KIND(Name, kind_, bit, name, help, parameters)     \
     RT_FN bool is##Name(uint features, RT_IN(Material) m) {      \
         return has(features, kFeature##Name) && m.kind == kind_; \
@@ -51,7 +52,7 @@ RT_FN vec4 evalBsdf(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, vec3 
 #undef RT_EVALUATE
 #undef RT_NOTHING
 
-// ---- media ----------------------------------------------------------------------------------------------------------
+// ---- media ---------------------------------------------------------------------------------------------------------
 
 // Value and density of the isotropic phase function: 1 / (4 pi).
 const float kPhasePdf = 0.0795774715f;

@@ -1,5 +1,5 @@
-// What sampling a bsdf returns. Directions point away from the surface, `n` is the unit shading normal on the side of wo.
-// Densities are per steradian; `weight` is value * |cosine| / density, so no division is left to the caller.
+// What sampling a bsdf returns. Directions point away from the surface, `n` is the unit shading normal on the side of
+// wo. Densities are per steradian; `weight` is value * |cosine| / density, so no division is left to the caller.
 #ifndef RT_SHARED_BSDF_SAMPLE_H
 #define RT_SHARED_BSDF_SAMPLE_H
 #include "Common/Shared/Base/Features.h"

@@ -1,5 +1,5 @@
-// The table of materials. Everything else follows from a row: scene files and their schema, the compiled scene, feature bits and
-// their names, what kernels and shaders sample, and the tests that hold for every material.
+// The table of materials. Everything else follows from a row: scene files and their schema, the compiled scene, feature
+// bits and their names, what kernels and shaders sample, and the tests that hold for every material.
 //
 // SURFACE(Name, kind, feature bit, name in scene files, what it is, (parameters)) scatters. Its header defines
 //     bool isDelta<Name>(features, m)                                       whether every lobe of m is a delta

@@ -1,4 +1,5 @@
-// A mirror whose reflections are blurred by fuzz, as in the books: a point of the unit sphere, scaled by fuzz, is added.
+// A mirror whose reflections are blurred by fuzz, as in the books: a point of the unit sphere, scaled by fuzz, is
+// added.
 #ifndef RT_SHARED_METAL_H
 #define RT_SHARED_METAL_H
 #include "Common/Shared/Material/BsdfSample.h"

@@ -1,8 +1,9 @@
-// An ellipsoid, which is what the affine map x' = M x + centre makes of the unit sphere, as light sampling sees it: directions
-// are drawn towards the sphere, from where the inverse map takes the shading point, and taken back by M.
+// An ellipsoid, which is what the affine map x' = M x + centre makes of the unit sphere, as light sampling sees it:
+// directions are drawn towards the sphere, from where the inverse map takes the shading point, and taken back by M.
 //
-// Directions w from the point that fill the solid angle dw cut a cone of the volume dw / 3 out of the unit ball around it. M makes
-// |det M| times that of it, and of a radius w one of length |M w|. Hence the density of a direction v in the world is
+// Directions w from the point that fill the solid angle dw cut a cone of the volume dw / 3 out of the unit ball around
+// it. M makes |det M| times that of it, and of a radius w one of length |M w|. Hence the density of a direction v in
+// the world is
 //     p(v) = p(w) |M w|^3 / |det M| = p(w) / (|det M| |M^-1 v|^3)      with w along M^-1 v,
 // and likewise for every linear map of directions.
 #ifndef RT_SHARED_ELLIPSOIDS_H
@@ -55,11 +56,11 @@ RT_FN vec3 normalReach(vec3 axisX, vec3 axisY, vec3 axisZ, vec3 normal) {
     return vec3(dot(axisX, normal), dot(axisY, normal), dot(axisZ, normal));
 }
 
-// ---- the cone of directions -----------------------------------------------------------------------------------------
+// ---- the cone of directions ----------------------------------------------------------------------------------------
 
-// The directions to an ellipsoid from a point outside. In the sphere's space they fill a circular cone, and after a stretch along
-// its axis another one. The stretch is such that M and its inverse together keep solid angles around the axis: directions uniform
-// in that cone are nearly uniform in the world, and exactly if the ellipsoid looks round.
+// The directions to an ellipsoid from a point outside. In the sphere's space they fill a circular cone, and after a
+// stretch along its axis another one. The stretch is such that M and its inverse together keep solid angles around the
+// axis: directions uniform in that cone are nearly uniform in the world, and exactly if the ellipsoid looks round.
 struct EllipsoidCone {
     vec3 axis;            // unit, towards the centre, in the sphere's space
     float distance;       // to the centre, there
@@ -102,7 +103,8 @@ RT_FN EllipsoidConeSample sampleEllipsoidCone(RT_IN(EllipsoidCone) c, vec2 u) {
     float q = u.x * c.oneMinusCosine; // when stretched, 1 - cos of the angle to the axis
     float cosine2 = (1.0f - q) * (1.0f - q);
     float factor = 1.0f / (cosine2 * (1.0f + c.cosine));
-    // The squared tangent of that angle over that of the whole, which the stretch does not change, and what it lacks to 1.
+    // The squared tangent of that angle over that of the whole, which the stretch does not change, and what it lacks to
+    // 1.
     float part = u.x * (2.0f - q) * (c.cosine * c.cosine) * factor;
     float rest = (1.0f - u.x) * (1.0f - q + c.cosine) * factor;
     float tangent2 = part * c.tangent2;
@@ -119,10 +121,10 @@ RT_FN EllipsoidConeSample sampleEllipsoidCone(RT_IN(EllipsoidCone) c, vec2 u) {
     return s;
 }
 
-// ---- points ---------------------------------------------------------------------------------------------------------
+// ---- points --------------------------------------------------------------------------------------------------------
 
-// Density of the direction wi to the image, where the normal is `normal`, of a point drawn uniformly from the unit sphere. The far
-// half is hidden by the near one.
+// Density of the direction wi to the image, where the normal is `normal`, of a point drawn uniformly from the unit
+// sphere. The far half is hidden by the near one.
 RT_FN float ellipsoidAreaPdf(RT_IN(Ellipsoid) e, vec3 normal, vec3 wi, float distance) {
     float cosine = -dot(normal, wi);
     float reach = length(normalReach(e.axisX, e.axisY, e.axisZ, normal));
@@ -148,12 +150,12 @@ RT_FN EllipsoidHit intersectEllipsoid(RT_IN(Ellipsoid) e, vec3 center, vec3 wi) 
     return hit;
 }
 
-// Times the sum of the terms of a coordinate that is taken to the sphere's space and back: bound of what rounding adds up to,
-// in the map as well as in the engines' intersection.
+// Times the sum of the terms of a coordinate that is taken to the sphere's space and back: bound of what rounding adds
+// up to, in the map as well as in the engines' intersection.
 const float kEllipsoidError = 32.0f * kEpsilon;
 
-// Bound of the error per axis of points of the ellipsoid around `center`, each of whose coordinates in the sphere's space comes
-// from several in the world.
+// Bound of the error per axis of points of the ellipsoid around `center`, each of whose coordinates in the sphere's
+// space comes from several in the world.
 RT_FN vec3 ellipsoidError(RT_IN(Ellipsoid) e, vec3 center) {
     vec3 reach = abs(center) + abs(e.axisX) + abs(e.axisY) + abs(e.axisZ);
     vec3 within = vec3(dot(abs(e.rowX), reach), dot(abs(e.rowY), reach), dot(abs(e.rowZ), reach));

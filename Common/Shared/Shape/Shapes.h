@@ -28,10 +28,11 @@ RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
     return centerAtStart + motion * time;
 }
 
-// The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the centre,
-// not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision Improvements for
-// Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance to the centre: that is
-// what the origin of a ray that leaves the sphere is offset by. inverseSquaredLength: 1 / dot(direction, direction).
+// The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the
+// centre, not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision
+// Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance
+// to the centre: that is what the origin of a ray that leaves the sphere is offset by. inverseSquaredLength: 1 /
+// dot(direction, direction).
 RT_FN float intersectSphere(Ray ray, float inverseSquaredLength, vec3 center, float radius, float tMax) {
     vec3 f = center - ray.origin;
     float middle = dot(f, ray.direction) * inverseSquaredLength;
@@ -52,8 +53,8 @@ struct SpherePoint {
     vec3 normal; // unit, outwards
 };
 
-// Where the ray meets the sphere, on the side that the hit at parameter t is on. The position is off the sphere by less than 8
-// roundings of |center| + radius, which is what rays that leave it are offset by.
+// Where the ray meets the sphere, on the side that the hit at parameter t is on. The position is off the sphere by less
+// than 8 roundings of |center| + radius, which is what rays that leave it are offset by.
 RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
@@ -63,8 +64,9 @@ RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
     vec3 reach = abs(ray.origin) + abs(ray.direction) * t;
     vec3 size = abs(center) + radius;
     if (4.0f * max(reach.x, max(reach.y, reach.z)) < max(size.x, max(size.y, size.z))) {
-        // Near a huge sphere, the ground say: the sphere's coordinates would take the digits of the point's. Half the chord
-        // from the power of the origin, which is small, without the cancellation of its largest term; then along the ray.
+        // Near a huge sphere, the ground say: the sphere's coordinates would take the digits of the point's. Half the
+        // chord from the power of the origin, which is small, without the cancellation of its largest term; then along
+        // the ray.
         vec3 m = abs(f);
         float largest = max(m.x, max(m.y, m.z));
         vec3 others = m.x == largest   ? vec3(0.0f, m.y, m.z)
@@ -79,8 +81,8 @@ RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
         point.normal = normalize(f + along);
         return point;
     }
-    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et al.,
-    // Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
+    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et
+    // al., Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
     vec3 foot = f + ray.direction * middle;
     float halfChord = sqrt(max(0.0f, radius * radius - dot(foot, foot)) / a);
     point.normal = normalize(foot + ray.direction * (first ? -halfChord : halfChord));
@@ -96,9 +98,10 @@ struct QuadFrame {
     vec2 margin; // errors of u and v for a unit of t |direction|
 };
 
-// Bounds the rounding errors of u and v, relative to the terms they are sums of. Of rays aimed exactly at the edges of turned
-// boxes one in 30 000 gets out; twice as much would stop that one too, but makes lamps larger: a strip as wide as 1/100 of its
-// distance by 5e-5. Each direction has its own bound, since what a strip needs along its short side would lengthen it.
+// Bounds the rounding errors of u and v, relative to the terms they are sums of. Of rays aimed exactly at the edges of
+// turned boxes one in 30 000 gets out; twice as much would stop that one too, but makes lamps larger: a strip as wide
+// as 1/100 of its distance by 5e-5. Each direction has its own bound, since what a strip needs along its short side
+// would lengthen it.
 const float kQuadError = 2.0f * kEpsilon;
 
 RT_FN QuadFrame quadFrame(vec3 edgeU, vec3 edgeV) {
@@ -147,8 +150,8 @@ RT_FN uint largestAxis(vec3 v) {
     return m.x > m.y ? (m.x > m.z ? 0u : 2u) : (m.y > m.z ? 1u : 2u);
 }
 
-// What the tests of all triangles have in common for a ray: the axis that it mostly runs along, and the shear that makes it run
-// along that axis exactly.
+// What the tests of all triangles have in common for a ray: the axis that it mostly runs along, and the shear that
+// makes it run along that axis exactly.
 struct TriangleRay {
     uint axis;
     float shearX;

@@ -7,7 +7,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- sphere ---------------------------------------------------------------------------------------------------------
+// ---- sphere --------------------------------------------------------------------------------------------------------
 
 // A sphere seen from outside.
 struct SphereCone {
@@ -41,8 +41,8 @@ struct ConeSample {
     vec3 normal;
 };
 
-// What a direction of the cone meets: `cosine` is that to the axis, `across` the part across it, of the squared length sine2 or a
-// little more.
+// What a direction of the cone meets: `cosine` is that to the axis, `across` the part across it, of the squared length
+// sine2 or a little more.
 RT_FN ConeSample meetSphere(RT_IN(SphereCone) s, float radius, vec3 direction, float cosine, vec3 across, float sine2) {
     ConeSample result;
     result.direction = direction;
@@ -72,7 +72,7 @@ RT_FN ConeSample sampleSphereCone(RT_IN(SphereCone) s, float radius, vec2 u) {
     return result;
 }
 
-// ---- triangle -------------------------------------------------------------------------------------------------------
+// ---- triangle ------------------------------------------------------------------------------------------------------
 
 // A triangle seen from a point: unit vectors to its vertices and the terms of tan(solid angle / 2) = det / (dots +
 // base), where det = a . (b x c), dots = (a + b) . c and base = 1 + a . b. The determinant comes from the plane's
@@ -123,7 +123,7 @@ RT_FN vec3 sampleSphericalTriangle(RT_IN(SphericalTriangle) t, vec2 u) {
     return normalize(sampleArc(t.b, split, u.y));
 }
 
-// ---- rectangle ------------------------------------------------------------------------------------------------------
+// ---- rectangle -----------------------------------------------------------------------------------------------------
 
 // A rectangle seen from a point at height h above its plane: points x xAxis + y yAxis + h zAxis with x in [x0, x0 +
 // width] and y in [y0, y0 + height].
@@ -297,7 +297,8 @@ RT_FN vec2 sampleSphericalRectangle(RT_IN(SphericalRectangle) r, vec2 u) {
     return vec2(a, clamp(y - r.y0, 0.0f, r.height));
 }
 
-// The numbers u for which sampleSphericalRectangle gives this position, to 1e-5 where the solid angle is at least kSmallRectangle.
+// The numbers u for which sampleSphericalRectangle gives this position, to 1e-5 where the solid angle is at least
+// kSmallRectangle.
 RT_FN vec2 wideRectangleNumbers(RT_IN(SphericalRectangle) r, vec2 position) {
     vec2 p = clamp(position, vec2(0.0f), vec2(r.width, r.height));
     float d2 = square(r.x0 + p.x) + r.h * r.h;
@@ -310,11 +311,11 @@ RT_FN vec2 wideRectangleNumbers(RT_IN(SphericalRectangle) r, vec2 position) {
     return clamp(u, vec2(0.0f), vec2(1.0f));
 }
 
-// ---- thin rectangle -------------------------------------------------------------------------------------------------
+// ---- thin rectangle ------------------------------------------------------------------------------------------------
 
-// A thin rectangle as a line light along its long edge. A line at distance sqrt(d) is seen at
-// d / (p^2 + d)^(3/2) per unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge.
-// That is only nearly uniform in solid angle, but the density is exactly that of the samples.
+// A thin rectangle as a line light along its long edge. A line at distance sqrt(d) is seen at d / (p^2 + d)^(3/2) per
+// unit of p, the coordinate along it from the foot of the perpendicular, all in units of the edge. That is only nearly
+// uniform in solid angle, but the density is exactly that of the samples.
 struct Strip {
     float start; // p of the edge's beginning; its end is at start + 1
     float d;
@@ -372,7 +373,7 @@ RT_FN float stripPdf(RT_IN(Strip) c, float p) {
     return c.d / (r2 * sqrt(r2) * abs(c.rest0 - c.rest1));
 }
 
-// ---- points uniform in area -----------------------------------------------------------------------------------------
+// ---- points uniform in area ----------------------------------------------------------------------------------------
 
 // Density per steradian of a point drawn uniformly from `area`, seen at `distance` under the cosine `cosine` of its
 // normal.

@@ -27,9 +27,9 @@ RT_FN float gammaBound(float n) {
     return n * kEpsilon / (1.0f - n * kEpsilon);
 }
 
-// Bound of what the engines' ways of meeting flat primitives and of placing the point add up to. That of the formulas below
-// would be 7; but a device's own triangle test also has to see that a ray leaves its surface, and NVIDIA's let one in 2000
-// paths of a closed box fall through with 7.
+// Bound of what the engines' ways of meeting flat primitives and of placing the point add up to. That of the formulas
+// below would be 7; but a device's own triangle test also has to see that a ray leaves its surface, and NVIDIA's let
+// one in 2000 paths of a closed box fall through with 7.
 const float kFlatError = 30.0f;
 
 // The object-space normal taken to world space by the inverse transpose: the columns of toObject.
@@ -130,7 +130,8 @@ RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(H
     s.shading = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.shading);
     if (instance.material != kNone) s.material = instance.material;
     if (has(features, kFeatureEllipsoidLights) && instance.light != kNone) {
-        // Rays start where the map to the unit sphere leaves no doubt that they are outside, so that it does not light itself.
+        // Rays start where the map to the unit sphere leaves no doubt that they are outside, so that it does not light
+        // itself.
         s.light = instance.light;
         vec3 q = transformPoint(abs(instance.toObject[0]), abs(instance.toObject[1]), abs(instance.toObject[2]),
                                 abs(s.position));

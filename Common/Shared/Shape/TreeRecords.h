@@ -1,12 +1,12 @@
-// The layout of acceleration structures that shaders traverse on their own: a binary tree whose nodes hold the boxes of both
-// children, with primitives in the order of its leaves, or, for the smallest scenes, lists without a tree.
+// The layout of acceleration structures that shaders traverse on their own: a binary tree whose nodes hold the boxes of
+// both children, with primitives in the order of its leaves, or, for the smallest scenes, lists without a tree.
 #ifndef RT_SHARED_TREE_RECORDS_H
 #define RT_SHARED_TREE_RECORDS_H
 #include "Common/Shared/Base/Types.h"
 
 RT_SHARED_BEGIN
 
-// ---- references ------------------------------------------------------------------------------------------------------
+// ---- references ----------------------------------------------------------------------------------------------------
 
 // What a child of a node is: another node (its index), or a run of primitives of one kind in their array.
 //   bit 31: leaf    30..29: kind    28..26: primitives - 1    25..0: index of the first
@@ -32,7 +32,7 @@ RT_FN uint treeLeafCount(uint leaf) {
     return (leaf >> kTreeCountShift & (kTreeLeafSize - 1u)) + 1u;
 }
 
-// ---- records ---------------------------------------------------------------------------------------------------------
+// ---- records -------------------------------------------------------------------------------------------------------
 // Vectors of four, so that each is one load. Indices among floats are their bits.
 
 // Slabs: lower and upper bound of the first child, then of the second.
@@ -57,9 +57,9 @@ struct TreeTriangle {
     vec4 vertex2;
 };
 
-// ---- lists -----------------------------------------------------------------------------------------------------------
-// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), then four a quad, three a triangle, as
-// above.
+// ---- lists ---------------------------------------------------------------------------------------------------------
+// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), then four a quad, three a
+// triangle, as above.
 
 const uint kMaxListedPrimitives = 64u; // most that lists may hold
 const uint kListVectors = 4u * kMaxListedPrimitives;

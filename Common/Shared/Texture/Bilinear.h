@@ -1,6 +1,6 @@
-// A density on the unit square in proportion to the bilinear function between values at its corners: samples that are uniform in
-// something are brought closer to a product with a smooth function, of which the values at the corners (0,0), (1,0), (0,1) and (1,1)
-// are known: none negative, not all 0.
+// A density on the unit square in proportion to the bilinear function between values at its corners: samples that are
+// uniform in something are brought closer to a product with a smooth function, of which the values at the corners
+// (0,0), (1,0), (0,1) and (1,1) are known: none negative, not all 0.
 #ifndef RT_SHARED_BILINEAR_H
 #define RT_SHARED_BILINEAR_H
 #include "Common/Shared/Base/Sampling.h"

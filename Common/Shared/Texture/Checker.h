@@ -5,7 +5,8 @@
 
 RT_SHARED_BEGIN
 
-// Checkers within checkers, the outermost counted. The scene compiler refuses more, so that a lookup ends at something else.
+// Checkers within checkers, the outermost counted. The scene compiler refuses more, so that a lookup ends at something
+// else.
 const int kMaxCheckerDepth = 8;
 
 // Whether the cell of the solid checker that holds p, cells of edge `scale`, is one of the even ones.

@@ -8,7 +8,7 @@
 
 RT_SHARED_BEGIN
 
-// ---- coordinates ----------------------------------------------------------------------------------------------------
+// ---- coordinates ---------------------------------------------------------------------------------------------------
 
 // Texture coordinates of a sphere's outward unit normal: u around +y from -x, v from the south pole.
 RT_FN vec2 sphereUv(vec3 n) {
@@ -17,7 +17,7 @@ RT_FN vec2 sphereUv(vec3 n) {
     return clamp(vec2(u, v), vec2(0.0f), vec2(1.0f));
 }
 
-// ---- Perlin noise ---------------------------------------------------------------------------------------------------
+// ---- Perlin noise --------------------------------------------------------------------------------------------------
 
 // Contribution of the lattice point `cell` + `corner`, corner in {0,1}^3, to the noise at `cell` + `f`.
 RT_FN float perlinCorner(SceneRef scene, uint table, ivec3 cell, vec3 f, vec3 smoothed, ivec3 corner) {
@@ -71,7 +71,7 @@ RT_FN float noiseValue(SceneRef scene, RT_IN(Texture) t, vec3 point) {
     return 0.5f * (1.0f + sinCos2Pi(turns - floor(turns)).x);
 }
 
-// ---- images ---------------------------------------------------------------------------------------------------------
+// ---- images --------------------------------------------------------------------------------------------------------
 
 // The four texels of a bilinear lookup and the weights of the second column and row. Texel centres lie at (i + 1/2) /
 // size; beyond the outermost the edge is repeated.
@@ -102,7 +102,7 @@ RT_FN vec3 imageColor(SceneRef scene, RT_IN(Image) image, vec2 uv) {
     return mix(upper, lower, f.weight.y);
 }
 
-// ---- any texture ----------------------------------------------------------------------------------------------------
+// ---- any texture ---------------------------------------------------------------------------------------------------
 
 // `point` in authored world coordinates (SceneGlobals::origin added back), `uv` the surface's.
 RT_FN vec3 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv) {

@@ -1,5 +1,5 @@
-// Every shared formula on pseudo-random arguments, valid as C++20 and as GLSL: the same function runs on both sides, and a
-// test compares what comes out. Arguments are made of hashes, so they are the same words on both sides.
+// Every shared formula on pseudo-random arguments, valid as C++20 and as GLSL: the same function runs on both sides,
+// and a test compares what comes out. Arguments are made of hashes, so they are the same words on both sides.
 #ifndef RT_SHADERS_FORMULA_PROBE_H
 #define RT_SHADERS_FORMULA_PROBE_H
 #include "Common/Shared/Base/Random.h"
@@ -146,10 +146,10 @@ RT_FN uvec4 probeCluster(RT_INOUT(Arguments) a) {
     c.center = cubePoint(a);
     c.radius = 0.5f * uniformNumber(a);
     c.axis = unitVector(a);
-    c.alignment = uniformNumber(a);
+    c.meanResultantLength = uniformNumber(a);
     c.spreadCosine = sinCos2Pi(0.5f * uniformNumber(a)).y;
-    c.facing = 2.0f;
-    c.around = 0.5f;
+    c.planarIntensity = 2.0f;
+    c.omnidirectionalIntensity = 0.5f;
     c.child = 7u;
     vec3 p = cubePoint(a);
     return floatWords(clusterContribution(c, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
@@ -241,8 +241,7 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
     if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz));
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
-    vec4 f =
-        evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz), vec3(1.0f), n, wo, hemisphereVector(a, n));
+    vec4 f = evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz), vec3(1.0f), n, wo, hemisphereVector(a, n));
     return floatWords(vec3(f), f.w);
 }
 

@@ -1,5 +1,5 @@
-// What the probes of shared code have in common: arguments made of hashes, so that they are the same words on host and device,
-// and results as words.
+// What the probes of shared code have in common: arguments made of hashes, so that they are the same words on host and
+// device, and results as words.
 #ifndef RT_SHADERS_PROBE_ARGUMENTS_H
 #define RT_SHADERS_PROBE_ARGUMENTS_H
 #include "Common/Shared/Base/Random.h"

@@ -12,7 +12,7 @@ LightCluster loadLightCluster(SceneRef scene, uint node, uint i) { // there is n
     LightCluster none;
     return none;
 }
-uint loadLightPlace(SceneRef scene, uint light) { return kNone; }
+uint loadLightLeaf(SceneRef scene, uint light) { return kNone; }
 SceneGlobals loadGlobals(SceneRef scene) {
     SceneGlobals none;
     return none;

@@ -1,5 +1,5 @@
-// Every sampler of directions and the choice among lights, on a few fixed cases each and under stress, valid as C++20 and as
-// GLSL: tests/cross/SamplersTest.cpp proves the same things of what both sides draw.
+// Every sampler of directions and the choice among lights, on a few fixed cases each and under stress, valid as C++20
+// and as GLSL: tests/cross/SamplersTest.cpp proves the same things of what both sides draw.
 #ifndef RT_SHADERS_SAMPLER_PROBE_H
 #define RT_SHADERS_SAMPLER_PROBE_H
 #include "Common/Shared/Base/SceneAccess.h"
@@ -42,7 +42,7 @@ RT_FN vec2 probeSquare(RT_INOUT(Arguments) a, uint mode, uint i) {
     return min((cell + u) * (1.0f / float(kProbeSide)), vec2(0.99999994f));
 }
 
-// ---- lights ---------------------------------------------------------------------------------------------------------
+// ---- lights --------------------------------------------------------------------------------------------------------
 
 RT_FN Light probeLightOf(uint kind, vec3 position, vec3 edgeU, vec3 edgeV, float radius) {
     Light light;
@@ -161,9 +161,9 @@ RT_FN bool isProbeInside(RT_IN(Light) light, vec3 position) {
     return dot(toCenter, toCenter) <= radius * radius;
 }
 
-// kProbeDraws, kProbeStrata: direction and density. kProbeDensity: the density asked for again over that of the sample, 1 if
-// there is none; and the density per area, times the area, at a point uniform in it.
-// kProbeStress, bits: 0 not finite, 1 no positive density, 2 no unit vector, 3 an unusable density when asked again.
+// kProbeDraws, kProbeStrata: direction and density. kProbeDensity: the density asked for again over that of the sample,
+// 1 if there is none; and the density per area, times the area, at a point uniform in it. kProbeStress, bits: 0 not
+// finite, 1 no positive density, 2 no unit vector, 3 an unusable density when asked again.
 RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
     Arguments a;
     a.key = i;
@@ -216,7 +216,7 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
     return uvec4(flags, 0u, 0u, 0u);
 }
 
-// ---- materials ------------------------------------------------------------------------------------------------------
+// ---- materials -----------------------------------------------------------------------------------------------------
 
 RT_FN Material probeCaseMaterial(uint which) {
     Material m;
@@ -231,7 +231,8 @@ RT_FN Material probeCaseMaterial(uint which) {
     return m;
 }
 
-// Cases 0 to 3: diffuse, a medium, metal of little and of much fuzz. Axis of the cone that holds all directions of a case, and the cosine of its half angle; wo is 20 degrees off the normal.
+// Cases 0 to 3: diffuse, a medium, metal of little and of much fuzz. Axis of the cone that holds all directions of a
+// case, and the cosine of its half angle; wo is 20 degrees off the normal.
 const vec3 kProbeOutwards = vec3(0.34202014f, 0.93969262f, 0.0f);
 RT_FN vec4 probeCone(uint which) {
     if (which == 0u) return vec4(0.0f, 1.0f, 0.0f, 0.0f);
@@ -275,7 +276,7 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     return uvec4(flags, 0u, 0u, 0u);
 }
 
-// ---- choice among lights --------------------------------------------------------------------------------------------
+// ---- choice among lights -------------------------------------------------------------------------------------------
 
 // The scene whose lights these are, which the includer provides.
 RT_FN Light probeTableLight(uint i) {

@@ -1,8 +1,9 @@
-// Light sampling by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an unoccluded diffuse
-// receiver then sees no variance. This header is all that others need of the folder.
+// Light sampling by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an
+// unoccluded diffuse receiver then sees no variance. This header is all that others need of the folder.
 //
-// In GLSL only shaders that define RT_PROJECTED have the code, variants that are chosen with kFeatureProjected: drivers take long
-// over code that a specialization constant leaves unused (docs/gpu-engine.md). In the others nothing is ever visible.
+// In GLSL only shaders that define RT_PROJECTED have the code, variants that are chosen with kFeatureProjected: drivers
+// take long over code that a specialization constant leaves unused (docs/gpu-engine.md). In the others nothing is ever
+// visible.
 //
 // Densities are on the unit disk of the receiver's tangent plane; per steradian that is times the cosine.
 #ifndef RT_SHARED_PROJECTED_LIGHTS_H
@@ -21,8 +22,8 @@ RT_FN ProjectedPolygon projectedFlat(RT_IN(Light) light, vec3 corner, vec3 norma
     return makeProjectedPolygon(corner, light.edgeU, light.edgeV, light.normal, light.kind == kLightTriangle, normal);
 }
 
-// (u, v) on a quad or triangle, and the density there, which is 0 if nothing of it is visible. `corner` relative to the receiver,
-// `normal` the receiver's, unit.
+// (u, v) on a quad or triangle, and the density there, which is 0 if nothing of it is visible. `corner` relative to the
+// receiver, `normal` the receiver's, unit.
 RT_CALL vec3 sampleProjectedFlat(RT_IN(Light) light, vec3 corner, vec3 normal, vec2 u) {
     ProjectedPolygon polygon = projectedFlat(light, corner, normal);
     if (!(polygon.total > 0.0f)) return vec3(0.0f);
@@ -35,7 +36,8 @@ RT_CALL float projectedFlatDensity(RT_IN(Light) light, vec3 corner, vec3 normal)
     return total > 0.0f ? 1.0f / total : 0.0f;
 }
 
-// A direction to a sphere that the receiver is outside of, and the density there, which is 0 if nothing of it is visible.
+// A direction to a sphere that the receiver is outside of, and the density there, which is 0 if nothing of it is
+// visible.
 RT_CALL ProjectedDirection sampleProjectedSphere(vec3 toCenter, float radius, vec3 normal, vec2 u) {
     return sampleProjectedCap(makeProjectedCap(makeSphereCone(toCenter, radius), normal), radius, u);
 }

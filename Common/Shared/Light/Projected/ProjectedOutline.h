@@ -50,8 +50,8 @@ RT_FN uint previousVertex(RT_IN(ProjectedOutline) outline, uint i) {
     return i > 0u ? i - 1u : outline.vertices - 1u;
 }
 
-// Twice the signed area of the triangle that the horizontal projections of two vertices make with the receiver. Positive if the
-// azimuth grows; exact for neighbours in a small light.
+// Twice the signed area of the triangle that the horizontal projections of two vertices make with the receiver.
+// Positive if the azimuth grows; exact for neighbours in a small light.
 RT_FN float azimuthTurn(RT_IN(ProjectedOutline) outline, uint i, uint j) {
     vec2 a = outline.uv[i];
     vec2 b = outline.uv[j];
@@ -59,7 +59,7 @@ RT_FN float azimuthTurn(RT_IN(ProjectedOutline) outline, uint i, uint j) {
     return cross2(horizontal(outlinePoint(outline, a)), edge);
 }
 
-// ---- outline --------------------------------------------------------------------------------------------------------
+// ---- outline -------------------------------------------------------------------------------------------------------
 
 RT_FN void clipToHorizon(RT_INOUT(ProjectedOutline) outline) {
     vec2 whole[4];
@@ -113,8 +113,8 @@ RT_FN void addCentralSectors(RT_INOUT(ProjectedOutline) outline, uint edges, boo
     for (uint i = 0u; i < edges; i++) outline.sector[i] = uvec4(i, nextVertex(outline, i), i, i);
 }
 
-// Sectors between two chains of edges that lead from the vertex of the first azimuth to that of the last one: each ends at the next
-// vertex of either chain.
+// Sectors between two chains of edges that lead from the vertex of the first azimuth to that of the last one: each ends
+// at the next vertex of either chain.
 RT_FN void addSectors(RT_INOUT(ProjectedOutline) outline, uint first, uint last) {
     uint a = first;
     uint b = first;
@@ -181,7 +181,7 @@ RT_FN ProjectedOutline makeProjectedOutline(vec3 corner, vec3 edgeU, vec3 edgeV,
     return outline;
 }
 
-// ---- slices ---------------------------------------------------------------------------------------------------------
+// ---- slices --------------------------------------------------------------------------------------------------------
 
 // Slices between two vertices.
 struct OutlineSector {
@@ -253,9 +253,10 @@ RT_FN OutlineSlice outlineSlice(RT_IN(ProjectedOutline) outline, RT_IN(OutlineSe
     slice.uvSpan = swapped ? from - to : to - from;
     slice.p = swapped ? b : a;
     slice.span = vec2(dot(onward, slice.uvSpan), dot(upward, slice.uvSpan));
-    // Twice the triangle between the receiver and the slice is the slice's length times the distance of its line. That is the
-    // height above the light's plane over the sine of the angle between plane and slice, which is small where a light is seen
-    // edge-on, upright. The sine of the angle between both ends times that of their sum is the difference of squares.
+    // Twice the triangle between the receiver and the slice is the slice's length times the distance of its line. That
+    // is the height above the light's plane over the sine of the angle between plane and slice, which is small where a
+    // light is seen edge-on, upright. The sine of the angle between both ends times that of their sum is the difference
+    // of squares.
     float along = outline.plane.x * d.x + outline.plane.y * d.y;
     float sine2 = outline.plane.z * outline.plane.z + along * along;
     if (!(sine2 > 0.0f)) return slice;

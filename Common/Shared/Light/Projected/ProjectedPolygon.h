@@ -1,11 +1,11 @@
-// Parallelograms and triangles by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an
-// unoccluded diffuse receiver then sees no variance. What is below its horizon is cut off.
+// Parallelograms and triangles by projected solid angle, the solid angle weighed by the cosine to the receiver's
+// normal: an unoccluded diffuse receiver then sees no variance. What is below its horizon is cut off.
 //
-// The azimuth cdf is known in closed form and inverted by iteration (Peters, "BRDF Importance Sampling for Polygonal Lights",
-// SIGGRAPH 2021). What lies between two slices of a sector is bounded by two arcs of great circles, since the slices themselves
-// point to the zenith; Lambert's formula makes its projected solid angle a difference of two terms, an arc's length times the
-// cosine of its plane to the horizon. Of thin and small lights nothing would be left of it in single precision: here it is
-// rearranged so that only differences appear that slices know by themselves.
+// The azimuth cdf is known in closed form and inverted by iteration (Peters, "BRDF Importance Sampling for Polygonal
+// Lights", SIGGRAPH 2021). What lies between two slices of a sector is bounded by two arcs of great circles, since the
+// slices themselves point to the zenith; Lambert's formula makes its projected solid angle a difference of two terms,
+// an arc's length times the cosine of its plane to the horizon. Of thin and small lights nothing would be left of it in
+// single precision: here it is rearranged so that only differences appear that slices know by themselves.
 #ifndef RT_SHARED_PROJECTED_POLYGON_H
 #define RT_SHARED_PROJECTED_POLYGON_H
 #include "Common/Shared/Light/Projected/ProjectedOutline.h"
@@ -18,7 +18,7 @@ struct ProjectedPolygon {
     float total;                 // of all; 0: nothing is visible
 };
 
-// ---- azimuth cdf ----------------------------------------------------------------------------------------------------
+// ---- azimuth cdf ---------------------------------------------------------------------------------------------------
 
 // Sines and cosines of the elevations of both ends of a slice, and differences that may be far smaller.
 struct SliceElevations {
@@ -78,7 +78,7 @@ RT_FN float massBetween(RT_IN(SliceElevations) a, RT_IN(SliceElevations) b, vec2
     return max(0.5f * turn.x * (arcRatio(low) * cosines + ratios * a.high.x * b.high.x), 0.0f);
 }
 
-// ---- around the zenith ----------------------------------------------------------------------------------------------
+// ---- around the zenith ---------------------------------------------------------------------------------------------
 
 // The angle between two points as seen by the receiver, and the cosine of the plane through both and it to the horizon.
 RT_FN vec2 edgeArc(vec3 p, vec3 q) {
@@ -87,8 +87,8 @@ RT_FN vec2 edgeArc(vec3 p, vec3 q) {
     return vec2(arcTan(sine, dot(p, q)), abs(across.z) / max(sine, 1.0e-37f));
 }
 
-// Azimuth, as the sine and cosine of the angle from p, up to which the edge from p to q has a share of its projected solid angle,
-// that is, of its arc.
+// Azimuth, as the sine and cosine of the angle from p, up to which the edge from p to q has a share of its projected
+// solid angle, that is, of its arc.
 RT_FN vec2 turnAlongEdge(vec3 p, vec3 q, float share) {
     float angle = edgeArc(p, q).x * (0.5f * kInvPi);
     float toP = sinCos2Pi((1.0f - share) * angle).x / max(length(p), 1.0e-37f);
@@ -99,7 +99,7 @@ RT_FN vec2 turnAlongEdge(vec3 p, vec3 q, float share) {
     return scale > 0.0f ? turn * (1.0f / scale) : vec2(0.0f, 1.0f);
 }
 
-// ---- sampling -------------------------------------------------------------------------------------------------------
+// ---- sampling ------------------------------------------------------------------------------------------------------
 
 const uint kAzimuthIterations = 16u;     // two or three are usual
 const float kAzimuthTolerance = 2.5e-7f; // of the number that is inverted, at first: numbers come in steps of 6e-8
@@ -155,8 +155,9 @@ RT_FN ProjectedPolygon makeProjectedPolygon(vec3 corner, vec3 edgeU, vec3 edgeV,
     return polygon;
 }
 
-// The slice before which a sector has a share of its projected solid angle `mass`: Newton's method, guarded by bisection. In thin
-// lights rounding is coarser than numbers are, so each step is content with half the precision of the one before.
+// The slice before which a sector has a share of its projected solid angle `mass`: Newton's method, guarded by
+// bisection. In thin lights rounding is coarser than numbers are, so each step is content with half the precision of
+// the one before.
 RT_FN OutlineSlice findSlice(RT_IN(ProjectedOutline) outline, RT_IN(OutlineSector) sector, float share, float mass,
                              float total) {
     OutlineSlice slice = outlineSlice(outline, sector, vec2(0.0f, 1.0f));

@@ -1,17 +1,19 @@
-// A sphere wholly above the horizon of a surface, by projected solid angle: seen along the surface's normal the cap of directions
-// to the sphere is an ellipse, in which points are uniform. An unoccluded diffuse receiver then sees no variance, at the price
-// of uniform solid angle. (The case without a cut of Urena & Georgiev, "Stratified Sampling of Projected Spherical Caps", 2018,
-// in a form for caps that are not small; ProjectedCap.h holds all cases and sizes.)
+// A sphere wholly above the horizon of a surface, by projected solid angle: seen along the surface's normal the cap of
+// directions to the sphere is an ellipse, in which points are uniform. An unoccluded diffuse receiver then sees no
+// variance, at the price of uniform solid angle. (The case without a cut of Urena & Georgiev, "Stratified Sampling of
+// Projected Spherical Caps", 2018, in a form for caps that are not small; ProjectedCap.h holds all cases and sizes.)
 #ifndef RT_SHARED_VISIBLE_CAP_H
 #define RT_SHARED_VISIBLE_CAP_H
 #include "Common/Shared/Shape/SphericalShapes.h"
 
 RT_SHARED_BEGIN
 
-// Square of the sine of the cone below which the cosine hardly varies within it, and directions from its axis lose digits.
+// Square of the sine of the cone below which the cosine hardly varies within it, and directions from its axis lose
+// digits.
 const float kLeastCapSine2 = 1.0e-3f;
 
-// Density per steradian of wi, a direction to the sphere; `normal` unit, the cosine between it and the axis at least the sine.
+// Density per steradian of wi, a direction to the sphere; `normal` unit, the cosine between it and the axis at least
+// the sine.
 RT_FN float visibleCapPdf(RT_IN(SphereCone) cone, vec3 normal, vec3 wi) {
     return max(dot(normal, wi), 0.0f) * kInvPi / (cone.sine * cone.sine * dot(normal, cone.axis));
 }
