@@ -88,9 +88,9 @@ void drawRenderControl(Gui& gui) {
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
         ImGui::PushTextWrapPos(0);
-        const std::string time = shortDuration(run.seconds.render);
-        ImGui::Text("Render time %s, %llu spp", time.c_str(), static_cast<unsigned long long>(run.spp));
+        ImGui::TextUnformatted(("Render time " + shortDuration(run.seconds.render)).c_str());
         tooltip("Wall time of sampling alone, as in the statistics of a render without a window");
+        ImGui::Text("%llu samples per pixel", static_cast<unsigned long long>(run.spp));
         ImGui::PopTextWrapPos();
         note("load " + shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
              ", render " + shortDuration(run.seconds.render));
@@ -98,7 +98,7 @@ void drawRenderControl(Gui& gui) {
                  shortDuration(run.pipeline))
                     .c_str());
     } else {
-        for (const char* text : {"Render time: none yet", " "}) note(text); // nothing moves when there is one
+        for (const char* text : {"Render time: none yet", " ", " "}) note(text); // nothing moves when there is one
     }
     ImGui::Separator();
 }
