@@ -133,6 +133,8 @@ class CpuEngine final : public app::Engine {
         context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
         film_ = Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
+        tiles_ = image::allTiles(film_);
+        spp_ = settings.spp;
         passEnd_ = 0;
         nextTile_ = kNoTile;
         counters_ = {};
@@ -144,11 +146,18 @@ class CpuEngine final : public app::Engine {
         nextTile_ = kNoTile;
     }
 
+    void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
+        image::unpackTiles(packed, film_);
+        tiles_ = std::move(tiles);
+        spp_ = spp;
+        nextTile_ = kNoTile;
+    }
+
     app::RenderStatus renderSome(const app::Budget& budget) override {
         const Clock::time_point start = Clock::now();
         const Clock::time_point deadline = start + std::chrono::duration_cast<Clock::duration>(budget.time);
         while (!cancelled(budget)) {
-            if (nextTile_ >= film_.tileCount() && !beginPass()) break;
+            if (nextTile_ >= tiles_.size() && !beginPass()) break;
             runPass(deadline, budget.cancel);
             if (Clock::now() >= deadline) break;
         }
@@ -241,9 +250,9 @@ class CpuEngine final : public app::Engine {
     // done.
     bool beginPass() {
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
-        const std::uint64_t done = film_.minSamples();
-        if (done >= settings_.spp) return false;
-        passEnd_ = std::min<std::uint64_t>((done / block + 1) * block, settings_.spp);
+        const std::uint64_t done = image::minSamples(film_, tiles_);
+        if (tiles_.empty() || done >= spp_) return false;
+        passEnd_ = std::min<std::uint64_t>((done / block + 1) * block, spp_);
         if (passEnd_ % block != 0) film_.reserveOpenBlocks();
         nextTile_ = 0;
         return true;
@@ -257,16 +266,16 @@ class CpuEngine final : public app::Engine {
         runWorkers(policy_, threads_, [&](std::uint32_t) {
             KernelCounters counters;
             for (;;) {
-                const std::uint32_t tile = next.fetch_add(1, std::memory_order_relaxed);
-                if (tile >= film_.tileCount()) break;
-                if (!renderTile(tile, cancel, counters)) abandoned.store(true, std::memory_order_relaxed);
+                const std::uint32_t position = next.fetch_add(1, std::memory_order_relaxed);
+                if (position >= tiles_.size()) break;
+                if (!renderTile(tiles_[position], cancel, counters)) abandoned.store(true, std::memory_order_relaxed);
                 if (abandoned.load(std::memory_order_relaxed) || Clock::now() >= deadline) break;
             }
             addCounters(counters);
         });
         // After an interruption tiles below `next` may be unfinished: the pass starts over, and finished tiles are
         // skipped.
-        nextTile_ = abandoned.load() ? 0 : std::min(next.load(), film_.tileCount());
+        nextTile_ = abandoned.load() ? 0 : std::min(next.load(), static_cast<std::uint32_t>(tiles_.size()));
     }
 
     bool renderTile(std::uint32_t tile, const std::atomic<bool>* cancel, KernelCounters& counters) {
@@ -306,9 +315,9 @@ class CpuEngine final : public app::Engine {
 
     app::RenderStatus status() const {
         app::RenderStatus status;
-        status.samplesTotal = std::uint64_t{settings_.width} * settings_.height * settings_.spp;
-        status.samplesDone = film_.totalSamples();
-        status.finished = film_.minSamples() >= settings_.spp;
+        status.samplesTotal = image::pixelCount(film_, tiles_) * spp_;
+        status.samplesDone = image::totalSamples(film_, tiles_);
+        status.finished = tiles_.empty() || image::minSamples(film_, tiles_) >= spp_;
         return status;
     }
 
@@ -324,8 +333,10 @@ class CpuEngine final : public app::Engine {
     KernelContext context_;
 
     Film film_;
+    image::TileList tiles_;            // of the film, that are to be rendered
+    std::uint32_t spp_ = 0;            // up to so many samples per pixel
     std::uint64_t passEnd_ = 0;        // samples per pixel that the pass in progress leads to
-    std::uint32_t nextTile_ = kNoTile; // first tile that the pass has not handed out
+    std::uint32_t nextTile_ = kNoTile; // position in tiles_ of the first tile that the pass has not handed out
 
     std::mutex countersMutex_;
     KernelCounters counters_;

@@ -62,7 +62,7 @@ DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& de
     const auto make = [&](VkDeviceSize bytes) {
         return vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the film");
     };
-    samplesBuffer_ = make(VkDeviceSize{capacity_} * sizeof(std::uint32_t));
+    samplesBuffer_ = make((VkDeviceSize{capacity_} + tiles) * sizeof(std::uint32_t));
     sums_ = make(pixels * sizeof(FilmSum));
     if (desc.secondMoments) squares_ = make(pixels * sizeof(FilmSum));
 }
@@ -73,21 +73,24 @@ void DeviceFilm::reserveOpenBlocks() {
     open_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::Device, "the film");
 }
 
-void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
-    firstTile_ = firstTile;
-    const std::uint32_t tiles = std::min(capacity_ / desc_.replicates, film.tileCount() - firstTile);
-    samples_.assign(std::size_t{tiles} * desc_.replicates, 0);
+void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_t first) {
+    const std::size_t count = std::min<std::size_t>(capacity_ / desc_.replicates, tiles.size() - first);
+    const auto begin = tiles.begin() + static_cast<std::ptrdiff_t>(first);
+    tiles_.assign(begin, begin + static_cast<std::ptrdiff_t>(count));
+    first_ = first;
+    isWhole_ = count == tiles.size();
+    samples_.assign(count * desc_.replicates, 0);
     stepSamples_ = 0;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) stepSamples_ += pixelsInside(slot);
     bool fresh = true;
-    for (std::uint32_t tile = firstTile; tile < firstTile + tiles && fresh; ++tile) fresh = film.samples(tile) == 0;
+    for (const std::uint32_t tile : tiles_) fresh = fresh && film.samples(tile) == 0;
     if (fresh) return clear();
     std::vector<FilmSum> sums;
     std::vector<FilmSum> squares;
     std::vector<vec3> open;
     bool anyOpen = false;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
-        const Film::TileState state = film.state(firstTile + slot / desc_.replicates, slot % desc_.replicates);
+        const Film::TileState state = film.state(tiles_[slot / desc_.replicates], slot % desc_.replicates);
         samples_[slot] = state.samples;
         anyOpen = anyOpen || !state.open.empty();
         appendPairs(state.sums, sums);
@@ -105,16 +108,22 @@ void DeviceFilm::load(const Film& film, std::uint32_t firstTile) {
         squares.clear();
         open.clear();
     }
+    uploadCounts();
+}
+
+void DeviceFilm::uploadCounts() {
     vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(samples_)));
+    vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(tiles_)), samples_.size() * sizeof samples_[0]);
 }
 
 void DeviceFilm::clear() {
     context_.run([&](VkCommandBuffer commands) {
-        for (const vulkan::Buffer* buffer : {&samplesBuffer_, &sums_, &squares_}) {
+        for (const vulkan::Buffer* buffer : {&sums_, &squares_}) {
             if (*buffer) vkCmdFillBuffer(commands, buffer->get(), 0, VK_WHOLE_SIZE, 0);
         }
         vulkan::barrier(commands, vulkan::kTransferWrite, context_.bufferUses());
     });
+    uploadCounts();
 }
 
 void DeviceFilm::store(Film& film) const {
@@ -143,7 +152,7 @@ void DeviceFilm::store(Film& film) const {
             if (squares_) state.squares = toDoubles(&squares[pixel], squareValues);
             if (state.samples % Film::kBlock != 0) state.open = {&open[pixel].x, kTileValues};
             const std::uint32_t slot = first + i;
-            film.assign(firstTile_ + slot / desc_.replicates, slot % desc_.replicates, state);
+            film.assign(tiles_[slot / desc_.replicates], slot % desc_.replicates, state);
         }
     }
 }
@@ -153,7 +162,6 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
     launch.sums = sums_.address();
     launch.squares = squares_.address();
     launch.open = open_.address();
-    launch.firstTile = firstTile_;
     launch.tilesX = tilesX_;
     launch.replicates = desc_.replicates;
     launch.filmSlots = slotCount();
@@ -164,7 +172,7 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
     launch.keepSquares = squares_ ? 1u : 0u;
 }
 
-bool DeviceFilm::isWhole() const {
+bool DeviceFilm::isImage() const {
     return slotCount() == tilesX_ * ((desc_.height + shared::kTile - 1) / shared::kTile) * desc_.replicates;
 }
 
@@ -174,7 +182,7 @@ std::uint32_t DeviceFilm::bandSlots() const {
 }
 
 std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
-    const std::uint32_t tile = firstTile_ + slot / desc_.replicates;
+    const std::uint32_t tile = tiles_[slot / desc_.replicates];
     return std::min(shared::kTile, desc_.width - tile % tilesX_ * shared::kTile) *
            std::min(shared::kTile, desc_.height - tile / tilesX_ * shared::kTile);
 }

@@ -1,10 +1,11 @@
-// The part of a film that is on the device: the sums of consecutive tiles; and what is done with them there.
+// The part of a film that is on the device: the sums of some tiles; and what is done with them there.
 #pragma once
 #include <cstdint>
 #include <vector>
 
 #include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
+#include "Common/Image/FilmTiles.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
@@ -43,7 +44,7 @@ class FilmResolver {
     vulkan::Buffer pixels_; // of the host, of the largest so far
 };
 
-// A slot is a tile in one replicate; slots are counted from the first tile here.
+// A slot is a tile in one replicate; slots are counted from the first tile on the device.
 class DeviceFilm {
   public:
     // Room for `tiles` tiles of such a film, not initialised: load() comes first.
@@ -51,21 +52,22 @@ class DeviceFilm {
 
     // Whether it can hold `tiles` tiles of such a film.
     bool fits(const image::FilmDesc& desc, std::uint32_t tiles) const {
-        return desc == desc_ && tiles * desc.replicates == capacity_;
+        return desc == desc_ && tiles * desc.replicates <= capacity_;
     }
-    // Replaces the contents by the film's from tile `firstTile` on.
-    void load(const image::Film& film, std::uint32_t firstTile);
+    // Replaces the contents by as many of these tiles of the film as there is room for, from position `first` on.
+    void load(const image::Film& film, const image::TileList& tiles, std::size_t first);
     // Copies the contents into the film.
     void store(image::Film& film) const;
-    // What Film::resolve() would return, and the samples of each tile; isWhole() is required.
+    // What Film::resolve() would return, and the samples of each tile; isImage() is required.
     app::Snapshot snapshot(FilmResolver& resolver) const;
     // Makes room for blocks that stay open.
     void reserveOpenBlocks();
 
-    std::uint32_t firstTile() const { return firstTile_; }
+    std::size_t first() const { return first_; }
     std::uint32_t replicates() const { return desc_.replicates; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
-    bool isWhole() const; // it holds all tiles of the image
+    bool isWhole() const { return isWhole_; } // it holds all tiles that there were to load
+    bool isImage() const;                     // it holds all tiles of the image
     // Of a step, which is one sample of every slot for each of its pixels inside of the image.
     std::uint64_t stepSamples() const { return stepSamples_; }
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
@@ -82,18 +84,21 @@ class DeviceFilm {
 
   private:
     void clear();
-    std::uint32_t tileCount() const { return slotCount() / desc_.replicates; } // that it holds
+    void uploadCounts();
+    std::uint32_t tileCount() const { return static_cast<std::uint32_t>(tiles_.size()); } // that it holds
     std::uint64_t tileSamples(std::uint32_t tile) const; // counted from the first tile; all replicates
     std::uint32_t pixelsInside(std::uint32_t slot) const;
 
     vulkan::VulkanContext& context_;
     image::FilmDesc desc_;
     std::uint32_t tilesX_;
-    std::uint32_t firstTile_ = 0;
+    image::TileList tiles_; // of the image
+    std::size_t first_ = 0; // position of the first in what there was to load
+    bool isWhole_ = false;
     std::uint32_t capacity_;             // slots
     std::vector<std::uint32_t> samples_; // per slot, as on the device
     std::uint64_t stepSamples_ = 0;
-    vulkan::Buffer samplesBuffer_;
+    vulkan::Buffer samplesBuffer_; // and the tiles, as FilmLaunch::samples
     vulkan::Buffer sums_;
     vulkan::Buffer squares_; // empty without second moments
     vulkan::Buffer open_;    // empty until reserved

@@ -53,6 +53,7 @@ class GpuEngine final : public app::Engine {
 
     void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override;
     void restore(Film film) override { setFilm(std::move(film)); }
+    void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override;
     app::RenderStatus renderSome(const app::Budget& budget) override;
     const Film& film() override;
     app::Snapshot snapshot() override;
@@ -66,6 +67,7 @@ class GpuEngine final : public app::Engine {
   private:
     std::unique_ptr<Kernel> makeKernel(KernelPurpose purpose) const;
     void setFilm(Film film);
+    void loadTiles();
     void uploadConstants(const scene::CameraDesc& camera);
     bool beginPass();
     void launchNext();
@@ -75,8 +77,6 @@ class GpuEngine final : public app::Engine {
     void endLaunches();
     bool nextRegion();
     void refresh();
-
-    std::uint64_t pixels() const { return std::uint64_t{settings_.width} * settings_.height; }
 
     vulkan::VulkanContext& context_;
     GpuEngineOptions options_;
@@ -96,11 +96,14 @@ class GpuEngine final : public app::Engine {
     SpecializationConstants constants_; // that it was compiled for
 
     Film film_;                          // the whole film, on the host
-    std::unique_ptr<DeviceFilm> region_; // the part that is being rendered: all of it unless it is large
+    image::TileList tiles_;              // of it, that are to be rendered
+    std::uint32_t spp_ = 0;              // up to so many samples per pixel
+    std::unique_ptr<DeviceFilm> region_; // those on the device: all of them unless they are many
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
     app::Stopwatch sinceRefresh_;
-    std::uint64_t samplesDone_ = 0;        // of the film, what region_ is ahead included
+    std::uint64_t samplesDone_ = 0;        // of the tiles, what region_ is ahead included
+    std::uint64_t samplesTotal_ = 0;       // of the tiles, when they are done
     std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
     std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
@@ -158,14 +161,30 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
-    const std::uint32_t tiles = std::min(film_.tileCount(), std::max(1u, options_.regionSlots / settings_.replicates));
+    tiles_ = image::allTiles(film_);
+    spp_ = settings_.spp;
+    loadTiles();
+}
+
+void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) {
+    if (dirty_) refresh();
+    image::unpackTiles(packed, film_);
+    tiles_ = std::move(tiles);
+    spp_ = spp;
+    loadTiles();
+}
+
+void GpuEngine::loadTiles() {
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(tiles_.size(), 1));
+    const std::uint32_t tiles = std::min(count, std::max(1u, options_.regionSlots / settings_.replicates));
     if (!region_ || !region_->fits(film_.desc(), tiles)) {
         region_ = nullptr; // its memory may be needed for the next one
         region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
     }
-    region_->load(film_, 0);
-    samplesDone_ = film_.totalSamples();
-    begun_ = film_.minSamples();
+    region_->load(film_, tiles_, 0);
+    samplesDone_ = image::totalSamples(film_, tiles_);
+    samplesTotal_ = image::pixelCount(film_, tiles_) * spp_;
+    begun_ = image::minSamples(film_, tiles_);
     dirty_ = false;
     failed_ = false;
     pass_.reset();
@@ -199,16 +218,16 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
         throw;
     }
     app::RenderStatus status;
-    status.samplesTotal = pixels() * settings_.spp;
+    status.samplesTotal = samplesTotal_;
     status.samplesDone = samplesDone_;
-    status.finished = samplesDone_ >= status.samplesTotal;
+    status.finished = samplesDone_ >= samplesTotal_;
     return status;
 }
 
 bool GpuEngine::beginPass() {
-    if (begun_ >= settings_.spp) return false;
-    if (region_->firstTile() != 0) region_->load(film_, 0);
-    pass_ = planPass(*region_, begun_, settings_.spp, launchSize_->suggest());
+    if (tiles_.empty() || begun_ >= spp_) return false;
+    if (region_->first() != 0) region_->load(film_, tiles_, 0);
+    pass_ = planPass(*region_, begun_, spp_, launchSize_->suggest());
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
 }
@@ -266,9 +285,9 @@ bool GpuEngine::nextRegion() {
     finishPaths();
     endLaunches();
     refresh();
-    const std::uint32_t next = region_->firstTile() + region_->slotCount() / settings_.replicates;
-    if (next >= film_.tileCount()) return false;
-    region_->load(film_, next);
+    const std::size_t next = region_->first() + region_->slotCount() / settings_.replicates;
+    if (next >= tiles_.size()) return false;
+    region_->load(film_, tiles_, next);
     pass_->nextSlot = 0;
     return true;
 }
@@ -292,7 +311,7 @@ const Film& GpuEngine::film() {
 }
 
 app::Snapshot GpuEngine::snapshot() {
-    if (failed_ || !region_ || !region_->isWhole()) return Engine::snapshot();
+    if (failed_ || !region_ || !region_->isImage()) return Engine::snapshot();
     try {
         if (!resolver_) resolver_.emplace(context_, cache_);
         return region_->snapshot(*resolver_);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Session/Session.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
@@ -27,14 +28,40 @@ bool needsRayTracing(rt::app::GpuEngineKind engine) {
 }
 
 // The device is opened only when something is to be rendered.
-rt::ExitCode render(const rt::app::Options& options) {
-    std::optional<rt::vulkan::VulkanContext> context;
-    const rt::ExitCode code = rt::app::runSession(options, [&] {
-        context.emplace(
-            rt::vulkan::ContextOptions{options.device, options.validation, needsRayTracing(options.gpuEngine)});
-        return rt::gpu::makeGpuEngine(*context, {.engine = options.gpuEngine});
-    });
-    context.reset();
+class Device {
+  public:
+    Device(const rt::app::Options& options, const rt::app::Communicator* ranks) : options_(options), ranks_(ranks) {}
+    std::unique_ptr<rt::app::Engine> makeEngine() {
+        const std::string device = ranks_ == nullptr || !options_.device.empty() ? options_.device : deviceOfRank();
+        context_.emplace(rt::vulkan::ContextOptions{device, options_.validation, needsRayTracing(options_.gpuEngine)});
+        return rt::gpu::makeGpuEngine(*context_, {.engine = options_.gpuEngine});
+    }
+
+  private:
+    // The ranks of a host take devices like the best one in turn.
+    std::string deviceOfRank() const {
+        const rt::vulkan::Instance instance(false);
+        const bool rayTracing = needsRayTracing(options_.gpuEngine);
+        const std::vector<rt::vulkan::DeviceInfo> all = rt::vulkan::findDevices(instance);
+        const VkPhysicalDeviceType type = rt::vulkan::chooseDevice(all, "", rayTracing).type;
+        std::vector<std::size_t> alike;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (all[i].type == type && (rayTracing ? all[i].tracesRays() : all[i].suitable())) alike.push_back(i);
+        return std::to_string(alike[static_cast<std::size_t>(ranks_->localRank()) % alike.size()]);
+    }
+
+    const rt::app::Options& options_;
+    const rt::app::Communicator* ranks_;
+    std::optional<rt::vulkan::VulkanContext> context_;
+};
+
+rt::ExitCode render(const rt::app::Options& options, rt::app::Communicator* ranks) {
+    rt::ExitCode code;
+    {
+        Device device(options, ranks);
+        code = rt::app::runSession(
+            options, [&] { return device.makeEngine(); }, ranks);
+    }
     if (const std::uint64_t messages = rt::vulkan::Instance::allValidationMessages(); messages > 0) {
         throw rt::RenderError(std::to_string(messages) + " messages of Vulkan's validation");
     }
@@ -56,6 +83,9 @@ class OwningEngine final : public rt::app::Engine {
         engine_->reset(camera, settings);
     }
     void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
+    void renderOnly(rt::image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
+        engine_->renderOnly(std::move(tiles), spp, packed);
+    }
     rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override { return engine_->renderSome(budget); }
     const rt::image::Film& film() override { return engine_->film(); }
     rt::app::Snapshot snapshot() override { return engine_->snapshot(); }
@@ -109,20 +139,38 @@ rt::ExitCode showWindow(const rt::app::Options&) {
 
 #endif
 
-int run(const std::vector<std::string>& arguments) {
+int run(const std::vector<std::string>& arguments, rt::app::Communicator* ranks) {
     const auto options = rt::app::parseOptions(kGpuProgram, arguments, std::cout);
     if (!options) return 0; // --help, --version
     rt::setUpLog({kGpuProgram, options->quiet, options->verbose, options->logFile});
-    if (options->command == rt::app::Command::ListDevices) {
+    if (options->command == rt::app::Command::ListDevices && ranks == nullptr) {
         const rt::vulkan::Instance instance(options->validation);
         std::cout << rt::vulkan::describeDevices(rt::vulkan::findDevices(instance));
         return 0;
     }
-    return static_cast<int>(options->window ? showWindow(*options) : render(*options));
+    if (options->window && ranks != nullptr) throw rt::UsageError(rt::app::kNoWindowOfRanks);
+    return static_cast<int>(options->window ? showWindow(*options) : render(*options, ranks));
+}
+
+// As a rank other than 0, whose messages are rank 0's. False: rank 0 has nothing to render.
+bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ranks) {
+    std::ostream nowhere(nullptr);
+    const auto options = rt::app::parseOptions(kGpuProgram, arguments, nowhere);
+    if (!options || options->window || options->command != rt::app::Command::Render) return false;
+    rt::setUpLog({.program = kGpuProgram, .quiet = true});
+    Device device(*options, &ranks);
+    rt::app::followSession(
+        *options, [&] { return device.makeEngine(); }, ranks);
+    return true;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-    return rt::runMain(kGpuProgram, [&] { return run({argv + std::min(argc, 1), argv + argc}); });
+    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    return rt::runMain(kGpuProgram, [&] {
+        const std::unique_ptr<rt::app::Communicator> ranks = rt::app::joinRanks();
+        return rt::app::runOnRank(
+            ranks.get(), [&] { return run(arguments, ranks.get()); }, [&] { return follow(arguments, *ranks); });
+    });
 }

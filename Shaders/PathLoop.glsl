@@ -25,7 +25,8 @@ struct Work {
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint slot = launchSlot(launch, step / launch.steps);
-    work.pixel = slotPixel(launch, slot, work.number % kTilePixels);
+    if (slot >= launch.filmSlots) return false;
+    work.pixel = pixelInTile(launch, launch.samples.at[tileEntry(launch, slot)], work.number % kTilePixels);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
     uint done = launch.samples.at[slot];
     uint index = done + step % launch.steps;

@@ -71,7 +71,7 @@ struct RenderConstants {
 };
 
 // ---- film ----------------------------------------------------------------------------------------------------------
-// Slots follow each other as in image::Film: tiles of 8x8 pixels row by row, the replicates of each tile side by side.
+// Slots follow each other as in image::Film: tiles of 8x8 pixels, the replicates of each tile side by side.
 // A value of a pixel stands at slot * kTilePixels + (row * 8 + column) in its array, slots counted from the film's
 // first.
 
@@ -106,7 +106,7 @@ RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 // each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
 // without slots takes no samples and leaves no paths.
 struct FilmLaunch {
-    MutableWordArray samples;          // per slot: samples that its pixels have
+    MutableWordArray samples;          // per slot: samples that its pixels have; then per tile: its number in the image
     FilmSumArray sums;                 // of closed blocks
     FilmSumArray squares;              // of (block sum)^2 / kBlock, if keepSquares
     MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
@@ -116,7 +116,6 @@ struct FilmLaunch {
     MutableVectorArray radianceBefore; // these three: of the launch before
     UnfinishedPathArray leftBefore;
     MutableWordArray countersBefore;
-    uint firstTile; // of the image: the film's first
     uint tilesX;    // of the image
     uint replicates;
     uint filmSlots;
@@ -163,8 +162,7 @@ RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint slot, uint done) {
     return max(done, min(done + launch.steps, end));
 }
 
-// Slot i of a launch, i < slotCount. There is none from filmSlots on; only the film of a whole image has such, below
-// its last row.
+// Slot i of a launch, i < slotCount. There is none from filmSlots on, where the last band ends early.
 RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }
@@ -180,8 +178,12 @@ RT_FN uint launchSamples(RT_IN(FilmLaunch) launch) {
     return sampleAt(launch, launch.slotCount, 0u, 0u);
 }
 
-RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
-    uint tile = launch.firstTile + slot / launch.replicates;
+// Where launch.samples has the number of a slot's tile in the image.
+RT_FN uint tileEntry(RT_IN(FilmLaunch) launch, uint slot) {
+    return launch.filmSlots + slot / launch.replicates;
+}
+
+RT_FN uvec2 pixelInTile(RT_IN(FilmLaunch) launch, uint tile, uint tilePixel) {
     return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
 }
 

@@ -61,6 +61,10 @@ rt_require(png libpng-dev libpng PACKAGE PNG TARGETS PNG::PNG png_shared png_sta
 rt_dependency(glfw PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)
 rt_dependency(imgui PACKAGE imgui TARGETS imgui::imgui PKGCONFIG imgui)
 
+# Of renders on several machines, which can be left out.
+set(MPI_CXX_SKIP_MPICXX ON)
+find_package(MPI QUIET COMPONENTS CXX)
+
 # libstdc++ runs std::execution::par serially unless oneTBB is there, and libc++ has no policies at all: only Microsoft's
 # library needs nothing.
 add_library(rt-parallel INTERFACE)

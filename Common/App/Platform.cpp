@@ -1,5 +1,6 @@
 #include "Common/App/Platform.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <fstream>
@@ -51,6 +52,10 @@ std::uint64_t machineBytes() {
     MEMORYSTATUSEX memory{};
     memory.dwLength = sizeof memory;
     return GlobalMemoryStatusEx(&memory) ? memory.ullTotalPhys : 0;
+}
+
+std::uint32_t processorCount() {
+    return std::max<std::uint32_t>(1, GetActiveProcessorCount(ALL_PROCESSOR_GROUPS));
 }
 
 double processorSeconds() {
@@ -132,6 +137,11 @@ std::uint64_t residentBytes() {
 std::uint64_t machineBytes() {
     const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
     return pages > 0 && bytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(bytes) : 0;
+}
+
+std::uint32_t processorCount() {
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count > 0 ? static_cast<std::uint32_t>(count) : 1;
 }
 
 double processorSeconds() {

@@ -12,9 +12,10 @@ bool standardErrorIsTerminal();
 bool hasDisplay(); // false where a window cannot be opened for want of a screen; true where only trying tells
 // $XDG_CONFIG_HOME/ray-tracing or the platform's place for it; empty when the environment names none.
 std::filesystem::path userConfigDirectory();
-std::uint64_t residentBytes(); // of this process at present; 0 where unknown
-std::uint64_t machineBytes();  // of memory that it has; 0 where unknown
-double processorSeconds();     // that all threads of this process have run
+std::uint64_t residentBytes();  // of this process at present; 0 where unknown
+std::uint64_t machineBytes();   // of memory that it has; 0 where unknown
+std::uint32_t processorCount(); // of the machine, whichever of them this process may use
+double processorSeconds();      // that all threads of this process have run
 
 // The calling thread, and where the platform lets them inherit it the threads that it starts, give way to others.
 void lowerThreadPriority();

@@ -1,9 +1,11 @@
-// ray-tracing-image: compares, describes and converts image files.
+// ray-tracing-image: compares, describes and converts image files, and joins parts of an image.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
@@ -12,7 +14,9 @@
 #include "Common/Core/Printable.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Display.h"
+#include "Common/Image/FilmRows.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Image/MergeCheckpoints.h"
 #include "Common/Image/Metrics.h"
 
 namespace {
@@ -39,6 +43,7 @@ struct Arguments {
     std::string metric;
     std::optional<double> max;
     std::string output;
+    std::vector<std::string> parts;
     float exposure = 0;
     std::string tonemap = "none";
 };
@@ -103,6 +108,23 @@ int convert(const Arguments& arguments) {
     return static_cast<int>(ExitCode::Done);
 }
 
+int merge(const Arguments& arguments) {
+    const std::filesystem::path output = arguments.output;
+    const bool isCheckpoint = output.extension() == ".rtc";
+    if (!isCheckpoint) image::checkWritable(output);
+    for (const std::string& part : arguments.parts) {
+        std::error_code ignored; // of files that are not there, which reading them tells
+        if (std::filesystem::equivalent(part, output, ignored))
+            throw UsageError("--output " + output.string() + ": would overwrite one of the parts");
+    }
+    const image::Checkpoint whole = image::mergeCheckpoints({arguments.parts.begin(), arguments.parts.end()});
+    if (isCheckpoint)
+        image::writeCheckpoint(output, whole.render, whole.film);
+    else
+        image::writeImage(output, image::meanRows(whole.film));
+    return static_cast<int>(ExitCode::Done);
+}
+
 // Runs the command that the command line asks for.
 int run(int argc, char** argv) {
     CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga.", kProgram};
@@ -127,6 +149,10 @@ int run(int argc, char** argv) {
     converts->add_option("--exposure", arguments.exposure, "Stops");
     converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(app::kTonemaps)));
 
+    CLI::App* const merges = app.add_subcommand("merge", "Join the checkpoints of --tiles or --region to one image");
+    merges->add_option("PARTS", arguments.parts, "Checkpoints of all parts, in any order")->required();
+    merges->add_option("--output,-o", arguments.output, "Image, or checkpoint .rtc")->required();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) { // --help or --version
@@ -134,8 +160,9 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what());
     }
-    if (app.get_subcommands().empty()) throw UsageError("a subcommand is required: diff, info or convert");
+    if (app.get_subcommands().empty()) throw UsageError("a subcommand is required: diff, info, convert or merge");
     if (diffs->parsed()) return diff(arguments);
+    if (merges->parsed()) return merge(arguments);
     return infos->parsed() ? info(arguments) : convert(arguments);
 }
 

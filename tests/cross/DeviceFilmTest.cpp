@@ -27,7 +27,7 @@ double reductionError(std::uint32_t blocks, const std::function<float()>& next) 
     const gpu::FilmPipeline reducer(context, cache, gpu::Shader::FilmReduce, sizeof(shared::FilmLaunch));
     Film film({8, 8, 1, false});
     gpu::DeviceFilm onDevice(context, film.desc(), 1);
-    onDevice.load(film, 0);
+    onDevice.load(film, {0}, 0);
     std::vector<shared::vec3> radiance(std::size_t{kSteps} * shared::kTilePixels);
     const vulkan::Buffer buffer(context.memory(), radiance.size() * sizeof radiance[0], 0, vulkan::Memory::Device,
                                 "radiance");
@@ -79,7 +79,7 @@ TEST(DeviceFilmTest, RoundTripIsExact) {
     }
     film.assign(0, 0, {32, sums, sums, {}});
     gpu::DeviceFilm onDevice(device(), desc, 1);
-    onDevice.load(film, 0);
+    onDevice.load(film, {0}, 0);
     Film back(desc);
     onDevice.store(back);
     EXPECT_TRUE(std::equal(sums.begin(), sums.end(), back.state(0, 0).sums.begin()));

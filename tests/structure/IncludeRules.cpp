@@ -25,6 +25,7 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/App", {"Common/Scene", "Common/Image"}},
     {"Common/Bench", {"Common/App"}},
     {"Common/Tools", {"Common/App"}},
+    {"Common/Mpi", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
     {"Common/Gui", {"Common/App", "Common/Vulkan", "Shaders"}},
     {"RayTracingCPU", {"Common/App", "Common/Accel"}},

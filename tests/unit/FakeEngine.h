@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "Common/App/Session/Engine.h"
@@ -38,6 +39,9 @@ class FakeEngine : public Engine {
         film_ = image::Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
     }
     void restore(image::Film film) override { film_ = std::move(film); }
+    void renderOnly(image::TileList, std::uint32_t, std::span<const std::byte>) override {
+        throw std::logic_error("it renders whole films only");
+    }
 
     // One more sample of every pixel.
     RenderStatus renderSome(const Budget&) override {

@@ -18,6 +18,7 @@ constexpr std::uint32_t kMaxDepth = 4096;
 constexpr std::uint32_t kMaxReplicates = 1024;
 constexpr std::uint32_t kErrorReplicates = 4; // what --target-error implies
 constexpr std::uint32_t kMaxThreads = 4096;
+constexpr std::uint32_t kMaxShares = 1u << 20;
 constexpr std::uint32_t kDefaultWidth = 600;
 constexpr double kMaxAspect = image::kMaxImageSide;
 
@@ -96,6 +97,26 @@ void addImage(FlagSet& flags, Options& options) {
         .addWhole("--replicates", settings.replicates, 1, kMaxReplicates,
                   "independent scramblings, for honest error bars")
         ->default_str("1");
+}
+
+void addPart(FlagSet& flags, Options& options) {
+    flags.group("Image");
+    flags.add("--region", "X,Y,W,H", "render this part; the rest of the image is 0",
+              [&options](const std::string& flag, const std::string& text) {
+                  const std::vector<std::string> parts = parseList(flag, text);
+                  if (parts.size() != 4) refuseValue(flag, text, "X,Y,W,H in pixels");
+                  constexpr std::uint32_t kMost = image::kMaxImageSide;
+                  options.region = Region{parseWhole(flag, parts[0], 0, kMost), parseWhole(flag, parts[1], 0, kMost),
+                                          parseWhole(flag, parts[2], 1, kMost), parseWhole(flag, parts[3], 1, kMost)};
+              });
+    flags.add("--tiles", "I/N",
+              "render the I-th of N shares of the image into a checkpoint for ray-tracing-image merge",
+              [&options](const std::string& flag, const std::string& text) {
+                  const std::size_t slash = text.find('/');
+                  if (slash == std::string::npos) refuseValue(flag, text, "I/N, as 1/8 to 8/8");
+                  const std::uint32_t of = parseWhole(flag, text.substr(slash + 1), 1, kMaxShares);
+                  options.tiles = TileShare{parseWhole(flag, text.substr(0, slash), 1, of), of};
+              });
 }
 
 void addEstimator(FlagSet& flags, RenderSettings& settings) {
@@ -202,10 +223,11 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
     if (parsed.listDevices) options.command = Command::ListDevices;
     if (options.command != Command::Render) return;
     if (parsed.headless && parsed.window) throw UsageError("--window: contradicts --headless");
-    const bool implied = !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit");
+    const bool implied =
+        !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit") || options.tiles;
     options.window = parsed.window || (!parsed.headless && !implied);
     if (!options.window) return;
-    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error"})
+    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error", "--region", "--tiles"})
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
@@ -223,13 +245,16 @@ void settleErrorEstimate(Options& options) {
 
 void settleFiles(Options& options) {
     if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
-    if (!options.saveEvery || !options.checkpoint.empty()) return;
+    if (options.targetError && (options.region || options.tiles))
+        throw UsageError("--target-error: is that of a whole image; not with --region or --tiles");
+    if ((!options.saveEvery && !options.tiles) || !options.checkpoint.empty()) return;
     if (!options.resume.empty())
         options.checkpoint = options.resume;
     else if (!options.outputs.empty())
         options.checkpoint = checkpointBeside(options.outputs.front());
     else
-        throw UsageError("--save-every: needs --checkpoint or --output");
+        throw UsageError((options.tiles ? "--tiles" : "--save-every") +
+                         std::string(": needs --checkpoint or --output"));
 }
 
 void settlePolicy(const FlagSet& flags, Parsed& parsed) {
@@ -263,6 +288,7 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
                                ". Any two of --width, --height, --aspect give the size.");
     addScene(flags, parsed);
     addImage(flags, parsed.options);
+    addPart(flags, parsed.options);
     addEstimator(flags, parsed.options.settings);
     addOutput(flags, parsed.options);
     addDuration(flags, parsed.options);

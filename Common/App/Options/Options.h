@@ -22,6 +22,18 @@ struct SizeRequest {
     bool operator==(const SizeRequest&) const = default;
 };
 
+// Of the image, in pixels from its top left.
+struct Region {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Region&) const = default;
+};
+
+// Share `number`, counted from 1, of `of` shares of the image's tiles.
+struct TileShare {
+    std::uint32_t number = 1, of = 1;
+    bool operator==(const TileShare&) const = default;
+};
+
 struct Options {
     std::string program; // "ray-tracing-cpu" or "ray-tracing-gpu"
     Command command = Command::Render;
@@ -33,7 +45,9 @@ struct Options {
     std::string camera;                       // its pose as JSON; empty: the scene's
     bool oneSidedLights = true;
     SizeRequest size;
-    RenderSettings settings; // complete but for width and height, which may depend on the scene
+    RenderSettings settings;        // complete but for width and height, which may depend on the scene
+    std::optional<Region> region;   // all of the image
+    std::optional<TileShare> tiles; // all of them
 
     std::vector<std::string> outputs;
     float exposure = 0; // stops
@@ -66,6 +80,9 @@ struct Options {
 // What a program built without a window says when one is asked for.
 inline constexpr const char* kNoWindow =
     "this program was built without a window: say --output FILE, --stats FILE or --headless";
+// The same, when mpirun has started several programs.
+inline constexpr const char* kNoWindowOfRanks =
+    "mpirun: renders without a window: say --output FILE, --stats FILE or --headless";
 inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
 
 // Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
+#include "Common/Image/FilmTiles.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {
@@ -23,7 +26,7 @@ struct Budget {
 
 struct RenderStatus {
     bool finished = false;         // every pixel has all its samples
-    std::uint64_t samplesDone = 0; // over all pixels
+    std::uint64_t samplesDone = 0; // over all pixels that are to be rendered
     std::uint64_t samplesTotal = 0;
 };
 
@@ -31,6 +34,16 @@ struct RayCounts {
     std::uint64_t camera = 0;
     std::uint64_t scattered = 0;
     std::uint64_t shadow = 0;
+};
+
+// Of one of several processes that render together, see Common/App/Ranks.
+struct RankFigures {
+    std::string device;
+    std::uint32_t threads = 0; // CPU only
+    std::uint64_t samples = 0; // of pixels inside of the image
+    double busySeconds = 0;    // with its tiles
+    double busyShare = 0;      // of the time of sampling
+    std::uint64_t bytes = 0;   // exchanged with rank 0
 };
 
 struct EngineReport {
@@ -45,8 +58,9 @@ struct EngineReport {
     double longestDispatchSeconds = 0; // of a GPU for what it gets at a time, since it was opened: draws wait for that
     RayCounts rays;
     std::uint64_t nonfiniteSamples = 0;
-    std::uint64_t deviceBytes = 0; // acceleration structure, scene and film held by the engine
-    std::string lightSampling;     // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+    std::uint64_t deviceBytes = 0;  // acceleration structure, scene and film held by the engine
+    std::vector<RankFigures> ranks; // empty for one process
+    std::string lightSampling;      // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
 };
 
 // First-hit features averaged over some samples of each pixel; empty unless asked for.
@@ -90,6 +104,9 @@ struct Engine {
     virtual void reset(const scene::CameraDesc& camera, const RenderSettings& settings) = 0;
     // After reset: goes on from this film, whose desc() must be that of the new one.
     virtual void restore(image::Film film) = 0;
+    // After reset and restore: from now on only these tiles, and of them `spp` samples per pixel, at most those of the
+    // settings; none of the bits depends on it. The film first takes over what `packed` holds (FilmTiles.h).
+    virtual void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed = {}) = 0;
     virtual RenderStatus renderSome(const Budget& budget) = 0;
     // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to
     // date that is a RenderError, once: later calls return it as it was.

@@ -26,6 +26,13 @@ FilmRun::FilmRun(Engine& engine, const scene::CameraDesc& camera, const RenderSe
     limit({});
 }
 
+void FilmRun::renderOnly(const image::TileList& tiles) {
+    const image::Film& film = engine_->film();
+    samplesRestored_ = status_.samplesDone = image::totalSamples(film, tiles);
+    status_.samplesTotal = image::pixelCount(film, tiles) * settings_.spp;
+    engine_->renderOnly(tiles, settings_.spp);
+}
+
 void FilmRun::limit(RunLimits limits) {
     limits_ = std::move(limits);
     limit_ = elapsed_ + limits_.seconds.value_or(kNever);
@@ -74,7 +81,8 @@ StopReason FilmRun::untilStopped(const std::atomic<bool>& cancel) {
 }
 
 ProgressState FilmRun::progress() const {
-    return {status_.samplesDone, status_.samplesTotal, samplesRestored_, pixels(), elapsed_, limits_.seconds};
+    return {status_.samplesDone, status_.samplesTotal, samplesRestored_, status_.samplesTotal / settings_.spp, elapsed_,
+            limits_.seconds};
 }
 
 const image::Film& FilmRun::keptFilm(std::string& lost) const {

@@ -37,6 +37,9 @@ class FilmRun {
     // Begins a film, or goes on from one that has samples. Throws what the engine throws.
     FilmRun(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& settings, image::Film kept = {});
 
+    // Before the first slice: the rest of the film stays as it is.
+    void renderOnly(const image::TileList& tiles);
+
     // In place of the limits before; none at first.
     void limit(RunLimits limits);
 

@@ -6,6 +6,7 @@
 
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/DistinctFiles.h"
+#include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/RenderNote.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -110,7 +111,7 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
     const auto curve = static_cast<std::uint32_t>(options.tonemap);
     for (const std::filesystem::path output : options.outputs)
         write(output, [&] {
-            const ImageRows radiance = meanRows(film);
+            const ImageRows radiance = withinRegion(meanRows(film), options.region);
             return hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance;
         });
 
@@ -124,7 +125,8 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
     for (const std::filesystem::path output : options.outputs)
         for (const Aov aov : options.aovs)
             if (hasFeatures || isOfFilm(aov))
-                write(aovPath(output, aov), [&] { return fitted(rowsOf(aov, film, features), aov, output); });
+                write(aovPath(output, aov),
+                      [&] { return fitted(withinRegion(rowsOf(aov, film, features), options.region), aov, output); });
     return result;
 }
 

@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "Common/App/Platform.h"
+#include "Common/App/Ranks/RankWorker.h"
+#include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/FilmRun.h"
+#include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Reference.h"
@@ -48,12 +51,14 @@ std::string describeEnd(const Statistics& statistics) {
 // One render without a window, stage by stage.
 class HeadlessRender {
   public:
-    explicit HeadlessRender(Options options) : options_(std::move(options)) {}
+    explicit HeadlessRender(Options options, Communicator* ranks = nullptr)
+        : options_(std::move(options)), ranks_(ranks) {}
 
     ExitCode run(const EngineFactory& makeEngine) {
         checkOutputs(options_); // before hours are spent
         load();
         engine_ = makeEngine();
+        if (ranks_ != nullptr) engine_ = makeRankedEngine(std::move(engine_), *ranks_);
         interrupt_.defer(); // from here on there may be something to save
         if (!engine_->setScene(scene_, &interrupt_.requested())) return ExitCode::Interrupted;
         beginFilm();
@@ -69,6 +74,21 @@ class HeadlessRender {
         return statistics_.stoppedBy == StopReason::Interrupted ? ExitCode::Interrupted : ExitCode::Done;
     }
 
+    // Writes nothing, and ends when rank 0 says so.
+    void follow(const EngineFactory& makeEngine) {
+        interrupt_.defer(); // rank 0 gets the same signal
+        load();
+        engine_ = makeEngine();
+        engine_->setScene(scene_, nullptr);
+        const RankLink link{[this](const Message& message) { ranks_->send(0, toBytes(message)); },
+                            [this]() -> std::optional<Message> {
+                                const std::optional<Received> received = ranks_->receive();
+                                if (!received) return std::nullopt;
+                                return toMessage(received->message);
+                            }};
+        serveLeases(*engine_, *scene_, options_.settings, link);
+    }
+
   private:
     void load();
     void beginFilm();
@@ -78,6 +98,7 @@ class HeadlessRender {
     std::string rescue() const;
 
     Options options_;
+    Communicator* ranks_; // null: this process renders alone
     Interrupt interrupt_;
     std::shared_ptr<const scene::CompiledScene> scene_;
     std::optional<image::Image> reference_;
@@ -110,7 +131,8 @@ void HeadlessRender::beginFilm() {
                              ": second_moments is false in the checkpoint but --aov variance needs them");
     }
     run_.emplace(*engine_, scene_->camera, options_.settings, std::move(kept));
-    statistics_.samplesRestored = run_->samplesRestored();
+    if (!isWholeImage(options_)) run_->renderOnly(tilesToRender(options_, engine_->film()));
+    statistics_.samplesRestored = engine_->film().totalSamples();
 }
 
 void HeadlessRender::sample() {
@@ -199,7 +221,9 @@ void exportScene(const Options& options) {
 
 } // namespace
 
-ExitCode runSession(Options options, const EngineFactory& makeEngine) {
+ExitCode runSession(Options options, const EngineFactory& makeEngine, Communicator* ranks) {
+    if (ranks != nullptr && options.command != Command::Render)
+        throw UsageError("mpirun: only to render; start one program for --list-scenes and --export-scene");
     switch (options.command) {
         case Command::ListScenes:
             std::cout << listScenes(options.json);
@@ -212,7 +236,12 @@ ExitCode runSession(Options options, const EngineFactory& makeEngine) {
         case Command::Render:
             break;
     }
-    return HeadlessRender(std::move(options)).run(makeEngine);
+    return HeadlessRender(std::move(options), ranks).run(makeEngine);
+}
+
+void followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks) {
+    options.reference.clear();
+    HeadlessRender(std::move(options), &ranks).follow(makeEngine);
 }
 
 } // namespace rt::app

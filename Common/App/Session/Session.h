@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Ranks/Communicator.h"
 #include "Common/App/Session/Engine.h"
 #include "Common/Core/Error.h"
 
@@ -12,7 +13,10 @@ namespace rt::app {
 using EngineFactory = std::function<std::unique_ptr<Engine>()>;
 
 // Does what the options say with an engine that is made only when something is to be rendered. Errors are exceptions,
-// of which RunMain.h makes the line and the exit code.
-ExitCode runSession(Options options, const EngineFactory& makeEngine);
+// of which RunMain.h makes the line and the exit code. As rank 0 of `ranks`, if there are any, it shares a render out.
+ExitCode runSession(Options options, const EngineFactory& makeEngine, Communicator* ranks = nullptr);
+
+// As another rank: takes part in rank 0's render of the same options. Returns when rank 0 has ended it.
+void followSession(Options options, const EngineFactory& makeEngine, Communicator& ranks);
 
 } // namespace rt::app

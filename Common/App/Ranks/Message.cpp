@@ -1,0 +1,79 @@
+#include "Common/App/Ranks/Message.h"
+
+#include <cstring>
+
+#include "Common/Core/Error.h"
+
+namespace rt::app {
+namespace {
+
+struct Head {
+    MessageKind kind = MessageKind::End;
+    std::uint32_t jsonBytes = 0;
+};
+
+} // namespace
+
+Message failureMessage(const std::exception& error) {
+    const auto* const known = dynamic_cast<const Error*>(&error);
+    const ExitCode code = known != nullptr ? known->code() : ExitCode::Failure;
+    return {MessageKind::Failure, {{"code", static_cast<int>(code)}, {"what", error.what()}}, {}};
+}
+
+Bytes toBytes(const Message& message) {
+    const std::string json = message.fields.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    const Head head{message.kind, static_cast<std::uint32_t>(json.size())};
+    Bytes bytes(sizeof head + json.size() + message.tiles.size());
+    std::memcpy(bytes.data(), &head, sizeof head);
+    std::memcpy(bytes.data() + sizeof head, json.data(), json.size());
+    if (!message.tiles.empty())
+        std::memcpy(bytes.data() + sizeof head + json.size(), message.tiles.data(), message.tiles.size());
+    return bytes;
+}
+
+Message toMessage(const Bytes& bytes) {
+    Head head;
+    if (bytes.size() < sizeof head) throw RenderError("a message of another rank is damaged");
+    std::memcpy(&head, bytes.data(), sizeof head);
+    if (bytes.size() - sizeof head < head.jsonBytes) throw RenderError("a message of another rank is damaged");
+    const char* const json = reinterpret_cast<const char*>(bytes.data() + sizeof head);
+    const auto tiles = bytes.begin() + static_cast<std::ptrdiff_t>(sizeof head + head.jsonBytes);
+    return {head.kind, nlohmann::json::parse(json, json + head.jsonBytes), Bytes(tiles, bytes.end())};
+}
+
+nlohmann::json toJson(const EngineReport& report) {
+    return {{"engine", report.engine},
+            {"device", report.device},
+            {"kernel", report.kernel},
+            {"threads", report.threads},
+            {"features", report.features},
+            {"accel_build", report.accelBuildSeconds},
+            {"pipeline", report.pipelineSeconds},
+            {"render_device", report.renderDeviceSeconds},
+            {"longest_dispatch", report.longestDispatchSeconds},
+            {"rays", {report.rays.camera, report.rays.scattered, report.rays.shadow}},
+            {"nonfinite", report.nonfiniteSamples},
+            {"device_bytes", report.deviceBytes},
+            {"light_sampling", report.lightSampling}};
+}
+
+EngineReport toReport(const nlohmann::json& json) {
+    EngineReport report;
+    report.engine = json.at("engine");
+    report.device = json.at("device");
+    report.kernel = json.at("kernel");
+    report.threads = json.at("threads");
+    report.features = json.at("features");
+    report.accelBuildSeconds = json.at("accel_build");
+    report.pipelineSeconds = json.at("pipeline");
+    report.renderDeviceSeconds = json.at("render_device");
+    report.longestDispatchSeconds = json.at("longest_dispatch");
+    const nlohmann::json& rays = json.at("rays");
+    report.rays = {rays.at(0), rays.at(1), rays.at(2)};
+    report.nonfiniteSamples = json.at("nonfinite");
+    report.deviceBytes = json.at("device_bytes");
+    report.lightSampling = json.at("light_sampling");
+    return report;
+}
+
+} // namespace rt::app

@@ -1,0 +1,37 @@
+// What ranks tell each other: a kind, some fields as JSON, and packed tiles of a film.
+#pragma once
+#include <exception>
+
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Ranks/Communicator.h"
+#include "Common/App/Session/Engine.h"
+
+namespace rt::app {
+
+enum class MessageKind : std::uint32_t {
+    Begin,   // rank 0: reset, with what only rank 0 knows of the settings
+    Lease,   // rank 0: render these tiles
+    Recall,  // rank 0: give back what you hold
+    End,     // rank 0: there is nothing more to do
+    Ready,   // to rank 0: this is my engine; after setScene
+    Result,  // to rank 0: the tiles of the lease, as far as they got
+    Failure, // to rank 0: this went wrong, and I do nothing more
+    Bye      // to rank 0: I got your End
+};
+
+struct Message {
+    MessageKind kind = MessageKind::End;
+    nlohmann::json fields = nullptr;
+    Bytes tiles; // of FilmTiles.h
+};
+
+Message failureMessage(const std::exception& error);
+
+Bytes toBytes(const Message& message);
+Message toMessage(const Bytes& bytes); // throws RenderError for what is none
+
+nlohmann::json toJson(const EngineReport& report);
+EngineReport toReport(const nlohmann::json& json);
+
+} // namespace rt::app

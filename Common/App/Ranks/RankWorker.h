@@ -1,0 +1,22 @@
+// What every rank does: render the tiles that rank 0 leases to it.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "Common/App/Ranks/Message.h"
+#include "Common/App/Session/Engine.h"
+
+namespace rt::app {
+
+// To rank 0, and from it. Rank 0 itself has one within the process.
+struct RankLink {
+    std::function<void(Message)> send;
+    std::function<std::optional<Message>()> receive; // does not wait
+};
+
+// Until rank 0 ends it. The engine has its scene. Throws what the engine throws.
+void serveLeases(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings,
+                 const RankLink& link);
+
+} // namespace rt::app

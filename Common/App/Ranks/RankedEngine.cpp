@@ -1,0 +1,239 @@
+#include "Common/App/Ranks/RankedEngine.h"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "Common/App/Ranks/LocalRank.h"
+#include "Common/App/Ranks/Ranks.h"
+#include "Common/App/Ranks/TilePool.h"
+#include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+
+namespace rt::app {
+namespace {
+
+constexpr double kRecall = 1;                  // seconds that ranks get to give back what they hold
+constexpr std::uint32_t kTilesOfThread = 8;    // of a lease, at least: its threads end together, nearly
+constexpr std::uint32_t kTilesOfDevice = 1024; // likewise: 65 536 pixels
+
+std::string engineKind(const EngineReport& report) {
+    return report.threads > 0 ? "cpu" : report.engine;
+}
+
+std::string instructionSet(const EngineReport& report) {
+    return report.kernel.substr(report.kernel.rfind('/') + 1);
+}
+
+class RankedEngine final : public Engine {
+  public:
+    RankedEngine(std::unique_ptr<Engine> local, Communicator& ranks)
+        : local_(std::move(local)), ranks_(ranks), states_(static_cast<std::size_t>(ranks.size())) {}
+
+    bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
+        if (!local_->setScene(scene, cancel)) return false;
+        scene_ = std::move(scene);
+        return true;
+    }
+
+    void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override;
+    void restore(image::Film film) override { film_ = std::move(film); }
+    void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
+        image::unpackTiles(packed, film_);
+        plan_ = {std::move(tiles), spp, plan_.evenly};
+    }
+    RenderStatus renderSome(const Budget& budget) override;
+    const image::Film& film() override;
+    AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
+        localRank_.reset(); // its engine is free then
+        return local_->renderAovs(request, samples);
+    }
+    EngineReport report() const override;
+
+  private:
+    struct RankState {
+        bool isReady = false;
+        EngineReport report;
+        RankFigures figures;
+    };
+
+    void send(std::size_t rank, Message message);
+    bool receiveAll();
+    void receive(std::size_t rank, const Message& message);
+    void greet(std::size_t rank, const nlohmann::json& fields);
+    void takeResult(std::size_t rank, const Message& message);
+    void fail(std::size_t rank, const Error& error);
+    void lease(std::size_t rank);
+    RenderStatus status() const;
+
+    std::unique_ptr<Engine> local_;
+    Communicator& ranks_;
+    std::shared_ptr<const scene::CompiledScene> scene_;
+    RenderSettings settings_;
+    image::Film film_;
+    TilePlan plan_;
+    std::optional<TilePool> pool_; // from the first samples on
+    Stopwatch clock_;
+    double sampling_ = 0; // seconds
+    std::vector<RankState> states_;
+    std::optional<Error> failure_;       // of a rank
+    std::optional<LocalRank> localRank_; // while there are samples to take
+};
+
+void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& settings) {
+    local_->reset(camera, settings); // whose failures are seen before anybody waits
+    settings_ = settings;
+    film_ = image::Film(local_->film().desc());
+    if (settings.spp % image::Film::kBlock != 0 || settings.replicates > 1) film_.reserveOpenBlocks();
+    plan_ = {image::allTiles(film_), settings.spp, !settings.sppIsKnown};
+    pool_.reset();
+    localRank_.emplace(*local_, *scene_, settings_);
+}
+
+RenderStatus RankedEngine::renderSome(const Budget& budget) {
+    if (!pool_) pool_.emplace(film_, plan_, states_.size());
+    const Stopwatch watch;
+    while (!pool_->isDone()) {
+        if (budget.cancel != nullptr && budget.cancel->load(std::memory_order_relaxed)) break;
+        const bool isBusy = receiveAll();
+        if (failure_) throw *failure_;
+        for (std::size_t rank = 0; rank < states_.size(); ++rank) lease(rank);
+        if (watch.seconds() >= budget.time.count()) break;
+        if (!isBusy) std::this_thread::sleep_for(kPollInterval);
+    }
+    sampling_ += watch.seconds();
+    return status();
+}
+
+const image::Film& RankedEngine::film() {
+    if (!pool_ || pool_->isDone()) return film_;
+    for (std::size_t rank = 0; rank < states_.size(); ++rank)
+        if (pool_->isLeased(rank)) send(rank, {MessageKind::Recall, nullptr, {}});
+    const Stopwatch watch;
+    while (pool_->isLeased() && watch.seconds() < kRecall)
+        if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
+    return film_;
+}
+
+void RankedEngine::send(std::size_t rank, Message message) {
+    if (rank == 0) return localRank_->send(std::move(message));
+    Bytes bytes = toBytes(message);
+    states_[rank].figures.bytes += bytes.size();
+    ranks_.send(static_cast<int>(rank), std::move(bytes));
+}
+
+// What has arrived; whether there was anything.
+bool RankedEngine::receiveAll() {
+    bool any = false;
+    while (localRank_) {
+        const std::optional<Message> message = localRank_->receive();
+        if (!message) break;
+        receive(0, *message);
+        any = true;
+    }
+    while (const std::optional<Received> received = ranks_.receive()) {
+        const auto rank = static_cast<std::size_t>(received->from);
+        states_[rank].figures.bytes += received->message.size();
+        receive(rank, toMessage(received->message));
+        any = true;
+    }
+    return any;
+}
+
+void RankedEngine::receive(std::size_t rank, const Message& message) {
+    if (message.kind == MessageKind::Ready) greet(rank, message.fields);
+    if (message.kind == MessageKind::Result) takeResult(rank, message);
+    if (message.kind != MessageKind::Failure) return;
+    const std::string where = rank == 0 ? "" : "rank " + std::to_string(rank) + ": ";
+    fail(rank, Error(static_cast<ExitCode>(message.fields.at("code").get<int>()),
+                     where + message.fields.at("what").get<std::string>()));
+}
+
+// Is thrown by the next renderSome().
+void RankedEngine::fail(std::size_t rank, const Error& error) {
+    states_[rank].isReady = false;
+    if (pool_) pool_->giveBack(rank, 0, 0);
+    if (!failure_) failure_ = error;
+}
+
+// All must make the same bits.
+void RankedEngine::greet(std::size_t rank, const nlohmann::json& fields) {
+    RankState& state = states_[rank];
+    state.report = toReport(fields.at("report"));
+    const EngineReport mine = local_->report();
+    const std::string name = "rank " + std::to_string(rank) + " (" + state.report.device + ")";
+    if (engineKind(state.report) != engineKind(mine))
+        return fail(rank,
+                    UsageError(name + " renders with the engine " + engineKind(state.report) + ", but rank 0 with " +
+                               engineKind(mine) + ": say --engine, and start one program only"));
+    if (fields.at("scene") != scene_->hash || fields.at("width") != settings_.width ||
+        fields.at("height") != settings_.height)
+        return fail(rank, InputError(name + " has another scene than rank 0: are the files of its host the same?"));
+    if (mine.threads == 0 && state.report.device != mine.device)
+        logWarning(name + " is another device than rank 0's: the last bits of its tiles may be others");
+    send(rank, {MessageKind::Begin,
+                {{"second_moments", settings_.secondMoments}, {"spp_is_known", settings_.sppIsKnown}},
+                {}});
+    state.isReady = true;
+}
+
+void RankedEngine::takeResult(std::size_t rank, const Message& message) {
+    image::unpackTiles(message.tiles, film_);
+    RankState& state = states_[rank];
+    const std::string before = instructionSet(state.report);
+    state.report = toReport(message.fields.at("report"));
+    if (instructionSet(state.report) != before && rank > 0 && states_[0].figures.samples > 0 &&
+        instructionSet(state.report) != instructionSet(states_[0].report))
+        logWarning("rank " + std::to_string(rank) +
+                   " renders with another instruction set than rank 0: the last bits " + "of its tiles may be others");
+    const std::uint64_t samples = message.fields.at("samples");
+    const double busy = message.fields.at("busy");
+    state.figures.samples += samples;
+    state.figures.busySeconds += busy;
+    pool_->giveBack(rank, samples, busy);
+}
+
+void RankedEngine::lease(std::size_t rank) {
+    const RankState& state = states_[rank];
+    if (!state.isReady || pool_->isLeased(rank)) return;
+    const std::uint32_t least = state.report.threads > 0 ? kTilesOfThread * state.report.threads : kTilesOfDevice;
+    const std::optional<Lease> lease = pool_->lease(rank, least, clock_.seconds());
+    if (!lease) return;
+    send(rank, {MessageKind::Lease,
+                {{"tiles", lease->tiles}, {"spp", lease->spp}, {"seconds", lease->seconds}},
+                image::packTiles(film_, lease->tiles)});
+}
+
+RenderStatus RankedEngine::status() const {
+    return {!pool_ || pool_->isDone(), image::totalSamples(film_, plan_.tiles),
+            image::pixelCount(film_, plan_.tiles) * plan_.spp};
+}
+
+// Sums over the ranks; what they must have in common is that of rank 0.
+EngineReport RankedEngine::report() const {
+    EngineReport report = states_[0].isReady ? states_[0].report : local_->report();
+    if (!pool_) return report;
+    report.rays = {};
+    report.nonfiniteSamples = 0;
+    for (const RankState& state : states_) {
+        report.rays.camera += state.report.rays.camera;
+        report.rays.scattered += state.report.rays.scattered;
+        report.rays.shadow += state.report.rays.shadow;
+        report.nonfiniteSamples += state.report.nonfiniteSamples;
+        RankFigures figures = state.figures;
+        figures.device = state.report.device;
+        figures.threads = state.report.threads;
+        figures.busyShare = sampling_ > 0 ? std::min(1.0, figures.busySeconds / sampling_) : 0;
+        report.ranks.push_back(figures);
+    }
+    return report;
+}
+
+} // namespace
+
+std::unique_ptr<Engine> makeRankedEngine(std::unique_ptr<Engine> local, Communicator& ranks) {
+    return std::make_unique<RankedEngine>(std::move(local), ranks);
+}
+
+} // namespace rt::app

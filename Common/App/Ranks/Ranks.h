@@ -1,0 +1,26 @@
+// A program as one of several ranks: how it joins the others, and how all end.
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "Common/App/Ranks/Communicator.h"
+
+namespace rt::app {
+
+inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that waits for messages: nearly idle
+
+// The ranks of the mpirun that has started this program; null when it was started alone. Throws UsageError where that
+// needs MPI and this program was built without.
+std::unique_ptr<Communicator> joinRanks();
+
+// The frame of a program's main on one of `ranks`. Rank 0, or a program without ranks, runs `leader`, whose result is
+// the exit code. The others run `follower`, which returns whether it has got rank 0's End; what it throws goes to rank
+// 0, which throws it as its own. Returns when all have ended.
+int runOnRank(Communicator* ranks, const std::function<int()>& leader, const std::function<bool()>& follower);
+
+// So many threads that the ranks of this host share its processors.
+std::uint32_t threadsOfRank(const Communicator& ranks);
+
+} // namespace rt::app

@@ -1,0 +1,66 @@
+// Who renders which tiles: leases of tiles to ranks, so that all are busy to the end.
+#pragma once
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "Common/Image/FilmTiles.h"
+
+namespace rt::app {
+
+struct Lease {
+    image::TileList tiles;
+    std::uint32_t spp = 0; // samples per pixel to take them to
+    double seconds = 0;    // after which they are to be given back, done or not
+};
+
+// What has to be done: these tiles, to `spp` samples per pixel. `evenly`: in rounds that double the samples, because a
+// limit may end the render at any time.
+struct TilePlan {
+    image::TileList tiles;
+    std::uint32_t spp = 0;
+    bool evenly = false;
+};
+
+// Looks at the film, which must outlive it, for what is done. Times are seconds on any clock that all calls share.
+class TilePool {
+  public:
+    TilePool(const image::Film& film, TilePlan plan, std::size_t ranks);
+
+    // For a rank that holds none, if there is anything for it to do. Leases take a rank about as long as a fraction of
+    // what is left takes all ranks, so that they shrink towards the end; of fewer than `least` tiles a rank does not
+    // make the best. When no tile is left to be handed out, those of a rank that takes far longer than it was expected
+    // to are handed out again.
+    std::optional<Lease> lease(std::size_t rank, std::uint32_t least, double now);
+    // The rank's tiles are on the film, as far as it got in `busy` seconds of work.
+    void giveBack(std::size_t rank, std::uint64_t samples, double busy);
+
+    bool isDone() const { return isDone_; } // every tile has its samples
+    bool isLeased() const;
+    bool isLeased(std::size_t rank) const { return ranks_[rank].lease.has_value(); }
+
+  private:
+    struct Rank {
+        std::optional<Lease> lease;
+        double since = 0;      // when it was made
+        bool isCopied = false; // its tiles have been handed out again
+        double rate = 0;       // samples a second; 0: not known yet
+    };
+
+    void refill();
+    std::optional<Lease> copyOverdue(double now);
+    void keep(std::size_t rank, Lease lease, double now);
+    double totalRate() const;
+
+    const image::Film& film_;
+    TilePlan plan_;
+    std::vector<Rank> ranks_;
+    std::vector<std::uint16_t> holders_; // of each tile of the film
+    std::deque<std::uint32_t> waiting_;  // nobody holds them, and they lack samples of this round
+    std::uint32_t round_ = 0;            // leads to so many samples
+    bool isDrained_ = false;             // no tile can be waiting before one is given back
+    bool isDone_ = false;
+};
+
+} // namespace rt::app

@@ -1,0 +1,115 @@
+#include "Common/Image/FilmTiles.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <numeric>
+
+#include "Common/Core/Error.h"
+
+namespace rt::image {
+namespace {
+
+constexpr std::size_t kTileValues = std::size_t{Film::kTilePixels} * 3;
+
+struct Header { // of a tile's state in one replicate
+    std::uint32_t tile = 0;
+    std::uint32_t replicate = 0;
+    std::uint32_t samples = 0;
+    std::uint32_t unused = 0;
+};
+
+std::uint64_t pixelCount(const Film& film, std::uint32_t tile) {
+    const FilmDesc& desc = film.desc();
+    const std::uint64_t columns = std::min(Film::kTile, desc.width - tile % film.tilesX() * Film::kTile);
+    const std::uint64_t rows = std::min(Film::kTile, desc.height - tile / film.tilesX() * Film::kTile);
+    return columns * rows;
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, std::span<const T> values) {
+    const auto more = std::as_bytes(values);
+    bytes.insert(bytes.end(), more.begin(), more.end());
+}
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    bool atEnd() const { return bytes_.empty(); }
+    template <class T>
+    void read(std::span<T> values) {
+        if (bytes_.size() < values.size_bytes()) throw RenderError("tiles of a film were received incompletely");
+        std::memcpy(values.data(), bytes_.data(), values.size_bytes());
+        bytes_ = bytes_.subspan(values.size_bytes());
+    }
+
+  private:
+    std::span<const std::byte> bytes_;
+};
+
+} // namespace
+
+TileList allTiles(const Film& film) {
+    TileList tiles(film.tileCount());
+    std::iota(tiles.begin(), tiles.end(), 0u);
+    return tiles;
+}
+
+std::uint64_t minSamples(const Film& film, std::span<const std::uint32_t> tiles) {
+    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
+    for (const std::uint32_t tile : tiles) least = std::min(least, film.samples(tile));
+    return tiles.empty() ? 0 : least;
+}
+
+std::uint64_t pixelCount(const Film& film, std::span<const std::uint32_t> tiles) {
+    std::uint64_t pixels = 0;
+    for (const std::uint32_t tile : tiles) pixels += pixelCount(film, tile);
+    return pixels;
+}
+
+std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tiles) {
+    std::uint64_t total = 0;
+    for (const std::uint32_t tile : tiles) total += film.samples(tile) * pixelCount(film, tile);
+    return total;
+}
+
+std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t> tiles) {
+    std::vector<std::byte> bytes;
+    for (const std::uint32_t tile : tiles) {
+        for (std::uint32_t replicate = 0; replicate < film.desc().replicates; ++replicate) {
+            const Film::TileState state = film.state(tile, replicate);
+            const Header header{tile, replicate, state.samples};
+            append(bytes, std::span(&header, 1));
+            if (state.samples == 0) continue;
+            append(bytes, state.sums);
+            append(bytes, state.squares);
+            append(bytes, state.open);
+        }
+    }
+    return bytes;
+}
+
+TileList unpackTiles(std::span<const std::byte> bytes, Film& film) {
+    const FilmDesc& desc = film.desc();
+    TileList tiles;
+    std::vector<double> sums(kTileValues), squares(desc.secondMoments ? kTileValues : 0);
+    std::vector<float> open;
+    for (Reader reader(bytes); !reader.atEnd();) {
+        Header header;
+        reader.read(std::span(&header, 1));
+        if (header.tile >= film.tileCount() || header.replicate >= desc.replicates)
+            throw RenderError("tiles of another film were received");
+        if (tiles.empty() || tiles.back() != header.tile) tiles.push_back(header.tile);
+        if (header.samples == 0) continue;
+        open.resize(header.samples % Film::kBlock == 0 ? 0 : kTileValues);
+        reader.read(std::span(sums));
+        reader.read(std::span(squares));
+        reader.read(std::span(open));
+        if (header.samples <= film.samples(header.tile, header.replicate)) continue;
+        if (!open.empty()) film.reserveOpenBlocks();
+        film.assign(header.tile, header.replicate, {header.samples, sums, squares, open});
+    }
+    return tiles;
+}
+
+} // namespace rt::image

@@ -1,0 +1,29 @@
+// Some tiles of a film apart from the others: parts of an image that are rendered elsewhere and joined, bit for bit.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "Common/Image/Film.h"
+
+namespace rt::image {
+
+using TileList = std::vector<std::uint32_t>; // ascending
+
+TileList allTiles(const Film& film);
+
+// Samples that each pixel of these tiles has at least.
+std::uint64_t minSamples(const Film& film, std::span<const std::uint32_t> tiles);
+// Pixels inside of the image, and samples of all of them.
+std::uint64_t pixelCount(const Film& film, std::span<const std::uint32_t> tiles);
+std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tiles);
+
+// What these tiles hold, to be sent between processes of one program on machines of one kind; a tile without samples
+// takes few bytes.
+std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t> tiles);
+// Takes over each tile and replicate that has more samples there than in this film, which must have the same
+// description. Returns the tiles that were packed. Throws RenderError when the bytes are not those of such tiles.
+TileList unpackTiles(std::span<const std::byte> bytes, Film& film);
+
+} // namespace rt::image

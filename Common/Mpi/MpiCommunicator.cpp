@@ -1,0 +1,97 @@
+// Ranks over MPI. A library of its own that is loaded when mpirun has started the program, so that the programs run
+// where there is no MPI.
+#include <cstdlib>
+#include <list>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#define OMPI_SKIP_MPICXX 1 // the C++ bindings are not used
+#define MPICH_SKIP_MPICXX 1
+#include <mpi.h>
+
+#include "Common/App/Ranks/Communicator.h"
+
+#ifdef _WIN32
+#define RT_EXPORT __declspec(dllexport)
+#else
+#define RT_EXPORT __attribute__((visibility("default")))
+#endif
+
+namespace rt::app {
+namespace {
+
+// MPI's default is to end all ranks when one of its calls fails, so results are not looked at.
+class MpiCommunicator final : public Communicator {
+  public:
+    MpiCommunicator() {
+        int provided = 0;
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+        MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+        MPI_Comm_size(MPI_COMM_WORLD, &size_);
+        MPI_Comm host = MPI_COMM_NULL;
+        MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &host);
+        MPI_Comm_rank(host, &localRank_);
+        MPI_Comm_size(host, &localSize_);
+        MPI_Comm_free(&host);
+    }
+    ~MpiCommunicator() override {
+        for (Sending& sending : sending_) MPI_Wait(&sending.request, MPI_STATUS_IGNORE);
+        MPI_Finalize();
+    }
+
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+    int localRank() const override { return localRank_; }
+    int localSize() const override { return localSize_; }
+
+    void send(int to, Bytes message) override {
+        forgetSent();
+        Sending& sending = sending_.emplace_back();
+        sending.message = std::move(message);
+        MPI_Isend(sending.message.data(), static_cast<int>(sending.message.size()), MPI_BYTE, to, 0, MPI_COMM_WORLD,
+                  &sending.request);
+    }
+
+    std::optional<Received> receive() override {
+        forgetSent(); // and lets MPI go on with what is being sent
+        int arrived = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &status);
+        if (arrived == 0) return std::nullopt;
+        int bytes = 0;
+        MPI_Get_count(&status, MPI_BYTE, &bytes);
+        Received received{status.MPI_SOURCE, Bytes(static_cast<std::size_t>(bytes))};
+        MPI_Recv(received.message.data(), bytes, MPI_BYTE, status.MPI_SOURCE, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        return received;
+    }
+
+    [[noreturn]] void abort(int exitCode) override {
+        MPI_Abort(MPI_COMM_WORLD, exitCode);
+        std::_Exit(exitCode);
+    }
+
+  private:
+    struct Sending {
+        Bytes message; // must stay where it is until it is sent
+        MPI_Request request = MPI_REQUEST_NULL;
+    };
+
+    void forgetSent() {
+        std::erase_if(sending_, [](Sending& sending) {
+            int sent = 0;
+            MPI_Test(&sending.request, &sent, MPI_STATUS_IGNORE);
+            return sent != 0;
+        });
+    }
+
+    int rank_ = 0, size_ = 1, localRank_ = 0, localSize_ = 1;
+    std::list<Sending> sending_;
+};
+
+} // namespace
+} // namespace rt::app
+
+extern "C" RT_EXPORT rt::app::Communicator* rtMakeCommunicator() {
+    return new rt::app::MpiCommunicator; // which the caller owns
+}
