@@ -9,6 +9,7 @@ build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohma
                 libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev)
 bench_packages=(libbenchmark-dev libembree-dev)
+cluster_packages=(libopenmpi-dev openmpi-bin)
 
 preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
 preset=${preset:-release}
@@ -28,7 +29,8 @@ usage() {
                          render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
-./build.sh bench [ARGS]  the same, then run ray-tracing-bench with ARGS
+./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
+./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
 END
 }
@@ -97,6 +99,11 @@ case $verb in
         configure
         build
         ;;
+    cluster)
+        install_packages "${build_packages[@]}" "${cluster_packages[@]}"
+        configure -DRT_WITH_MPI=ON
+        build
+        ;;
     run)
         install_packages "${build_packages[@]}"
         configure
@@ -109,7 +116,7 @@ case $verb in
         ;;
     test)
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
-        install_packages "${build_packages[@]}" "${test_packages[@]}"
+        install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"

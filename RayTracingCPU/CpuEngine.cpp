@@ -208,7 +208,7 @@ class CpuEngine final : public app::Engine {
         report.threads = threads_;
         report.features = features_;
         report.lightSampling = app::describeLightShapes(settings_, features_);
-        if (kernel_ != nullptr) report.kernel = std::string(kernel_->name) + "/" + name(set_);
+        report.kernel = std::string(kernel_ == nullptr ? "" : kernel_->name) + "/" + name(set_);
         report.rays = {counters_.camera, counters_.scattered, counters_.shadow};
         report.nonfiniteSamples = counters_.nonfinite;
         report.deviceBytes = film_.bytes() + (scene_ ? scene_->accel->bytes() : 0);

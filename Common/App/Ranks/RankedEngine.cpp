@@ -53,7 +53,7 @@ class RankedEngine final : public Engine {
 
   private:
     struct RankState {
-        bool isReady = false;
+        bool isReady = false; // for leases
         EngineReport report;
         RankFigures figures;
     };
@@ -170,8 +170,10 @@ void RankedEngine::greet(std::size_t rank, const nlohmann::json& fields) {
     if (fields.at("scene") != scene_->hash || fields.at("width") != settings_.width ||
         fields.at("height") != settings_.height)
         return fail(rank, InputError(name + " has another scene than rank 0: are the files of its host the same?"));
-    if (mine.threads == 0 && state.report.device != mine.device)
-        logWarning(name + " is another device than rank 0's: the last bits of its tiles may be others");
+    const bool isAlike =
+        mine.threads > 0 ? instructionSet(state.report) == instructionSet(mine) : state.report.device == mine.device;
+    if (!isAlike)
+        logWarning(name + " is unlike rank 0's " + mine.device + ": the last bits of its tiles may be others");
     send(rank, {MessageKind::Begin,
                 {{"second_moments", settings_.secondMoments}, {"spp_is_known", settings_.sppIsKnown}},
                 {}});
@@ -181,12 +183,7 @@ void RankedEngine::greet(std::size_t rank, const nlohmann::json& fields) {
 void RankedEngine::takeResult(std::size_t rank, const Message& message) {
     image::unpackTiles(message.tiles, film_);
     RankState& state = states_[rank];
-    const std::string before = instructionSet(state.report);
     state.report = toReport(message.fields.at("report"));
-    if (instructionSet(state.report) != before && rank > 0 && states_[0].figures.samples > 0 &&
-        instructionSet(state.report) != instructionSet(states_[0].report))
-        logWarning("rank " + std::to_string(rank) +
-                   " renders with another instruction set than rank 0: the last bits " + "of its tiles may be others");
     const std::uint64_t samples = message.fields.at("samples");
     const double busy = message.fields.at("busy");
     state.figures.samples += samples;

@@ -81,8 +81,14 @@ StopReason FilmRun::untilStopped(const std::atomic<bool>& cancel) {
 }
 
 ProgressState FilmRun::progress() const {
-    return {status_.samplesDone, status_.samplesTotal, samplesRestored_, status_.samplesTotal / settings_.spp, elapsed_,
-            limits_.seconds};
+    ProgressState state{
+        status_.samplesDone, status_.samplesTotal, samplesRestored_, status_.samplesTotal / settings_.spp, elapsed_,
+        limits_.seconds};
+    const std::vector<RankFigures> ranks = engine_->report().ranks;
+    state.ranks = ranks.size();
+    const auto isLess = [](const RankFigures& a, const RankFigures& b) { return a.busyShare < b.busyShare; };
+    if (!ranks.empty()) state.leastBusy = std::min_element(ranks.begin(), ranks.end(), isLess)->busyShare;
+    return state;
 }
 
 const image::Film& FilmRun::keptFilm(std::string& lost) const {

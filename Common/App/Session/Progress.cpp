@@ -49,6 +49,8 @@ std::string describeProgress(const ProgressState& state) {
         if (state.timeLimit) left = std::min(left, std::max(0.0, *state.timeLimit - state.seconds));
         text += "  " + describeRate(rate) + "  " + describeSeconds(left) + " left";
     }
+    if (state.ranks > 0)
+        text += "  " + std::to_string(state.ranks) + " ranks, least busy " + format("%.0f%%", 100 * state.leastBusy);
     return text;
 }
 

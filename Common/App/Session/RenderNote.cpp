@@ -6,6 +6,7 @@
 
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/ImagePart.h"
 
 namespace rt::app {
 namespace {
@@ -41,6 +42,11 @@ Json argumentList(const Options& options, const scene::CameraDesc& camera, const
     add("--exposure", exactly(options.exposure));
     add("--tonemap", nameOf(kTonemaps, options.tonemap));
     if (options.program == kGpuProgram) add("--engine", report.engine); // policies and threads make no difference
+    if (options.region) {
+        const Region& r = *options.region;
+        add("--region", std::to_string(r.x) + "," + std::to_string(r.y) + "," + std::to_string(r.width) + "," +
+                            std::to_string(r.height));
+    }
     if (s.features) {
         std::string names;
         for (const std::string& name : featureNames(*s.features)) names += (names.empty() ? "" : ",") + name;
@@ -57,7 +63,7 @@ std::string renderNote(const Options& options, const scene::CameraDesc& camera, 
                     {"program", options.program},
                     {"program_version", RT_VERSION},
                     {"device", report.device},
-                    {"spp_done", film.minSamples()},
+                    {"spp_done", image::minSamples(film, tilesToRender(options, film))},
                     {"arguments", argumentList(options, camera, report)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace); // names of files may be anything
 }

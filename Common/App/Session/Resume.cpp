@@ -89,7 +89,7 @@ image::Film loadCheckpoint(const std::string& file, RenderSettings& settings, co
     const nlohmann::json& stored = checkpoint.render;
     checkIdentity(file, stored, identity(settings, scene, report));
     const auto instructionSet = [](const std::string& kernel) { return kernel.substr(kernel.rfind('/') + 1); };
-    if (instructionSet(stored.at("kernel")) != instructionSet(report.kernel))
+    if (report.threads > 0 && instructionSet(stored.at("kernel")) != instructionSet(report.kernel))
         logWarning(file + ": was made with another instruction set; the last bits may differ from those of one run");
     settings.secondMoments = checkpoint.film.desc().secondMoments;
     settings.sppIsKnown = stored.at("spp_is_known");

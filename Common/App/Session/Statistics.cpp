@@ -5,6 +5,7 @@
 #include "Common/App/Platform.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/ImagePart.h"
 
 namespace rt::app {
 namespace {
@@ -64,6 +65,17 @@ Json windowJson(const WindowFigures& window, const EngineReport& report) {
             {"longest_dispatch_seconds", dispatch > 0 ? Json(dispatch) : Json(nullptr)}};
 }
 
+Json ranksJson(const std::vector<RankFigures>& ranks) {
+    Json json = Json::array();
+    for (const RankFigures& rank : ranks)
+        json.push_back({{"device", rank.device},
+                        {"threads", rank.threads},
+                        {"samples", rank.samples},
+                        {"busy_share", rank.busyShare},
+                        {"bytes", rank.bytes}});
+    return json;
+}
+
 } // namespace
 
 std::string Statistics::toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
@@ -79,7 +91,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
               {"width", settings.width},
               {"height", settings.height},
               {"spp", settings.spp},
-              {"spp_done", film.minSamples()},
+              {"spp_done", image::minSamples(film, tilesToRender(options, film))},
               {"max_depth", settings.maxDepth},
               {"seed", settings.seed},
               {"stopped_by", nameOf(kStopReasons, stoppedBy)},
@@ -104,6 +116,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     if (error) json["error"] = errorJson(*error);
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;
+    if (!report.ranks.empty()) json["ranks"] = ranksJson(report.ranks);
     if (window) json["window"] = windowJson(*window, report);
     // Names of files may be anything; JSON is UTF-8.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,0 +1,134 @@
+// Renders that mpirun shares out to several processes: the bits of one, whatever happens to the others.
+#ifdef RT_MPIEXEC
+
+#include <algorithm>
+
+#include "Common/Image/Checkpoint.h"
+#include "tests/program/Program.h"
+
+namespace rt::test {
+namespace {
+
+class Ranks : public ProgramTest {
+  protected:
+    // Open MPI refuses by default what tests do: more ranks than processors, as root.
+    static Environment launcher() {
+        return {{"OMPI_ALLOW_RUN_AS_ROOT", "1"},
+                {"OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1"},
+                {"OMPI_MCA_rmaps_base_oversubscribe", "1"},
+                {"OMPI_MCA_hwloc_base_binding_policy", "none"}};
+    }
+    Outcome mpirun(int ranks, Arguments arguments, const std::string& program = "ray-tracing-cpu") const {
+        arguments.insert(arguments.begin(), {"-n", std::to_string(ranks), programPath(program), "-q"});
+        return run(RT_MPIEXEC, arguments, launcher());
+    }
+    std::string picture(int ranks, Arguments arguments, const std::string& program = "ray-tracing-cpu") const {
+        arguments.insert(arguments.end(), {"--headless", "-o", "ranks.pfm"});
+        const Outcome outcome = mpirun(ranks, arguments, program);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return bytesOf("ranks.pfm");
+    }
+};
+
+// One message of ours, whatever the launcher adds to it.
+testing::AssertionResult endsWith(const Outcome& outcome, int exitCode, const std::string& mentioning) {
+    std::size_t lines = 0;
+    for (std::size_t at = outcome.err.find("ray-tracing-cpu: "); at != std::string::npos;
+         at = outcome.err.find("ray-tracing-cpu: ", at + 1))
+        ++lines;
+    if (outcome.exitCode == exitCode && lines == 1 && outcome.err.find(mentioning) != std::string::npos)
+        return testing::AssertionSuccess();
+    return testing::AssertionFailure() << "exit code " << outcome.exitCode << ", " << outcome.err;
+}
+
+TEST_F(Ranks, MakeTheBitsOfOneProcess) {
+    const Arguments odd = {"--width", "150", "--height", "101", "--spp", "37"};
+    const std::string one = pixels(odd);
+    for (const int ranks : {2, 3, 5}) EXPECT_TRUE(picture(ranks, odd) == one) << ranks;
+    const Arguments rounds = {"--width", "64",           "--height", "64",           "--spp",
+                              "150",     "--replicates", "4",        "--time-limit", "600"};
+    EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
+    const Arguments region = {"--width", "150", "--height", "101", "--region", "21,13,100,50"};
+    EXPECT_TRUE(picture(2, region) == pixels(region));
+}
+
+TEST_F(Ranks, StatisticsNameThem) {
+    ASSERT_EQ(mpirun(3, {"--width", "64", "--height", "64", "--spp", "64", "--stats", "s.json"}).exitCode, 0);
+    const auto stats = jsonOf("s.json");
+    ASSERT_EQ(stats["ranks"].size(), 3u);
+    std::uint64_t samples = 0;
+    for (const auto& rank : stats["ranks"]) samples += rank["samples"].get<std::uint64_t>();
+    EXPECT_GE(samples, 64u * 64u * 64u); // tiles that were handed out twice count twice
+    EXPECT_EQ(stats["spp_done"], 64);
+    EXPECT_EQ(stats["rays"]["camera"].get<std::uint64_t>() >= samples, true);
+}
+
+TEST_F(Ranks, ErrorsAreToldOnceWithTheirExitCode) {
+    EXPECT_TRUE(endsWith(mpirun(3, {"--spp", "0", "-o", "a.pfm"}), 2, "--spp"));
+    EXPECT_TRUE(endsWith(mpirun(3, {"--scene", "no-such-scene", "-o", "a.pfm"}), 3, "no-such-scene"));
+    EXPECT_TRUE(endsWith(mpirun(2, {"-o", "no-such-folder/a.pfm"}), 1, "no-such-folder"));
+    EXPECT_TRUE(endsWith(mpirun(2, {}), 2, "--headless"));
+    EXPECT_TRUE(endsWith(mpirun(2, {"--list-scenes"}), 2, "mpirun"));
+}
+
+// A rank of another scene, as on a host whose files are others.
+TEST_F(Ranks, MustHaveOneScene) {
+    const std::string program = programPath("ray-tracing-cpu");
+    const Outcome outcome = run(RT_MPIEXEC,
+                                {"-n", "1", program, "-q", "--headless", "-o", "a.pfm", ":", "-n", "1", program, "-q",
+                                 "--headless", "-o", "a.pfm", "--scene", "furnace"},
+                                launcher());
+    EXPECT_TRUE(endsWith(outcome, 3, "another scene"));
+}
+
+#ifndef _WIN32
+
+TEST_F(Ranks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
+    const std::string program = programPath("ray-tracing-cpu");
+    const Arguments common = {"-q", "--headless", "--width", "24", "--height", "24", "--threads", "1"};
+    Arguments endless = common;
+    endless.insert(endless.end(), {"--spp", "2147483647", "--checkpoint", "c.rtc", "--save-every", "0.05"});
+    Arguments all = {"-n", "2", program};
+    all.insert(all.end(), endless.begin(), endless.end());
+    all.insert(all.end(), {":", "-n", "1", "sh", "-c",
+                           "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; kill -9 $!; exit 9", program});
+    all.insert(all.end(), endless.begin(), endless.end());
+    EXPECT_NE(run(RT_MPIEXEC, all, launcher()).exitCode, 0);
+
+    const image::Film film = image::readCheckpoint(path("c.rtc")).film;
+    std::uint64_t most = 0;
+    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
+    EXPECT_GT(most, 0u);
+    Arguments rest = common;
+    rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
+    Arguments resumed = rest;
+    resumed.insert(resumed.end(), {"--resume", "c.rtc"});
+    EXPECT_TRUE(picture(2, resumed) == pixels(rest));
+}
+
+#endif
+
+#ifdef RT_HAS_GPU
+
+TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
+    const Arguments size = {"--width", "70", "--height", "41", "--spp", "20", "--headless"};
+    Arguments alone = size;
+    alone.insert(alone.begin(), "-q");
+    alone.insert(alone.end(), {"-o", "one.pfm"});
+    ASSERT_EQ(run("ray-tracing-gpu", alone).exitCode, 0);
+    EXPECT_TRUE(picture(2, size, "ray-tracing-gpu") == bytesOf("one.pfm"));
+    for (const char* share : {"1/2", "2/2"}) {
+        Arguments part = size;
+        part.insert(part.end(), {"-q", "--tiles", share, "--checkpoint", std::string(1, *share) + ".rtc"});
+        ASSERT_EQ(run("ray-tracing-gpu", part).exitCode, 0);
+    }
+    EXPECT_EQ(run("ray-tracing-image", {"merge", "2.rtc", "1.rtc", "-o", "merged.pfm"}).exitCode, 0);
+    EXPECT_TRUE(bytesOf("merged.pfm") == bytesOf("one.pfm"));
+}
+
+#endif
+
+} // namespace
+} // namespace rt::test
+
+#endif

@@ -1,0 +1,148 @@
+// How tiles are shared out, in a simulation: ranks take the time that their speed says.
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Ranks/TilePool.h"
+
+namespace rt::app {
+namespace {
+
+using image::Film;
+
+constexpr std::uint32_t kTilesX = 60, kTilesY = 34;
+constexpr std::uint32_t kLeast = 8; // tiles of a lease
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+class Simulation {
+  public:
+    // Samples a second of each rank, at a time since the start.
+    using Speed = std::function<double(std::size_t rank, double now)>;
+
+    Simulation(std::size_t ranks, std::uint32_t spp, bool evenly, Speed speed)
+        : spp_(spp),
+          speed_(std::move(speed)),
+          busy_(ranks),
+          pool_(film_, {image::allTiles(film_), spp, evenly}, ranks) {}
+
+    // Seconds until all is done; kNever: it takes for ever.
+    double run(const std::function<void()>& afterEach = {}) {
+        double now = 0;
+        while (!pool_.isDone()) {
+            for (std::size_t rank = 0; rank < busy_.size(); ++rank) give(rank, now);
+            const auto next = std::min_element(busy_.begin(), busy_.end(),
+                                               [](const Busy& a, const Busy& b) { return a.until < b.until; });
+            if (now > 1e4) return kNever;
+            now = std::min(next->until, now + 0.01); // who waits asks again
+            if (next->until > now) continue;
+            finish(static_cast<std::size_t>(next - busy_.begin()), now);
+            if (afterEach) afterEach();
+        }
+        return now;
+    }
+    double work() const { return 1.0 * film_.tileCount() * Film::kTilePixels * spp_; }
+    const Film& film() const { return film_; }
+
+  private:
+    struct Busy {
+        Lease lease;
+        double since = 0, until = kNever;
+    };
+
+    void give(std::size_t rank, double now) {
+        Busy& busy = busy_[rank];
+        if (pool_.isLeased(rank)) return;
+        const auto lease = pool_.lease(rank, kLeast, now);
+        if (!lease) return;
+        busy = {*lease, now, kNever};
+        double samples = 0;
+        for (const std::uint32_t tile : lease->tiles) samples += 1.0 * (lease->spp - film_.samples(tile));
+        const double seconds = samples * Film::kTilePixels / speed_(rank, now);
+        if (seconds < kNever) busy.until = now + std::min(seconds, lease->seconds);
+    }
+
+    // What fits into the time of the lease, in whole blocks, of all of its tiles.
+    void finish(std::size_t rank, double now) {
+        Busy& busy = busy_[rank];
+        const double perTile = speed_(rank, busy.since) * (now - busy.since) / Film::kTilePixels /
+                               static_cast<double>(busy.lease.tiles.size());
+        std::uint64_t made = 0;
+        for (const std::uint32_t tile : busy.lease.tiles) {
+            const auto before = static_cast<std::uint32_t>(film_.samples(tile));
+            const double reached = before + perTile * (1 + 1e-9);
+            std::uint32_t samples = busy.lease.spp;
+            if (reached < samples) samples = static_cast<std::uint32_t>(reached) / Film::kBlock * Film::kBlock;
+            if (samples <= before) continue;
+            film_.assign(tile, 0, {samples, sums_, {}, {}});
+            made += std::uint64_t{samples - before} * Film::kTilePixels;
+        }
+        pool_.giveBack(rank, made, now - busy.since);
+        busy.until = kNever;
+    }
+
+    std::uint32_t spp_;
+    Speed speed_;
+    std::vector<double> sums_ = std::vector<double>(Film::kTilePixels * 3);
+    Film film_{{kTilesX * Film::kTile, kTilesY* Film::kTile, 1, false}};
+    std::vector<Busy> busy_;
+    TilePool pool_;
+};
+
+TEST(TilePool, RanksOfOneSpeedEndTogether) {
+    for (const std::size_t ranks : {1u, 2u, 3u, 5u, 16u}) {
+        Simulation simulation(ranks, 64, false, [](std::size_t, double) { return 1e6; });
+        const double ideal = simulation.work() / (1e6 * static_cast<double>(ranks));
+        const double smallest = kLeast * Film::kTilePixels * 64 / 1e6; // seconds, of a lease
+        EXPECT_LE(simulation.run(), 1.01 * ideal + smallest) << ranks;
+        EXPECT_EQ(simulation.film().minSamples(), 64u);
+    }
+}
+
+TEST(TilePool, ASlowRankHoldsNobodyUp) {
+    for (const double slowFrom : {0.0, 3.0, 6.0}) { // from the start, in the middle, near the end
+        Simulation simulation(3, 256, false,
+                              [=](std::size_t rank, double now) { return rank == 2 && now >= slowFrom ? 1e6 : 1e7; });
+        const double before = std::min(simulation.work(), 3e7 * slowFrom);
+        const double ideal = before / 3e7 + (simulation.work() - before) / 2.1e7;
+        EXPECT_LE(simulation.run(), 1.2 * ideal) << slowFrom;
+    }
+}
+
+TEST(TilePool, ARankThatNeverAnswersIsDoneWithout) {
+    for (const std::size_t ranks : {2u, 4u}) {
+        Simulation simulation(ranks, 64, false,
+                              [=](std::size_t rank, double) { return rank + 1 == ranks ? 0.0 : 1e6; });
+        EXPECT_LT(simulation.run(), kNever);
+        EXPECT_EQ(simulation.film().minSamples(), 64u);
+    }
+}
+
+TEST(TilePool, RoundsKeepTheImageEven) {
+    Simulation simulation(3, 1000, true,
+                          [](std::size_t rank, double) { return 1e7 * (1.0 + static_cast<double>(rank)); });
+    const auto check = [&] {
+        const Film& film = simulation.film();
+        std::uint64_t most = 0;
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
+        EXPECT_LE(most, std::max<std::uint64_t>(Film::kBlock, 4 * film.minSamples())); // this round and the next
+    };
+    EXPECT_LT(simulation.run(check), kNever);
+    EXPECT_EQ(simulation.film().minSamples(), 1000u);
+}
+
+TEST(TilePool, LeasesDoNotOverlap) {
+    const Film film({kTilesX * Film::kTile, kTilesY * Film::kTile, 1, false});
+    TilePool pool(film, {image::allTiles(film), 16, false}, 3);
+    std::set<std::uint32_t> seen;
+    for (std::size_t rank = 0; rank < 3; ++rank) {
+        const auto lease = pool.lease(rank, kLeast, 0);
+        ASSERT_TRUE(lease);
+        for (const std::uint32_t tile : lease->tiles) EXPECT_TRUE(seen.insert(tile).second) << tile;
+    }
+}
+
+} // namespace
+} // namespace rt::app
