@@ -48,7 +48,7 @@ TEST_F(Ranks, MakeTheBitsOfOneProcess) {
     const Arguments rounds = {"--width", "64",           "--height", "64",           "--spp",
                               "150",     "--replicates", "4",        "--time-limit", "600"};
     EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
-    const Arguments region = {"--width", "150", "--height", "101", "--region", "21,13,100,50"};
+    const Arguments region = {"--width", "150", "--height", "101", "--spp", "9", "--region", "21,13,100,50"};
     EXPECT_TRUE(picture(2, region) == pixels(region));
 }
 
