@@ -126,7 +126,8 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         bindings_.update(uniforms_, scene_->topLevel());
     }
 
-    const SpecializationConstants constants = makeSpecializationConstants(features_, params_, scene_->shape());
+    const SpecializationConstants constants =
+        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, scene_->shape());
     if (!kernel_ || constants_ != constants) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
@@ -150,11 +151,13 @@ std::unique_ptr<Kernel> GpuEngine::makeKernel(KernelPurpose purpose) const {
 
 void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     const scene::CompiledScene& s = scene_->compiled();
-    shared::RenderConstants constants;
+    shared::RenderConstants constants{};
     constants.arrays = scene_->arrays();
     constants.tree = scene_->tree();
     constants.globals = s.globals;
     constants.params = params_;
+    const std::size_t bounds = std::min<std::size_t>(s.lightBounds.size(), shared::kContributionLights);
+    std::copy_n(s.lightBounds.begin(), bounds, constants.lightBounds);
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
     vulkan::upload(context_, uniforms_, std::as_bytes(std::span(&constants, 1)));
 }

@@ -68,6 +68,7 @@ struct RenderConstants {
     SceneGlobals globals;
     RenderParams params;
     Camera camera;
+    LightBound lightBounds[kContributionLights]; // of a table that is weighed light by light
 };
 
 // ---- film ----------------------------------------------------------------------------------------------------------
