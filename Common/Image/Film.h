@@ -114,10 +114,10 @@ class Film {
     // Mean radiance: sum over all replicates / true count; pixels without samples are black. Where there is a plan, the
     // mean of the means of both halves, see SamplePlan.h.
     Image resolve() const;
-    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them (where there is a
-    // plan, across those of each half if these have two or more) and unbiased for every sampler; with one it is taken across blocks, as if these were independent: unbiased for independent
-    // samples, too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than two replicates
-    // or blocks have samples it is 0. Requires secondMoments or replicates >= 2.
+    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them, with a plan in
+    // halves that have two or more, and unbiased for every sampler; with one it is taken across blocks: unbiased for
+    // independent samples, too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than
+    // two replicates or blocks have samples it is 0. Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
     Image sampleCounts() const; // one channel
 

@@ -23,8 +23,8 @@ namespace rt::image {
 // each half, so that it is well spread. 0: `spp` is too small for a plan, or vast, and samples are uniform.
 std::uint32_t pilotSamples(std::uint32_t spp);
 
-// What Film::setPlan() takes, for a film whose pixels have pilotSamples(spp) samples, which is not 0. No pixel gets fewer
-// than it has; all together get spp times the number of pixels.
+// What Film::setPlan() takes, for a film whose pixels have pilotSamples(spp) samples, which is not 0. No pixel gets
+// fewer than it has; all together get spp times the number of pixels.
 //
 // A half's samples are spread in proportion to the root of a pixel's part in the error per sample, which minimises the
 // error: of a blend of MSE and relMSE (see Metrics.h), each in units of what it is over the image, since either alone

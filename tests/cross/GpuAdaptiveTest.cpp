@@ -59,7 +59,7 @@ Render gpuRender(const app::RenderSettings& settings, const gpu::GpuEngineOption
 }
 
 TEST_P(GpuAdaptive, NeitherPartsNorLaunchesShow) {
-    const app::RenderSettings settings = settingsFor(75);
+    const app::RenderSettings settings = settingsFor(36);
     Render whole = gpuRender(settings);
     const std::vector<float> expected = whole.finish().resolve().data;
     for (const std::uint32_t slots : {6u, gpu::GpuEngineOptions().regionSlots})
