@@ -19,32 +19,32 @@ constexpr double kMost = 16;             // for a pixel, of the mean
 constexpr std::uint32_t kTile = Film::kTile;
 constexpr float kLargest = 1e30f; // in place of a variance that is no number, so that sums of it are
 
-// The other half's pilot in a row of pixels, interleaved RGB.
+// A half's pilot in a row of pixels, interleaved RGB; empty beyond the image.
 struct PilotRow {
     std::vector<float> means;
     std::vector<float> variances; // of a sample
 };
 
 PilotRow readPilot(const Film& film, std::uint32_t half, std::uint32_t y) {
-    const std::uint32_t width = film.desc().width;
-    PilotRow row{std::vector<float>(std::size_t{width} * 3), std::vector<float>(std::size_t{width} * 3)};
-    for (std::uint32_t x = 0; x < width; ++x) {
-        const std::uint32_t tile = y / kTile * film.tilesX() + x / kTile;
-        const std::size_t value = (std::size_t{y % kTile} * kTile + x % kTile) * 3;
-        double samples = 0, sums[3] = {}, squares[3] = {};
+    const std::size_t width = film.desc().width;
+    PilotRow row{std::vector<float>(width * 3), std::vector<float>(width * 3)};
+    const std::size_t first = std::size_t{y % kTile} * kTile * 3; // value of the tile
+    for (std::uint32_t tileX = 0; tileX < film.tilesX(); ++tileX) {
+        double samples = 0, sums[kTile * 3] = {}, squares[kTile * 3] = {};
         for (std::uint32_t r = half; r < film.desc().replicates; r += 2) {
-            const Film::TileState state = film.state(tile, r);
+            const Film::TileState state = film.state(y / kTile * film.tilesX() + tileX, r);
             samples += state.samples;
-            for (std::size_t c = 0; c < 3; ++c) {
-                sums[c] += state.sums[value + c] + (state.open.empty() ? 0.0 : double{state.open[value + c]});
-                squares[c] += state.squares[value + c];
+            for (std::size_t i = 0; i < kTile * 3; ++i) {
+                sums[i] += state.sums[first + i] + (state.open.empty() ? 0.0 : double{state.open[first + i]});
+                squares[i] += state.squares[first + i];
             }
         }
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double spread = squares[c] - sums[c] * sums[c] / samples;
+        const std::size_t begin = std::size_t{tileX} * kTile * 3;
+        for (std::size_t i = 0; i < std::min<std::size_t>(kTile * 3, row.means.size() - begin); ++i) {
+            const double spread = squares[i] - sums[i] * sums[i] / samples;
             const auto variance = static_cast<float>(std::max(spread, 0.0) / (samples - 1));
-            row.variances[3 * x + c] = variance < kLargest ? variance : kLargest;
-            row.means[3 * x + c] = static_cast<float>(sums[c] / samples);
+            row.variances[begin + i] = variance < kLargest ? variance : kLargest;
+            row.means[begin + i] = static_cast<float>(sums[i] / samples);
         }
     }
     return row;
@@ -56,26 +56,28 @@ struct Noise {
     std::vector<float> relative; // to relMSE
 };
 
-// Of the pixels of a row, between its neighbours: empty ones beyond the image.
-void appendNoise(const PilotRow* const (&rows)[3], Noise& noise) {
-    constexpr double kWeights[3] = {1, 2, 1};
-    const std::size_t width = rows[1]->means.size() / 3;
+// Sums over three rows by the weights 1 2 1, between a pixel of zeros at either end.
+std::vector<double> sumOfRows(const std::vector<float>& above, const std::vector<float>& here,
+                              const std::vector<float>& below) {
+    std::vector<double> sums(here.size() + 6);
+    for (std::size_t i = 0; i < here.size(); ++i) sums[3 + i] = 2 * double{here[i]};
+    for (const std::vector<float>* row : {&above, &below})
+        for (std::size_t i = 0; i < row->size(); ++i) sums[3 + i] += double{(*row)[i]};
+    return sums;
+}
+
+// Of the pixels of a row, between its neighbours.
+void appendNoise(const PilotRow& above, const PilotRow& here, const PilotRow& below, Noise& noise) {
+    const std::vector<double> means = sumOfRows(above.means, here.means, below.means);
+    const std::vector<double> variances = sumOfRows(above.variances, here.variances, below.variances);
+    const std::size_t width = here.means.size() / 3;
+    const double rows = 2.0 + (above.means.empty() ? 0 : 1) + (below.means.empty() ? 0 : 1);
     for (std::size_t x = 0; x < width; ++x) {
-        double weights = 0, means[3] = {}, variances[3] = {};
-        for (std::size_t j = 0; j < 3; ++j) {
-            if (rows[j]->means.empty()) continue;
-            for (std::size_t i = x == 0 ? 1 : 0; i < 3 && x + i <= width; ++i) {
-                const double weight = kWeights[j] * kWeights[i];
-                weights += weight;
-                for (std::size_t c = 0; c < 3; ++c) {
-                    means[c] += weight * rows[j]->means[3 * (x + i - 1) + c];
-                    variances[c] += weight * rows[j]->variances[3 * (x + i - 1) + c];
-                }
-            }
-        }
+        const double scale = 1 / (rows * (2.0 + (x > 0 ? 1 : 0) + (x + 1 < width ? 1 : 0)));
         double absolute = 0, relative = 0;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double mean = means[c] / weights, variance = variances[c] / weights;
+        for (std::size_t i = 3 * x; i < 3 * x + 3; ++i) { // of the pixel to the left
+            const double mean = scale * (means[i] + 2 * means[i + 3] + means[i + 6]);
+            const double variance = scale * (variances[i] + 2 * variances[i + 3] + variances[i + 6]);
             absolute += variance;
             relative += variance / (mean * mean + kRelativeFloor);
         }
@@ -92,7 +94,7 @@ Noise noiseOf(const Film& film, std::uint32_t half) {
     PilotRow above, here = readPilot(film, half, 0), below;
     for (std::uint32_t y = 0; y < height; ++y) {
         below = y + 1 < height ? readPilot(film, half, y + 1) : PilotRow{};
-        appendNoise({&above, &here, &below}, noise);
+        appendNoise(above, here, below, noise);
         above = std::move(here);
         here = std::move(below);
     }
