@@ -16,6 +16,7 @@
 #include "Common/Accel/LargeArray.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "RayTracingCPU/KernelArgs.h"
 #include "RayTracingCPU/Workers.h"
@@ -132,7 +133,7 @@ class CpuEngine final : public app::Engine {
         settings_ = settings;
         context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
-        film_ = Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
+        film_ = Film(app::filmDesc(settings));
         passEnd_ = 0;
         nextTile_ = kNoTile;
         counters_ = {};
@@ -237,14 +238,19 @@ class CpuEngine final : public app::Engine {
         return static_cast<std::uint32_t>((total + replicates - 1 - replicate) / replicates);
     }
 
-    // Opens the next pass, which takes every pixel to passEnd_ samples: one more block of each replicate. False: all
-    // done.
+    // Opens the next pass, which takes every pixel to passEnd_ samples, or to what the plan gives it: one more block of
+    // each replicate, or more where the plan has left few pixels. False: all done.
     bool beginPass() {
+        std::uint64_t next = film_.nextSample(image::goalOf(film_, settings_.spp));
+        if (next == Film::kNoSample) {
+            if (!film_.isPilot()) return false;
+            film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+            next = film_.nextSample(image::goalOf(film_, settings_.spp));
+        }
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
-        const std::uint64_t done = film_.minSamples();
-        if (done >= settings_.spp) return false;
-        passEnd_ = std::min<std::uint64_t>((done / block + 1) * block, settings_.spp);
-        if (passEnd_ % block != 0) film_.reserveOpenBlocks();
+        const std::uint64_t blocks = film_.hasPlan() ? 1 + next / block / 2 : 1;
+        passEnd_ = std::min((next / block + blocks) * block, image::goalOf(film_, settings_.spp));
+        if (film_.hasPlan() || passEnd_ % block != 0) film_.reserveOpenBlocks();
         nextTile_ = 0;
         return true;
     }
@@ -274,7 +280,8 @@ class CpuEngine final : public app::Engine {
         const std::uint32_t y = tile / film_.tilesX() * Film::kTile;
         Film::TileBlock block;
         for (std::uint32_t replicate = 0; replicate < settings_.replicates; ++replicate) {
-            const std::uint32_t end = replicateSamples(passEnd_, replicate);
+            std::uint32_t end = replicateSamples(passEnd_, replicate);
+            if (film_.hasPlan()) end = std::min(end, film_.planEnd(tile, replicate));
             while (film_.samples(tile, replicate) < end) {
                 film_.begin(tile, replicate, block);
                 TileTask task;
@@ -287,6 +294,8 @@ class CpuEngine final : public app::Engine {
                 task.first = block.firstSample + block.count;
                 task.count = std::min(Film::kBlock - block.count, end - task.first);
                 task.sum = block.sum;
+                if (film_.hasPlan()) task.plan = film_.plan(tile, replicate).data();
+                if (film_.isPilot()) task.squares = block.squares;
                 task.cancel = cancel;
                 if (!kernel_->renderTile(context_, task, counters)) return false;
                 block.count += task.count;
@@ -308,7 +317,7 @@ class CpuEngine final : public app::Engine {
         app::RenderStatus status;
         status.samplesTotal = std::uint64_t{settings_.width} * settings_.height * settings_.spp;
         status.samplesDone = film_.totalSamples();
-        status.finished = film_.minSamples() >= settings_.spp;
+        status.finished = status.samplesDone >= status.samplesTotal;
         return status;
     }
 

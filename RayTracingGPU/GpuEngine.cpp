@@ -8,6 +8,7 @@
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
@@ -73,6 +74,7 @@ class GpuEngine final : public app::Engine {
     void finishPaths();
     void endLaunch();
     void endLaunches();
+    void planSamples();
     bool nextRegion();
     void refresh();
 
@@ -102,6 +104,7 @@ class GpuEngine final : public app::Engine {
     app::Stopwatch sinceRefresh_;
     std::uint64_t samplesDone_ = 0;        // of the film, what region_ is ahead included
     std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
+    std::uint64_t goal_ = 0;               // that they lead to in the end, or before there is a plan
     std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
@@ -115,7 +118,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (settings.maxDepth > settings_.maxDepth) launchSize_.reset();
     settings_ = settings;
     params_ = app::makeRenderParams(scene_->compiled(), settings);
-    setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
+    setFilm(Film(app::filmDesc(settings)));
     uploadConstants(camera);
     if (engine_ == app::GpuEngineKind::Compute) {
         bindings_.update(uniforms_, scene_->linearLists());
@@ -168,7 +171,8 @@ void GpuEngine::setFilm(Film film) {
     }
     region_->load(film_, 0);
     samplesDone_ = film_.totalSamples();
-    begun_ = film_.minSamples();
+    goal_ = image::goalOf(film_, settings_.spp);
+    begun_ = film_.nextSample(goal_);
     dirty_ = false;
     failed_ = false;
     pass_.reset();
@@ -209,11 +213,21 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
 }
 
 bool GpuEngine::beginPass() {
-    if (begun_ >= settings_.spp) return false;
+    if (begun_ >= goal_ && film_.isPilot()) planSamples();
+    if (begun_ >= goal_) return false;
     if (region_->firstTile() != 0) region_->load(film_, 0);
-    pass_ = planPass(*region_, begun_, settings_.spp, launchSize_->suggest());
+    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest());
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
+}
+
+// Decides on the samples of an adaptive film, whose pilot is done, and goes on with them.
+void GpuEngine::planSamples() {
+    finishPaths();
+    endLaunches();
+    refresh();
+    film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+    setFilm(std::move(film_));
 }
 
 // Behind the last launch of the last region the pass is over.

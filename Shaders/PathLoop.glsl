@@ -10,6 +10,7 @@
 #include "SceneAccess.glsl"
 #include "Common/Shared/Path/PathStep.h"
 #include "TraceStep.glsl"
+#include "PixelEnd.glsl"
 
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
@@ -25,14 +26,15 @@ struct Work {
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint slot = launchSlot(launch, step / launch.steps);
-    work.pixel = slotPixel(launch, slot, work.number % kTilePixels);
+    uint tilePixel = work.number % kTilePixels;
+    work.pixel = slotPixel(launch, constants.params.width, slot, tilePixel);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
     uint done = launch.samples.at[slot];
     uint index = done + step % launch.steps;
     work.smp = makeSampler(renderParams(), work.pixel.y * constants.params.width + work.pixel.x, slot % launch.replicates,
                            index);
     work.end = index + 1u;
-    return index < samplesAfter(launch, slot, done);
+    return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, slot, done));
 }
 
 // False: all have been taken.

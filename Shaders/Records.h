@@ -103,13 +103,19 @@ struct UnfinishedPath {
 };
 RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 
+// What a film keeps besides sums.
+const uint kKeepsBlockSquares = 1u;  // of (block sum)^2 / kBlock
+const uint kKeepsSampleSquares = 2u; // of the samples of a pilot
+const uint kIsPlanned = 4u;
+
 // Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that
 // each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
 // without slots takes no samples and leaves no paths.
 struct FilmLaunch {
     MutableWordArray samples;          // per slot: samples that its pixels have
     FilmSumArray sums;                 // of closed blocks
-    FilmSumArray squares;              // of (block sum)^2 / kBlock, if keepSquares
+    FilmSumArray squares;              // if a flag says of what
+    MutableWordArray plan;             // most samples of each pixel, if kIsPlanned
     MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
     MutableVectorArray radiance;       // of each sample of the launch, see sampleAt()
     UnfinishedPathArray left;          // as many as its counters say, see below
@@ -118,7 +124,6 @@ struct FilmLaunch {
     UnfinishedPathArray leftBefore;
     MutableWordArray countersBefore;
     uint firstTile; // of the image: the film's first
-    uint tilesX;    // of the image
     uint replicates;
     uint filmSlots;
     uint bandSlots; // the last band may lack some
@@ -127,19 +132,22 @@ struct FilmLaunch {
     uint slotCount; // bandWidth times the bands
     uint steps;     // samples that the launch may take each slot further
     uint spp;       // per pixel, all replicates, at which the launch stops
-    uint keepSquares;
+    uint flags;     // kKeepsBlockSquares and so on
 };
 
 // Push constants of FilmResolve.comp, for a film that is whole.
 struct ResolveLaunch {
-    MutableWordArray samples; // as FilmLaunch's, and so are the next two
+    MutableWordArray samples; // as FilmLaunch's, and so are the next three
     FilmSumArray sums;
     MutableVectorArray open;
+    MutableWordArray plan;
     MutableVectorArray pixels; // the means, row by row; 0 where there are no samples
     uint width;
     uint height;
     uint tilesX;
     uint replicates;
+    uint halves; // whose means make the picture: 2 where there is a plan, else 1
+    uint unused; // as in TreeArrays
 };
 
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
@@ -181,9 +189,11 @@ RT_FN uint launchSamples(RT_IN(FilmLaunch) launch) {
     return sampleAt(launch, launch.slotCount, 0u, 0u);
 }
 
-RT_FN uvec2 slotPixel(FilmLaunch launch, uint slot, uint tilePixel) {
+// Of an image so many pixels wide.
+RT_FN uvec2 slotPixel(FilmLaunch launch, uint width, uint slot, uint tilePixel) {
     uint tile = launch.firstTile + slot / launch.replicates;
-    return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
+    uint tilesX = (width + kTile - 1u) / kTile;
+    return uvec2(tile % tilesX * kTile + tilePixel % kTile, tile / tilesX * kTile + tilePixel / kTile);
 }
 
 // ---- first-hit features and costs ----------------------------------------------------------------------------------

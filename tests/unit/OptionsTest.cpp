@@ -252,6 +252,10 @@ TEST_F(OptionsTest, ContradictionsAreRefused) {
     EXPECT_EQ(error({"--aov", "depth"}), "--aov: needs --output");
     EXPECT_EQ(error({"--save-every", "5"}), "--save-every: needs --checkpoint or --output");
     EXPECT_EQ(error({"--replicates", "8", "--spp", "7"}), "--replicates 8: must be at most --spp 7");
+    EXPECT_EQ(error({"--replicates", "3", "--adaptive", "on"}),
+              "--replicates 3: must be even with --adaptive on, which makes two halves of them");
+    EXPECT_EQ(error({"--sampler", "stratified", "--adaptive", "on"}),
+              "--adaptive on: not with --sampler stratified, whose strata are made for one number of samples");
     EXPECT_EQ(read({"--list-scenes", "--json"})->command, Command::ListScenes);
     EXPECT_EQ(read({"--export-scene", "a.json"})->command, Command::ExportScene);
 }
@@ -281,6 +285,9 @@ TEST_F(OptionsTest, ErrorEstimatesAreKeptOnlyWhereSomethingReadsThem) {
     EXPECT_FALSE(render({"--stats", "-", "--replicates", "4"}).settings.secondMoments);
     EXPECT_EQ(render({"--target-error", "0.1"}).settings.replicates, 4u);
     EXPECT_EQ(render({"--target-error", "0.1", "--replicates", "8"}).settings.replicates, 8u);
+    EXPECT_EQ(render({"--target-error", "0.1", "--adaptive", "on"}).settings.replicates, 4u);
+    EXPECT_EQ(render({"--adaptive", "on"}).settings.replicates, 2u);
+    EXPECT_EQ(render({"--adaptive", "on", "--spp", "15"}).settings.replicates, 1u); // too few for a pilot
     EXPECT_FALSE(render({"--target-error", "0.1"}).settings.sppIsKnown);
 }
 

@@ -74,7 +74,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     record.height = settings.height;
     record.maxDepth = settings.maxDepth;
     record.threads = report.threads;
-    record.spp = film.engine().film().minSamples();
+    record.spp = film.engine().film().samplesPerPixel();
     record.loadSeconds = scene.seconds;
     record.buildSeconds = report.accelBuildSeconds;
     record.pipelineSeconds = report.pipelineSeconds;

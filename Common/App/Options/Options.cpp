@@ -6,6 +6,7 @@
 
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
@@ -33,6 +34,7 @@ constexpr const char* kStoredFlags[] = {"--scene",
                                         "--light-sampling",
                                         "--light-selection",
                                         "--sampler",
+                                        "--adaptive",
                                         "--sphere-light",
                                         "--quad-light",
                                         "--triangle-light",
@@ -213,6 +215,13 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
 void settleErrorEstimate(Options& options) {
     RenderSettings& settings = options.settings;
     if (options.targetError) settings.replicates = std::max(settings.replicates, kErrorReplicates);
+    if (settings.adaptive && settings.sampler == SamplerKind::Stratified)
+        throw UsageError(
+            "--adaptive on: not with --sampler stratified, whose strata are made for one number of samples");
+    if (isAdaptive(settings) && settings.replicates > 1 && settings.replicates % 2 != 0)
+        throw UsageError("--replicates " + std::to_string(settings.replicates) +
+                         ": must be even with --adaptive on, which makes two halves of them");
+    settleReplicates(settings);
     if (settings.replicates > settings.spp)
         throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
                          std::to_string(settings.spp));

@@ -63,7 +63,7 @@ struct AovImages {
 // The film as a picture.
 struct Snapshot {
     image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
-    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as in image::Film
+    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as Film::samples()
     std::uint64_t leastSamples() const {
         return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
     }

@@ -57,7 +57,7 @@ std::string renderNote(const Options& options, const scene::CameraDesc& camera, 
                     {"program", options.program},
                     {"program_version", RT_VERSION},
                     {"device", report.device},
-                    {"spp_done", film.minSamples()},
+                    {"spp_done", film.samplesPerPixel()},
                     {"arguments", argumentList(options, camera, report)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace); // names of files may be anything
 }

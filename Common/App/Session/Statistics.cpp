@@ -79,7 +79,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
               {"width", settings.width},
               {"height", settings.height},
               {"spp", settings.spp},
-              {"spp_done", film.minSamples()},
+              {"spp_done", film.samplesPerPixel()},
               {"max_depth", settings.maxDepth},
               {"seed", settings.seed},
               {"stopped_by", nameOf(kStopReasons, stoppedBy)},
