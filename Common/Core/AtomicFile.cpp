@@ -36,11 +36,8 @@ void removeLeftovers(const fs::path& folder) {
         const std::scoped_lock lock(mutex);
         if (!visited.insert(folder).second) return;
     }
-    try {
-        for (const fs::directory_entry& entry : fs::directory_iterator(folder.empty() ? "." : folder))
-            if (isTemporary(entry.path().filename().string())) removeAbandoned(entry.path());
-    } catch (const fs::filesystem_error&) { // what cannot be read is left as it is
-    }
+    for (const std::string& name : namesIn(folder.empty() ? "." : folder))
+        if (isTemporary(name)) removeAbandoned(folder / name);
 }
 
 } // namespace

@@ -11,8 +11,9 @@ namespace rt {
 
 // Writes to a temporary file of its own in the target's folder, which commit() renames over the target; without
 // commit() the destructor removes it. What replaces a file has its mode, and its owner and group where the user may
-// give them. What a program that was killed has left of this in the folder is removed. An existing target that is not a regular file (a device, a pipe that somebody reads) is written directly;
-// a symbolic link is followed. Every failure is a RenderError with the file's name and the reason.
+// give them. What a program that was killed has left of this in the folder is removed. An existing target that is not a
+// regular file (a device, a pipe that somebody reads) is written directly; a symbolic link is followed. Every failure
+// is a RenderError with the file's name and the reason.
 class AtomicFile {
   public:
     explicit AtomicFile(const std::filesystem::path& path);

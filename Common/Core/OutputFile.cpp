@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <memory>
 
 #include <climits>
 
@@ -12,6 +13,7 @@
 #include <share.h>
 #include <sys/stat.h>
 #else
+#include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/file.h>
@@ -156,6 +158,14 @@ std::error_code syncFolder(const fs::path&) {
     return {}; // renames are in the file system's journal
 }
 
+std::vector<std::string> namesIn(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        names.push_back(entry->path().filename().string());
+    return names;
+}
+
 void removeAbandoned(const fs::path& file) {
     std::error_code ignored;
     if (isOld(file)) fs::remove(file, ignored);
@@ -181,6 +191,14 @@ std::error_code syncFolder(const fs::path& folder) {
     const std::error_code error = syncDescriptor(descriptor) ? std::error_code() : lastError();
     close(descriptor);
     return error;
+}
+
+std::vector<std::string> namesIn(const fs::path& folder) {
+    const auto closing = [](DIR* opened) { closedir(opened); };
+    const std::unique_ptr<DIR, decltype(closing)> opened(opendir(folder.c_str()), closing);
+    std::vector<std::string> names;
+    while (const dirent* entry = opened ? readdir(opened.get()) : nullptr) names.emplace_back(entry->d_name);
+    return names;
 }
 
 void removeAbandoned(const fs::path& file) {
