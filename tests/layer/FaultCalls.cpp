@@ -1,8 +1,6 @@
-// A library to preload that lets calls of the operating system and allocations fail as they fail on full disks and
-// machines without memory. RT_CALL_FAULTS lists what goes wrong: "write:3=28,fsync:1=5" makes the third write to a file
-// fail with ENOSPC and the first fsync with EIO; "write:2=0" writes but one byte; "new:40=12" lets the fortieth
-// allocation since main() began throw std::bad_alloc. RT_CALL_LOG names a file that gets a line for each call but
-// allocations, whose number is its last line.
+// A library to preload that lets calls of the operating system fail as they fail on full disks. RT_CALL_FAULTS lists what
+// goes wrong: "write:3=28,fsync:1=5" makes the third write to a file fail with ENOSPC and the first fsync with EIO;
+// "write:2=0" writes but one byte. RT_CALL_LOG names a file that gets a line for each call.
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -10,13 +8,11 @@
 #include <cstring>
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <new>
 #include <unistd.h>
 
 namespace {
 
-std::atomic<bool> hasBegun{false};
-std::atomic<int> writes{0}, syncs{0}, renames{0}, allocations{0};
+std::atomic<int> writes{0}, syncs{0}, renames{0};
 
 template <class Function>
 Function* next(const char* name) {
@@ -31,7 +27,7 @@ void log(const char* line) {
     close(descriptor);
 }
 
-// The error of this call; -1: it goes well. Allocates nothing.
+// The error of this call; -1: it goes well.
 int fault(const char* call, std::atomic<int>& count) {
     const int number = ++count;
     const char* const list = std::getenv("RT_CALL_FAULTS");
@@ -41,44 +37,7 @@ int fault(const char* call, std::atomic<int>& count) {
     return found != nullptr ? std::atoi(found + std::strlen(key)) : -1;
 }
 
-void* allocate(std::size_t bytes) {
-    if (hasBegun && fault("new", allocations) >= 0) throw std::bad_alloc();
-    if (void* const memory = std::malloc(bytes > 0 ? bytes : 1)) return memory;
-    throw std::bad_alloc();
-}
-
-int (*programMain)(int, char**, char**);
-
-int countedMain(int argc, char** argv, char** environment) {
-    hasBegun = true;
-    const int code = programMain(argc, argv, environment);
-    hasBegun = false;
-    char line[32];
-    std::snprintf(line, sizeof line, "%d\n", allocations.load());
-    log(line);
-    return code;
-}
-
 } // namespace
-
-void* operator new(std::size_t bytes) {
-    return allocate(bytes);
-}
-void* operator new[](std::size_t bytes) {
-    return allocate(bytes);
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
-void operator delete[](void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 extern "C" {
 
@@ -108,12 +67,5 @@ int rename(const char* from, const char* to) noexcept {
         return -1;
     }
     return next<int(const char*, const char*)>("rename")(from, to);
-}
-
-int __libc_start_main(int (*main)(int, char**, char**), int argc, char** argv, void (*init)(), void (*fini)(),
-                      void (*end)(), void* stack) {
-    programMain = main;
-    return next<int(decltype(main), int, char**, void (*)(), void (*)(), void (*)(), void*)>("__libc_start_main")(
-        countedMain, argc, argv, init, fini, end, stack);
 }
 }

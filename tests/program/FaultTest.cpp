@@ -1,4 +1,4 @@
-// Writes, synchronisations, renames and allocations that fail, one after the other (tests/layer/FaultCalls.cpp): nothing
+// Writes, synchronisations and renames that fail, one after the other (tests/layer/FaultCalls.cpp): nothing
 // is lost that could be kept, and the program ends with one line and the documented exit code.
 #include "tests/program/Program.h"
 
@@ -30,7 +30,6 @@ class Fault : public ProgramTest {
     void expectNoTemporaries() const {
         for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_NE(entry.path().extension(), ".tmp");
     }
-    void expectFailures(int stride);
 };
 
 TEST_F(Fault, ACheckpointIsOnDiskBeforeItReplacesTheLast) {
@@ -65,29 +64,6 @@ TEST_F(Fault, EachWriteAndRename) {
             EXPECT_EQ(renderWith("write:" + std::to_string(n) + "=0").exitCode, 0) << n; // short: goes on
             EXPECT_TRUE(bytesOf("a.pfm") == whole[0] && bytesOf("c.rtc") == whole[1]) << n;
         }
-}
-
-// Every allocation of a short render, or each `stride`-th, fails once.
-void Fault::expectFailures(int stride) {
-    ASSERT_EQ(renderWith("").exitCode, 0);
-    const int count = std::stoi(calls().back());
-    for (int n = 1; n <= count; n += stride) {
-        const Outcome outcome = renderWith("new:" + std::to_string(n) + "=12");
-        EXPECT_TRUE(outcome.exitCode == 0 || outcome.exitCode == 1) << n << ": " << outcome.exitCode << outcome.err;
-        EXPECT_EQ(outcome.exitCode != 0, !outcome.err.empty()) << n << ": " << outcome.err;
-        expectNoTemporaries();
-    }
-}
-
-TEST_F(Fault, AllocationsHereAndThere) {
-    ASSERT_EQ(renderWith("").exitCode, 0);
-    expectFailures(1 + std::stoi(calls().back()) / 50);
-}
-
-class NightlyFault : public Fault {};
-
-TEST_F(NightlyFault, EachAllocation) {
-    expectFailures(1);
 }
 
 } // namespace
