@@ -75,7 +75,7 @@ nlohmann::json readHeader(Reader& in) {
 void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film) {
     AtomicFile file(path);
     writeCheckpoint(file.stream(), render, film);
-    file.commit();
+    file.commit(AtomicFile::Durability::ToDisk);
 }
 
 void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film& film) {

@@ -1,5 +1,6 @@
 // The film's part of a checkpoint: sample counts, of an adaptive film whether it has a plan (1) and the plan, sums,
 // squares if kept, the open blocks that exist, and a hash of them all.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <istream>
@@ -105,6 +106,13 @@ Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& 
     std::uint64_t hash = 0;
     reader.get(std::span(&hash, 1));
     if (hash != expected) reader.fail("is damaged: its hash does not fit its content");
+    // Radiance is neither, and one such pixel would spoil every figure of the whole image.
+    const auto isImpossible = [](auto value) { return !(value >= 0 && std::isfinite(value)); };
+    const auto hasImpossible = [&](const auto& values) {
+        return std::any_of(values.begin(), values.end(), isImpossible);
+    };
+    if (hasImpossible(film.sums_) || hasImpossible(film.squares_) || hasImpossible(film.open_))
+        reader.fail("is damaged: a sum is negative or not finite");
     return film;
 }
 

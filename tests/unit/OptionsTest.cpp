@@ -47,7 +47,7 @@ class OptionsTest : public testing::Test {
     }
     static Options sized(std::vector<std::string> arguments, double sceneAspect = 1) {
         Options options = render(std::move(arguments));
-        settleImageSize(options, sceneAspect);
+        settleImageSize(options, "scene", sceneAspect);
         return options;
     }
     // The message of the usage error, which is one line.
@@ -55,7 +55,7 @@ class OptionsTest : public testing::Test {
         arguments.push_back("--headless");
         try {
             Options options = read(std::move(arguments)).value();
-            settleImageSize(options, 1);
+            settleImageSize(options, "scene", 1);
         } catch (const UsageError& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
             return error.what();
@@ -70,6 +70,14 @@ class OptionsTest : public testing::Test {
 
     std::filesystem::path home_;
 };
+
+TEST_F(OptionsTest, AnAspectOutOfRangeIsOfWhoGaveIt) {
+    EXPECT_THROW(sized({}, 1e-6), InputError);
+    EXPECT_THROW(sized({"--width", "700"}, 1e-6), UsageError);
+    EXPECT_THROW(sized({"--height", "700"}, 1e6), UsageError);
+    EXPECT_EQ(sized({"--width", "700", "--height", "70"}, 1e-6).settings.height, 70u);
+    EXPECT_EQ(sized({"--aspect", "2"}, 1e-6).settings.height, 300u);
+}
 
 TEST_F(OptionsTest, DefaultsAreThoseOfTheInterface) {
     const Options options = sized({});

@@ -30,7 +30,7 @@ RenderSettings sizedSettings(const RenderRequest& request, const scene::Compiled
     Options options;
     options.size = request.size;
     options.settings = request.settings;
-    settleImageSize(options, scene.defaults.aspect);
+    settleImageSize(options, scene.id, scene.defaults.aspect);
     return options.settings;
 }
 

@@ -73,6 +73,7 @@ void addScene(FlagSet& flags, Parsed& parsed) {
                   (void)poseOf(text, {}); // the scene may say the rest
                   options.camera = text;
               });
+    flags.addFile("--assets-below", options.assetsBelow, "DIR: no file of the scene may lie elsewhere");
     flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
     flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
     flags.addFile("--export-scene", options.exportFile, "write the scene as a scene file and exit")
@@ -293,7 +294,7 @@ std::string checkpointBeside(const std::string& output) {
     return output + ".rtc";
 }
 
-void settleImageSize(Options& options, double sceneAspect) {
+void settleImageSize(Options& options, const std::string& scene, double sceneAspect) {
     const auto& [width, height, aspect] = options.size;
     const double ratio = aspect.value_or(sceneAspect);
     std::uint32_t& w = options.settings.width;
@@ -307,6 +308,9 @@ void settleImageSize(Options& options, double sceneAspect) {
         h = *height;
         w = rounded(h * ratio, "--height " + std::to_string(h));
     } else {
+        if (!width && !aspect && kDefaultWidth / sceneAspect >= image::kMaxImageSide + 0.5)
+            throw InputError(scene + ": an aspect of " + std::to_string(sceneAspect) +
+                             " makes an image larger than 16384 pixels a side");
         w = width.value_or(kDefaultWidth);
         h = rounded(w / ratio, "--width " + std::to_string(w));
     }
