@@ -133,8 +133,12 @@ void tracePaths(uint invocation) {
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.slotCount != 0u) break;
         if (tracesApart()) {
-            goesOn = stepPath(kFeatures, scene, params, work.smp, traceStep(path, direct, false, nonfinite), path, direct);
-            if (direct.distance > 0.0f) endShadowRay(scene, traceStep(path, direct, true, nonfinite), path, direct, shadow);
+            Hit hit = traceStep(path, direct, false, nonfinite);
+            goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
+            if (direct.distance > 0.0f) {
+                hit = traceStep(path, direct, true, nonfinite);
+                endShadowRay(scene, hit, path, direct, shadow);
+            }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {
                 bool checking = direct.distance > 0.0f;

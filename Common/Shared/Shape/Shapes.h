@@ -135,8 +135,9 @@ RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) 
     return intersectQuad(ray, length(ray.direction), corner, frame, tMax);
 }
 
-// A quad that is a rectangle perpendicular to an axis, in coordinates of which that axis is the last: `toCorner` from the
-// ray's origin; `inverse` 1 / direction.z; `scale` 1 / extent, signed; `margin` as QuadFrame's. u runs along x, v along y.
+// A quad that is a rectangle perpendicular to an axis, in coordinates of which that axis is the last: `toCorner` from
+// the ray's origin; `inverse` 1 / direction.z; `scale` 1 / extent, signed; `margin` as QuadFrame's. u runs along x, v
+// along y.
 RT_FN ShapeHit intersectAxisQuad(vec3 toCorner, vec3 direction, float inverse, float rayLength, vec2 scale, vec2 margin,
                                  float tMax) {
     ShapeHit hit = missedShape();
