@@ -31,6 +31,7 @@ class RunHistoryTest : public ::testing::Test {
         r.lightSelection = "contribution";
         r.sphereLight = r.quadLight = r.triangleLight = "auto";
         r.russianRoulette = r.oneSidedLights = "on";
+        r.adaptive = "off";
         r.relmse = 0.1;
         r.hasReference = true;
         r.curve = {{0.5, 0.4}, {1.5, 0.1}};
@@ -154,6 +155,7 @@ TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {
              Change([](RunRecord& r) { r.sampler = "independent"; }),
              Change([](RunRecord& r) { r.russianRoulette = "off"; }),
              Change([](RunRecord& r) { r.oneSidedLights = "off"; }),
+             Change([](RunRecord& r) { r.adaptive = "on"; }),
          }) {
         RunRecord gpu = gpuRecord("a");
         change(gpu);

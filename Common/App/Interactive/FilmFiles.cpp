@@ -82,6 +82,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
     record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
     record.oneSidedLights = nameOf(kOnOff, scene.request.oneSidedLights);
+    record.adaptive = nameOf(kAdaptive, settings.adaptive);
     record.width = settings.width;
     record.height = settings.height;
     record.maxDepth = settings.maxDepth;

@@ -65,6 +65,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/triangle_light", "triangle_light", r.triangleLight);
     visit("/russian_roulette", "russian_roulette", r.russianRoulette);
     visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
+    visit("/adaptive", "adaptive", r.adaptive);
 }
 
 RunRecord fromJson(const nlohmann::json& json) {
@@ -135,7 +136,7 @@ bool isSameWork(const RunRecord& a, const RunRecord& b) {
            a.height == b.height && a.spp == b.spp && a.maxDepth == b.maxDepth && a.lightSampling == b.lightSampling &&
            a.lightSelection == b.lightSelection && a.sphereLight == b.sphereLight && a.quadLight == b.quadLight &&
            a.triangleLight == b.triangleLight && a.sampler == b.sampler && a.russianRoulette == b.russianRoulette &&
-           a.oneSidedLights == b.oneSidedLights && lackingIn(a).empty();
+           a.oneSidedLights == b.oneSidedLights && a.adaptive == b.adaptive && lackingIn(a).empty();
 }
 
 EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst) {
