@@ -16,6 +16,7 @@
 #include "Common/Accel/LargeArray.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "RayTracingCPU/KernelArgs.h"
 #include "RayTracingCPU/Workers.h"
@@ -132,7 +133,7 @@ class CpuEngine final : public app::Engine {
         settings_ = settings;
         context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
-        film_ = Film({settings.width, settings.height, settings.replicates, settings.secondMoments});
+        film_ = Film(app::filmDesc(settings));
         tiles_ = image::allTiles(film_);
         spp_ = settings.spp;
         passEnd_ = 0;
@@ -246,14 +247,29 @@ class CpuEngine final : public app::Engine {
         return static_cast<std::uint32_t>((total + replicates - 1 - replicate) / replicates);
     }
 
-    // Opens the next pass, which takes every pixel to passEnd_ samples: one more block of each replicate. False: all
-    // done.
-    bool beginPass() {
-        const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
+    // Samples per pixel that passes lead to in the end, or before there is a plan.
+    std::uint64_t goal() const { return film_.desc().adaptive ? image::goalOf(film_, settings_.spp) : spp_; }
+
+    // The least that a pixel of the tiles has, if some lack any.
+    std::uint64_t nextSample() const {
+        if (film_.desc().adaptive) return film_.nextSample(goal()); // of all tiles, see renderOnly()
         const std::uint64_t done = image::minSamples(film_, tiles_);
-        if (tiles_.empty() || done >= spp_) return false;
-        passEnd_ = std::min<std::uint64_t>((done / block + 1) * block, spp_);
-        if (passEnd_ % block != 0) film_.reserveOpenBlocks();
+        return tiles_.empty() || done >= spp_ ? Film::kNoSample : done;
+    }
+
+    // Opens the next pass, which takes every pixel to passEnd_ samples, or to what the plan gives it: one more block of
+    // each replicate, or more where the plan has left few pixels. False: all done.
+    bool beginPass() {
+        std::uint64_t next = nextSample();
+        if (next == Film::kNoSample) {
+            if (!film_.isPilot()) return false;
+            film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+            next = nextSample();
+        }
+        const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
+        const std::uint64_t blocks = film_.hasPlan() ? 1 + next / block / 2 : 1;
+        passEnd_ = std::min((next / block + blocks) * block, goal());
+        if (film_.hasPlan() || passEnd_ % block != 0) film_.reserveOpenBlocks();
         nextTile_ = 0;
         return true;
     }
@@ -283,7 +299,8 @@ class CpuEngine final : public app::Engine {
         const std::uint32_t y = tile / film_.tilesX() * Film::kTile;
         Film::TileBlock block;
         for (std::uint32_t replicate = 0; replicate < settings_.replicates; ++replicate) {
-            const std::uint32_t end = replicateSamples(passEnd_, replicate);
+            std::uint32_t end = replicateSamples(passEnd_, replicate);
+            if (film_.hasPlan()) end = std::min(end, film_.planEnd(tile, replicate));
             while (film_.samples(tile, replicate) < end) {
                 film_.begin(tile, replicate, block);
                 TileTask task;
@@ -296,6 +313,8 @@ class CpuEngine final : public app::Engine {
                 task.first = block.firstSample + block.count;
                 task.count = std::min(Film::kBlock - block.count, end - task.first);
                 task.sum = block.sum;
+                if (film_.hasPlan()) task.plan = film_.plan(tile, replicate).data();
+                if (film_.isPilot()) task.squares = block.squares;
                 task.cancel = cancel;
                 if (!kernel_->renderTile(context_, task, counters)) return false;
                 block.count += task.count;
@@ -316,8 +335,8 @@ class CpuEngine final : public app::Engine {
     app::RenderStatus status() const {
         app::RenderStatus status;
         status.samplesTotal = image::pixelCount(film_, tiles_) * spp_;
-        status.samplesDone = image::totalSamples(film_, tiles_);
-        status.finished = tiles_.empty() || image::minSamples(film_, tiles_) >= spp_;
+        status.samplesDone = film_.desc().adaptive ? film_.totalSamples() : image::totalSamples(film_, tiles_);
+        status.finished = status.samplesDone >= status.samplesTotal;
         return status;
     }
 

@@ -32,8 +32,16 @@ struct TileTask {
     std::uint32_t replicate = 0;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    float* sum = nullptr; // RGB a pixel: continued, not cleared
+    const std::uint32_t* plan = nullptr; // of each pixel, as sum: index at which its samples end before the others'
+    float* sum = nullptr;                // RGB a pixel: continued, not cleared
+    float* squares = nullptr;            // likewise, of the samples' squares, if they are wanted
     const std::atomic<bool>* cancel = nullptr;
+
+    std::uint32_t samplesOf(std::uint32_t column, std::uint32_t row) const {
+        if (plan == nullptr) return count;
+        const std::uint32_t end = plan[row * stride + column];
+        return end <= first ? 0 : end - first < count ? end - first : count;
+    }
 };
 
 // First-hit features of one row, averaged over samples 0 .. count - 1; null planes are not computed.

@@ -15,19 +15,26 @@ using namespace rt::shared;
 void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& counters) {
     for (std::uint32_t y = 0; y < task.height; ++y) {
         for (std::uint32_t x = 0; x < task.width; ++x) {
-            float* sum = task.sum + 3 * (y * task.stride + x);
+            const std::uint32_t pixel = 3 * (y * task.stride + x);
+            float* sum = task.sum + pixel;
             vec3 total(sum[0], sum[1], sum[2]);
-            for (std::uint32_t i = 0; i < task.count; ++i, ++radiances) {
+            vec3 squares(0.0f);
+            const std::uint32_t count = task.samplesOf(x, y);
+            for (std::uint32_t i = 0; i < count; ++i, ++radiances) {
                 if (isFinite(*radiances)) {
                     total += *radiances;
+                    squares += *radiances * *radiances;
                 } else {
                     ++counters.nonfinite;
                 }
             }
-            for (int c = 0; c < 3; ++c) sum[c] = total[c];
+            for (int c = 0; c < 3; ++c) {
+                sum[c] = total[c];
+                if (task.squares != nullptr) task.squares[pixel + static_cast<std::uint32_t>(c)] += squares[c];
+            }
+            counters.camera += count;
         }
     }
-    counters.camera += std::uint64_t{task.width} * task.height * task.count;
 }
 
 template <std::uint32_t kFeatures>

@@ -12,7 +12,11 @@ using namespace rt::shared;
 class TileSamples {
   public:
     TileSamples(const KernelContext& context, const TileTask& task)
-        : context_(context), task_(task), count_(task.width * task.height * task.count) {}
+        : context_(context), task_(task), inPixel_(task.samplesOf(0u, 0u)) {
+        for (uint y = 0u; y < task.height; ++y) {
+            for (uint x = 0u; x < task.width; ++x) count_ += task.samplesOf(x, y);
+        }
+    }
 
     // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is
     // left.
@@ -36,7 +40,8 @@ class TileSamples {
     void generateRays() {
         UintLanes x, y;
         for (uint i = 0u; i < kLanes; ++i) {
-            if (sampleInPixel_ == task_.count) nextPixel();
+            const bool isSample = next_ + i < count_; // those behind the last stay in its pixel
+            while (isSample && sampleInPixel_ == inPixel_) nextPixel();
             if (sampleInPixel_ == 0u) {
                 const uint index = (task_.y + y_) * context_.params.width + task_.x + x_;
                 first_ = makeSampler(context_.params, index, task_.replicate, task_.first);
@@ -65,17 +70,20 @@ class TileSamples {
 
     void nextPixel() {
         sampleInPixel_ = 0u;
-        if (++x_ < task_.width) return;
-        x_ = 0u;
-        ++y_;
+        if (++x_ == task_.width) {
+            x_ = 0u;
+            ++y_;
+        }
+        inPixel_ = task_.samplesOf(x_, y_);
     }
 
     const KernelContext& context_;
     const TileTask& task_;
-    const uint count_;
-    uint next_ = 0u; // sample of the tile
-    uint x_ = 0u;    // of the pixel in the tile
+    uint count_ = 0u; // samples
+    uint next_ = 0u;  // sample of the tile
+    uint x_ = 0u;     // of the pixel in the tile
     uint y_ = 0u;
+    uint inPixel_; // samples
     uint sampleInPixel_ = 0u;
     Sampler first_{}; // of the pixel's samples
     RecordLanes<Sampler> samplers_;

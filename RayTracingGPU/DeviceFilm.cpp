@@ -64,7 +64,7 @@ DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& de
     };
     samplesBuffer_ = make((VkDeviceSize{capacity_} + tiles) * sizeof(std::uint32_t));
     sums_ = make(pixels * sizeof(FilmSum));
-    if (desc.secondMoments) squares_ = make(pixels * sizeof(FilmSum));
+    if (desc.secondMoments || desc.adaptive) squares_ = make(pixels * sizeof(FilmSum));
 }
 
 void DeviceFilm::reserveOpenBlocks() {
@@ -82,6 +82,7 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
     samples_.assign(count * desc_.replicates, 0);
     stepSamples_ = 0;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) stepSamples_ += pixelsInside(slot);
+    if (film.hasPlan()) loadPlan(film);
     bool fresh = true;
     for (const std::uint32_t tile : tiles_) fresh = fresh && film.samples(tile) == 0;
     if (fresh) return clear();
@@ -114,6 +115,21 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
 void DeviceFilm::uploadCounts() {
     vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(samples_)));
     vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(tiles_)), samples_.size() * sizeof samples_[0]);
+}
+
+// Of the tiles that it holds. The pilot's squares have served.
+void DeviceFilm::loadPlan(const Film& film) {
+    squares_ = {};
+    plan_.clear();
+    for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
+        const auto plan = film.plan(tiles_[slot / desc_.replicates], slot % desc_.replicates);
+        plan_.insert(plan_.end(), plan.begin(), plan.end());
+    }
+    if (!planBuffer_) {
+        const VkDeviceSize bytes = VkDeviceSize{capacity_} * kTilePixels * sizeof(std::uint32_t);
+        planBuffer_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::Device, "the film");
+    }
+    vulkan::upload(context_, planBuffer_, std::as_bytes(std::span(plan_)));
 }
 
 void DeviceFilm::clear() {
@@ -162,14 +178,17 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
     launch.sums = sums_.address();
     launch.squares = squares_.address();
     launch.open = open_.address();
-    launch.tilesX = tilesX_;
+    launch.plan = planBuffer_.address();
     launch.replicates = desc_.replicates;
     launch.filmSlots = slotCount();
     launch.bandSlots = bandSlots();
     launch.firstSlot = first;
     launch.bandWidth = width;
     launch.slotCount = width * bands();
-    launch.keepSquares = squares_ ? 1u : 0u;
+    launch.flags = !plan_.empty()   ? shared::kIsPlanned
+                   : desc_.adaptive ? shared::kKeepsSampleSquares
+                   : squares_       ? shared::kKeepsBlockSquares
+                                    : 0u;
 }
 
 bool DeviceFilm::isImage() const {
@@ -198,9 +217,26 @@ std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
         const std::uint32_t slot = shared::launchSlot(launch, i);
         if (slot >= slotCount()) continue;
         const std::uint32_t reached = shared::samplesAfter(launch, slot, samples_[slot]);
-        added += std::uint64_t{reached - samples_[slot]} * pixelsInside(slot);
+        added += samplesBetween(slot, samples_[slot], reached);
     }
     return added;
+}
+
+// Of the slot's pixels inside of the image, of the indices from `from` to `to`, that excluded.
+std::uint64_t DeviceFilm::samplesBetween(std::uint32_t slot, std::uint32_t from, std::uint32_t to) const {
+    if (plan_.empty()) return std::uint64_t{to - from} * pixelsInside(slot);
+    std::uint64_t samples = 0;
+    const auto first = plan_.begin() + std::ptrdiff_t{slot} * kTilePixels;
+    std::for_each(first, first + kTilePixels, [&](std::uint32_t end) { samples += std::clamp(end, from, to) - from; });
+    return samples;
+}
+
+std::uint64_t DeviceFilm::stepSamples() const {
+    if (plan_.empty()) return stepSamples_;
+    std::uint64_t samples = 0;
+    for (std::uint32_t slot = 0; slot < slotCount(); ++slot)
+        samples += samplesBetween(slot, samples_[slot], samples_[slot] + 1);
+    return std::max<std::uint64_t>(samples, 1);
 }
 
 void DeviceFilm::advance(const shared::FilmLaunch& launch) {
@@ -219,6 +255,8 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     launch.height = desc_.height;
     launch.tilesX = tilesX_;
     launch.replicates = desc_.replicates;
+    launch.plan = planBuffer_.address();
+    launch.halves = plan_.empty() ? 1 : 2;
     app::Snapshot result{resolver.resolve(launch), {}};
     result.tileSamples.reserve(tileCount());
     for (std::uint32_t tile = 0; tile < tileCount(); ++tile) result.tileSamples.push_back(tileSamples(tile));

@@ -50,9 +50,9 @@ class DeviceFilm {
     // Room for `tiles` tiles of such a film, not initialised: load() comes first.
     DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles);
 
-    // Whether it can hold `tiles` tiles of such a film.
+    // Whether it can hold `tiles` tiles of such a film; one that has followed a plan cannot hold a pilot again.
     bool fits(const image::FilmDesc& desc, std::uint32_t tiles) const {
-        return desc == desc_ && tiles * desc.replicates <= capacity_;
+        return desc == desc_ && tiles * desc.replicates <= capacity_ && plan_.empty();
     }
     // Replaces the contents by as many of these tiles of the film as there is room for, from position `first` on.
     void load(const image::Film& film, const image::TileList& tiles, std::size_t first);
@@ -68,8 +68,9 @@ class DeviceFilm {
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
     bool isWhole() const { return isWhole_; } // it holds all tiles that there were to load
     bool isImage() const;                     // it holds all tiles of the image
-    // Of a step, which is one sample of every slot for each of its pixels inside of the image.
-    std::uint64_t stepSamples() const { return stepSamples_; }
+    // Of a step, which is one sample of every slot for each of its pixels inside of the image; with a plan, of the step
+    // that comes next, for the pixels that are not done.
+    std::uint64_t stepSamples() const;
     // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
     std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }
     std::uint32_t bandSlots() const; // the last band may lack some
@@ -85,9 +86,11 @@ class DeviceFilm {
   private:
     void clear();
     void uploadCounts();
+    void loadPlan(const image::Film& film);
     std::uint32_t tileCount() const { return static_cast<std::uint32_t>(tiles_.size()); } // that it holds
     std::uint64_t tileSamples(std::uint32_t tile) const; // counted from the first tile; all replicates
     std::uint32_t pixelsInside(std::uint32_t slot) const;
+    std::uint64_t samplesBetween(std::uint32_t slot, std::uint32_t from, std::uint32_t to) const;
 
     vulkan::VulkanContext& context_;
     image::FilmDesc desc_;
@@ -97,11 +100,13 @@ class DeviceFilm {
     bool isWhole_ = false;
     std::uint32_t capacity_;             // slots
     std::vector<std::uint32_t> samples_; // per slot, as on the device
-    std::uint64_t stepSamples_ = 0;
-    vulkan::Buffer samplesBuffer_; // and the tiles, as FilmLaunch::samples
+    std::uint64_t stepSamples_ = 0;      // without a plan
+    std::vector<std::uint32_t> plan_;    // per pixel, 0 outside of the image, as on the device; empty without one
+    vulkan::Buffer samplesBuffer_;       // and the tiles, as FilmLaunch::samples
     vulkan::Buffer sums_;
-    vulkan::Buffer squares_; // empty without second moments
+    vulkan::Buffer squares_; // empty unless kept
     vulkan::Buffer open_;    // empty until reserved
+    vulkan::Buffer planBuffer_;
 };
 
 } // namespace rt::gpu

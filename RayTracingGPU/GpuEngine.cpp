@@ -8,6 +8,7 @@
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
+#include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
@@ -75,6 +76,7 @@ class GpuEngine final : public app::Engine {
     void finishPaths();
     void endLaunch();
     void endLaunches();
+    void planSamples();
     bool nextRegion();
     void refresh();
 
@@ -105,6 +107,7 @@ class GpuEngine final : public app::Engine {
     std::uint64_t samplesDone_ = 0;        // of the tiles, what region_ is ahead included
     std::uint64_t samplesTotal_ = 0;       // of the tiles, when they are done
     std::uint64_t begun_ = 0;              // samples per pixel that the passes so far lead to
+    std::uint64_t goal_ = 0;               // that they lead to in the end, or before there is a plan
     std::optional<Pass> pass_;             // that is in progress
     std::optional<LaunchSize> launchSize_; // of this scene and pipeline
     app::EngineReport report_;
@@ -118,7 +121,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (settings.maxDepth > settings_.maxDepth) launchSize_.reset();
     settings_ = settings;
     params_ = app::makeRenderParams(scene_->compiled(), settings);
-    setFilm(Film({settings.width, settings.height, settings.replicates, settings.secondMoments}));
+    setFilm(Film(app::filmDesc(settings)));
     uploadConstants(camera);
     if (engine_ == app::GpuEngineKind::Compute) {
         bindings_.update(uniforms_, scene_->linearLists());
@@ -126,7 +129,8 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         bindings_.update(uniforms_, scene_->topLevel());
     }
 
-    const SpecializationConstants constants = makeSpecializationConstants(features_, params_, scene_->shape());
+    const SpecializationConstants constants =
+        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, scene_->shape());
     if (!kernel_ || constants_ != constants) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
@@ -150,11 +154,13 @@ std::unique_ptr<Kernel> GpuEngine::makeKernel(KernelPurpose purpose) const {
 
 void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     const scene::CompiledScene& s = scene_->compiled();
-    shared::RenderConstants constants;
+    shared::RenderConstants constants{};
     constants.arrays = scene_->arrays();
     constants.tree = scene_->tree();
     constants.globals = s.globals;
     constants.params = params_;
+    const std::size_t bounds = std::min<std::size_t>(s.lightBounds.size(), shared::kContributionLights);
+    std::copy_n(s.lightBounds.begin(), bounds, constants.lightBounds);
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
     vulkan::upload(context_, uniforms_, std::as_bytes(std::span(&constants, 1)));
 }
@@ -182,9 +188,11 @@ void GpuEngine::loadTiles() {
         region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
     }
     region_->load(film_, tiles_, 0);
-    samplesDone_ = image::totalSamples(film_, tiles_);
+    const bool adaptive = film_.desc().adaptive; // of all tiles, see renderOnly()
+    samplesDone_ = adaptive ? film_.totalSamples() : image::totalSamples(film_, tiles_);
     samplesTotal_ = image::pixelCount(film_, tiles_) * spp_;
-    begun_ = image::minSamples(film_, tiles_);
+    goal_ = adaptive ? image::goalOf(film_, spp_) : spp_;
+    begun_ = adaptive ? film_.nextSample(goal_) : image::minSamples(film_, tiles_);
     dirty_ = false;
     failed_ = false;
     pass_.reset();
@@ -225,11 +233,21 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
 }
 
 bool GpuEngine::beginPass() {
-    if (tiles_.empty() || begun_ >= spp_) return false;
+    if (begun_ >= goal_ && film_.isPilot()) planSamples();
+    if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
-    pass_ = planPass(*region_, begun_, spp_, launchSize_->suggest());
+    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest());
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
+}
+
+// Decides on the samples of an adaptive film, whose pilot is done, and goes on with them.
+void GpuEngine::planSamples() {
+    finishPaths();
+    endLaunches();
+    refresh();
+    film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+    setFilm(std::move(film_));
 }
 
 // Behind the last launch of the last region the pass is over.

@@ -10,6 +10,8 @@ namespace {
 
 using vulkan::Memory;
 
+static_assert(sizeof(shared::FilmLaunch) <= 128, "Vulkan promises no more push constants");
+
 constexpr VkDeviceSize kCounterBytes = VkDeviceSize{shared::kCounterLines} * shared::kCounters * sizeof(std::uint32_t);
 
 VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {

@@ -16,22 +16,24 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 // shorter than it may be. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting) {
     const std::uint64_t replicates = region.replicates();
+    const std::uint64_t stepSamples = region.stepSamples();
     const std::uint64_t round = shared::kBlock * replicates; // samples per pixel
     std::uint64_t end = (begun / round + kRegionRounds) * round;
     if (region.isWhole()) {
         const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region.columnSamples(), 1);
         const std::uint64_t wanted =
-            std::max(2 * fitting / region.stepSamples(), std::min(begun / kPassPart, kMaxPass) / replicates);
+            std::max(2 * fitting / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
         end = begun + std::clamp<std::uint64_t>(wanted, 1, most) * replicates;
     }
     end = std::min(end, spp);
     return {.end = static_cast<std::uint32_t>(end),
-            .steps = static_cast<std::uint32_t>((end - begun + replicates - 1) / replicates)};
+            .steps = static_cast<std::uint32_t>((end - begun + replicates - 1) / replicates),
+            .stepSamples = stepSamples};
 }
 
 shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting) {
     const std::uint64_t room = kMaxSamples / (region.columnSamples() * pass.steps);
-    const std::uint64_t columns = fitting * region.bandSlots() / (region.stepSamples() * pass.steps);
+    const std::uint64_t columns = fitting * region.bandSlots() / (pass.stepSamples * pass.steps);
     const std::uint32_t left = region.bandSlots() - pass.nextSlot;
     const std::uint32_t half = (region.bandSlots() + 1) / 2;
     const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));

@@ -10,9 +10,10 @@ inline constexpr std::uint64_t kMaxSamples = 12'000'000; // of a launch, whose r
 
 // Takes every pixel of the film further, slot by slot of each region.
 struct Pass {
-    std::uint32_t end = 0;      // samples per pixel that it leads to
-    std::uint32_t steps = 0;    // samples of a slot's pixels that it takes, at most
-    std::uint32_t nextSlot = 0; // of each of the region's bands: the first that it has not launched
+    std::uint32_t end = 0;         // samples per pixel that it leads to
+    std::uint32_t steps = 0;       // samples of a slot's pixels that it takes, at most
+    std::uint64_t stepSamples = 0; // of the film's, when the pass began
+    std::uint32_t nextSlot = 0;    // of each of the region's bands: the first that it has not launched
 };
 
 // From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples.

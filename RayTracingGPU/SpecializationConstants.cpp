@@ -4,6 +4,7 @@ namespace rt::gpu {
 namespace {
 
 constexpr std::size_t kTraversal = offsetof(SpecializationConstants, traversal);
+constexpr std::size_t kAxisQuads = kTraversal + offsetof(TraversalShape, listedAxisQuads);
 constexpr std::size_t kConstants = sizeof(SpecializationConstants) / sizeof(std::uint32_t);
 
 constexpr VkSpecializationMapEntry entry(std::uint32_t id, std::size_t offset) {
@@ -19,10 +20,14 @@ constexpr std::array kEntries{
     entry(shared::kTriangleLightId, offsetof(SpecializationConstants, triangleLight)),
     entry(shared::kSamplerKindId, offsetof(SpecializationConstants, samplerKind)),
     entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
+    entry(shared::kLightCountId, offsetof(SpecializationConstants, lightCount)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
     entry(shared::kIsLinearId, kTraversal + offsetof(TraversalShape, isLinear)),
     entry(shared::kListedSpheresId, kTraversal + offsetof(TraversalShape, listedSpheres)),
+    entry(shared::kListedXQuadsId, kAxisQuads),
+    entry(shared::kListedYQuadsId, kAxisQuads + sizeof(std::uint32_t)),
+    entry(shared::kListedZQuadsId, kAxisQuads + 2 * sizeof(std::uint32_t)),
     entry(shared::kListedQuadsId, kTraversal + offsetof(TraversalShape, listedQuads)),
     entry(shared::kListedTrianglesId, kTraversal + offsetof(TraversalShape, listedTriangles)),
 };
@@ -47,16 +52,18 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
     shape.isLinear = bvh.isLinear ? 1 : 0;
     shape.listedSpheres = bvh.lists.spheres;
+    shape.listedAxisQuads = bvh.lists.axisQuads;
     shape.listedQuads = bvh.lists.quads;
     shape.listedTriangles = bvh.lists.triangles;
     return shape;
 }
 
 SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
-                                                    const TraversalShape& traversal) {
+                                                    std::uint32_t lights, const TraversalShape& traversal) {
     return {features,           params.lightSampling,   params.lightSelection,
             params.sphereLight, params.quadLight,       params.triangleLight,
-            params.samplerKind, params.russianRoulette, traversal};
+            params.samplerKind, params.russianRoulette, lights <= shared::kContributionLights ? lights : 0,
+            traversal};
 }
 
 VkSpecializationInfo specializationInfo(const SpecializationConstants& constants) {

@@ -19,7 +19,8 @@ struct TraversalShape {
     std::uint32_t treeDepth = 0;
     std::uint32_t isLinear = 0;
     std::uint32_t listedSpheres = 0;
-    std::uint32_t listedQuads = 0;
+    std::array<std::uint32_t, 3> listedAxisQuads{}; // perpendicular to x, y, z
+    std::uint32_t listedQuads = 0;                  // all others
     std::uint32_t listedTriangles = 0;
     bool operator==(const TraversalShape&) const = default;
 };
@@ -35,12 +36,14 @@ struct SpecializationConstants {
     std::uint32_t triangleLight = 0;
     std::uint32_t samplerKind = 0;
     std::uint32_t russianRoulette = 0;
-    TraversalShape traversal; // of the compute engine
+    std::uint32_t lightCount = 0; // of a table that is weighed light by light, otherwise 0
+    TraversalShape traversal;     // of the compute engine
     bool operator==(const SpecializationConstants&) const = default;
 };
 
+// `lights`: how many lights proper the scene has.
 SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
-                                                    const TraversalShape& traversal);
+                                                    std::uint32_t lights, const TraversalShape& traversal);
 
 // Of constants that must live as long as the result. Those that a shader does not have are ignored.
 VkSpecializationInfo specializationInfo(const SpecializationConstants& constants);

@@ -4,6 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 #include "Records.h"
+#include "PixelEnd.glsl"
 
 layout(local_size_x = 64) in; // the pixels of one slot
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
@@ -34,23 +35,28 @@ void main() {
     uint done = launch.samples.at[slot];
     uint end = samplesAfter(launch, slot, done);
     if (end == done) return;
-    bool squares = launch.keepSquares != 0u;
+    bool blockSquares = (launch.flags & kKeepsBlockSquares) != 0u;
+    bool sampleSquares = (launch.flags & kKeepsSampleSquares) != 0u;
+    uint last = pixelEnd(launch, pixel, end);
     FilmSum sum = launch.sums.at[pixel];
     FilmSum square;
-    if (squares) square = launch.squares.at[pixel];
+    if (blockSquares || sampleSquares) square = launch.squares.at[pixel];
     vec3 block = vec3(0.0f);
     if (done % kBlock != 0u) block = launch.open.at[pixel];
     for (uint step = 0u; step < end - done; step++) {
-        block += launch.radiance.at[sampleAt(launch, position, step, gl_LocalInvocationID.x)];
+        vec3 radiance = vec3(0.0f);
+        if (done + step < last) radiance = launch.radiance.at[sampleAt(launch, position, step, gl_LocalInvocationID.x)];
+        block += radiance;
+        if (sampleSquares) add(square, radiance * radiance);
         if ((done + step + 1u) % kBlock == 0u) {
             add(sum, block);
-            if (squares) add(square, block * block / float(kBlock));
+            if (blockSquares) add(square, block * block / float(kBlock));
             block = vec3(0.0f);
         }
     }
     if (end % kBlock != 0u) launch.open.at[pixel] = block;
     launch.sums.at[pixel] = sum;
-    if (squares) launch.squares.at[pixel] = square;
+    if (blockSquares || sampleSquares) launch.squares.at[pixel] = square;
     memoryBarrierBuffer();
     barrier(); // every invocation has read the count
     if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = end;

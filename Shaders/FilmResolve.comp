@@ -13,16 +13,20 @@ void main() {
     uint tilePixel = gl_LocalInvocationID.x;
     uvec2 pixel = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile + uvec2(tilePixel % kTile, tilePixel / kTile);
     if (pixel.x >= launch.width || pixel.y >= launch.height) return;
-    vec3 sum = vec3(0.0f);
-    uint samples = 0u;
-    for (uint replicate = 0u; replicate < launch.replicates; replicate++) {
-        uint slot = tile * launch.replicates + replicate;
-        uint at = slot * kTilePixels + tilePixel;
-        uint done = launch.samples.at[slot];
-        vec3 low = launch.sums.at[at].low;
-        if (done % kBlock != 0u) low += launch.open.at[at];
-        sum += launch.sums.at[at].high + low;
-        samples += done;
+    vec3 mean = vec3(0.0f);
+    for (uint half_ = 0u; half_ < launch.halves; half_++) {
+        vec3 sum = vec3(0.0f);
+        uint samples = 0u;
+        for (uint replicate = half_; replicate < launch.replicates; replicate += launch.halves) {
+            uint slot = tile * launch.replicates + replicate;
+            uint at = slot * kTilePixels + tilePixel;
+            uint done = launch.samples.at[slot];
+            vec3 low = launch.sums.at[at].low;
+            if (done % kBlock != 0u) low += launch.open.at[at];
+            sum += launch.sums.at[at].high + low;
+            samples += launch.halves == 2u ? min(done, launch.plan.at[at]) : done;
+        }
+        mean += sum / float(max(samples, 1u));
     }
-    launch.pixels.at[pixel.y * launch.width + pixel.x] = sum / float(max(samples, 1u));
+    launch.pixels.at[pixel.y * launch.width + pixel.x] = mean / float(launch.halves);
 }

@@ -1,15 +1,16 @@
 // Paths. Every invocation takes one sample after the other, the next that nobody has, and starts its path in the very
 // step in which the last one ended: no lane of a group waits for the longest path, and neighbours are at work at a
 // time, whose rays are alike. When no sample is left, paths under way are put aside for the next launch: no launch
-// waits for its longest path either. Each step traces one ray, of the path or of a shadow, in one place: lanes with a
-// shadow ray do not hold up those without, and the program keeps little alive across the trace. Measured against two
-// places, that makes light sampling 1.25 to 1.5 times as fast.
+// waits for its longest path either.
 //
-// The includer provides traceRay().
+// The includer provides traceRay() and, both found by measuring, see docs/gpu-engine.md:
+//   kRaysPerStep   2: a step traces the path's ray and, if it leaves one, the shadow's; 1: whichever is next
+//   tracesApart()  whether the program has two places that trace, one for each of the two rays of a step
 #extension GL_KHR_memory_scope_semantics : require
 #include "SceneAccess.glsl"
 #include "Common/Shared/Path/PathStep.h"
 #include "TraceStep.glsl"
+#include "PixelEnd.glsl"
 
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
@@ -26,14 +27,15 @@ bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint slot = launchSlot(launch, step / launch.steps);
     if (slot >= launch.filmSlots) return false;
-    work.pixel = pixelInTile(launch, launch.samples.at[tileEntry(launch, slot)], work.number % kTilePixels);
+    uint tilePixel = work.number % kTilePixels;
+    work.pixel = pixelInTile(constants.params.width, launch.samples.at[tileEntry(launch, slot)], tilePixel);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
     uint done = launch.samples.at[slot];
     uint index = done + step % launch.steps;
     work.smp = makeSampler(renderParams(), work.pixel.y * constants.params.width + work.pixel.x, slot % launch.replicates,
                            index);
     work.end = index + 1u;
-    return index < samplesAfter(launch, slot, done);
+    return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, slot, done));
 }
 
 // False: all have been taken.
@@ -91,6 +93,13 @@ void tellSamplesAreSpent() {
     atomicStore(launch.counters.at[kSpent], 1u, gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
 }
 
+// What becomes of the light of a shadow ray, and of the ray.
+void endShadowRay(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout uint shadow) {
+    shadow++;
+    if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
+    direct.distance = 0.0f;
+}
+
 // What an invocation does; all invocations of a launch share its samples.
 void tracePaths(uint invocation) {
     SceneRef scene;
@@ -126,14 +135,24 @@ void tracePaths(uint invocation) {
         }
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.slotCount != 0u) break;
-        bool checking = direct.distance > 0.0f;
-        Hit hit = traceStep(path, direct, checking, nonfinite);
-        if (checking) {
-            shadow++;
-            if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
-            direct.distance = 0.0f;
-        } else {
+        if (tracesApart()) {
+            Hit hit = traceStep(path, direct, false, nonfinite);
             goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
+            if (direct.distance > 0.0f) {
+                hit = traceStep(path, direct, true, nonfinite);
+                endShadowRay(scene, hit, path, direct, shadow);
+            }
+        } else {
+            for (uint i = 0u; i < kRaysPerStep; i++) {
+                bool checking = direct.distance > 0.0f;
+                if (i > 0u && !checking) break;
+                Hit hit = traceStep(path, direct, checking, nonfinite);
+                if (checking) {
+                    endShadowRay(scene, hit, path, direct, shadow);
+                } else {
+                    goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
+                }
+            }
         }
         begins = !goesOn && !(direct.distance > 0.0f);
         if (begins) {

@@ -3,6 +3,10 @@
 
 layout(set = 0, binding = 0) uniform accelerationStructureEXT topLevel;
 
+// See PathLoop.glsl: lanes with a shadow ray do not hold up those without, and little is kept across a trace.
+const uint kRaysPerStep = 1u;
+bool tracesApart() { return false; }
+
 layout(location = 0) rayPayloadEXT HitPayload hitPayload;
 
 float rayTMin(Ray ray) {

@@ -68,6 +68,7 @@ struct RenderConstants {
     SceneGlobals globals;
     RenderParams params;
     Camera camera;
+    LightBound lightBounds[kContributionLights]; // of a table that is weighed light by light
 };
 
 // ---- film ----------------------------------------------------------------------------------------------------------
@@ -102,13 +103,19 @@ struct UnfinishedPath {
 };
 RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 
+// What a film keeps besides sums.
+const uint kKeepsBlockSquares = 1u;  // of (block sum)^2 / kBlock
+const uint kKeepsSampleSquares = 2u; // of the samples of a pilot
+const uint kIsPlanned = 4u;
+
 // Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that
 // each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
 // without slots takes no samples and leaves no paths.
 struct FilmLaunch {
     MutableWordArray samples;          // per slot: samples that its pixels have; then per tile: its number in the image
     FilmSumArray sums;                 // of closed blocks
-    FilmSumArray squares;              // of (block sum)^2 / kBlock, if keepSquares
+    FilmSumArray squares;              // if a flag says of what
+    MutableWordArray plan;             // most samples of each pixel, if kIsPlanned
     MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
     MutableVectorArray radiance;       // of each sample of the launch, see sampleAt()
     UnfinishedPathArray left;          // as many as its counters say, see below
@@ -116,7 +123,6 @@ struct FilmLaunch {
     MutableVectorArray radianceBefore; // these three: of the launch before
     UnfinishedPathArray leftBefore;
     MutableWordArray countersBefore;
-    uint tilesX;    // of the image
     uint replicates;
     uint filmSlots;
     uint bandSlots; // the last band may lack some
@@ -125,19 +131,22 @@ struct FilmLaunch {
     uint slotCount; // bandWidth times the bands
     uint steps;     // samples that the launch may take each slot further
     uint spp;       // per pixel, all replicates, at which the launch stops
-    uint keepSquares;
+    uint flags;     // kKeepsBlockSquares and so on
 };
 
 // Push constants of FilmResolve.comp, for a film that is whole.
 struct ResolveLaunch {
-    MutableWordArray samples; // as FilmLaunch's, and so are the next two
+    MutableWordArray samples; // as FilmLaunch's, and so are the next three
     FilmSumArray sums;
     MutableVectorArray open;
+    MutableWordArray plan;
     MutableVectorArray pixels; // the means, row by row; 0 where there are no samples
     uint width;
     uint height;
     uint tilesX;
     uint replicates;
+    uint halves; // whose means make the picture: 2 where there is a plan, else 1
+    uint unused; // as in TreeArrays
 };
 
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
@@ -183,8 +192,10 @@ RT_FN uint tileEntry(RT_IN(FilmLaunch) launch, uint slot) {
     return launch.filmSlots + slot / launch.replicates;
 }
 
-RT_FN uvec2 pixelInTile(RT_IN(FilmLaunch) launch, uint tile, uint tilePixel) {
-    return uvec2(tile % launch.tilesX * kTile + tilePixel % kTile, tile / launch.tilesX * kTile + tilePixel / kTile);
+// Of an image so many pixels wide.
+RT_FN uvec2 pixelInTile(uint width, uint tile, uint tilePixel) {
+    uint tilesX = (width + kTile - 1u) / kTile;
+    return uvec2(tile % tilesX * kTile + tilePixel % kTile, tile / tilesX * kTile + tilePixel / kTile);
 }
 
 // ---- first-hit features and costs ----------------------------------------------------------------------------------

@@ -5,12 +5,22 @@
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Light/Lights.h"
 
-SceneGlobals loadGlobals(SceneRef scene) { return constants.globals; }
+SceneGlobals loadGlobals(SceneRef scene) {
+    SceneGlobals globals = constants.globals;
+    if (kLightCount != 0u) globals.lightCount = kLightCount; // then the compiler unrolls loops over lights
+    return globals;
+}
 #define RT_LOAD(Type, name, load, title) Type load(SceneRef scene, uint i) { return constants.arrays.name.at[i]; }
 #define RT_DEFINED_BELOW(Type, name, load, title)
 RT_SCENE_ARRAYS(RT_LOAD, RT_DEFINED_BELOW)
 
 vec3 loadSphereMotion(SceneRef scene, uint i) { return constants.arrays.sphereMotions.at[i]; }
+
+// All lanes ask for the same light: that is what uniform buffers are fast at.
+LightBound loadLightBound(SceneRef scene, uint i) {
+    if (kLightCount != 0u) return constants.lightBounds[i];
+    return constants.arrays.lightBounds.at[i];
+}
 
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     LightCluster c;

@@ -14,15 +14,19 @@ const uint kQuadLightId = 4u;
 const uint kTriangleLightId = 5u;
 const uint kSamplerKindId = 6u;
 const uint kRussianRouletteId = 7u;
+const uint kLightCountId = 8u;
 // Of compute shaders that trace rays, see Traverse.glsl.
-const uint kGroupSizeId = 8u;
-const uint kTreeDepthId = 9u;
-const uint kIsLinearId = 10u;
-const uint kListedSpheresId = 11u;
-const uint kListedQuadsId = 12u;
-const uint kListedTrianglesId = 13u;
+const uint kGroupSizeId = 9u;
+const uint kTreeDepthId = 10u;
+const uint kIsLinearId = 11u;
+const uint kListedSpheresId = 12u;
+const uint kListedXQuadsId = 13u;
+const uint kListedYQuadsId = 14u;
+const uint kListedZQuadsId = 15u;
+const uint kListedQuadsId = 16u;
+const uint kListedTrianglesId = 17u;
 // Of the preview, see Preview.glsl.
-const uint kShapeId = 14u;
+const uint kShapeId = 18u;
 
 RT_SHARED_END
 

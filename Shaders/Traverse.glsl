@@ -7,8 +7,15 @@
 layout(constant_id = kTreeDepthId) const uint kTreeDepth = 0u; // references that a traversal has to remember
 layout(constant_id = kIsLinearId) const uint kIsLinear = 1u;   // there are the lists instead of a tree
 layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u;
+layout(constant_id = kListedXQuadsId) const uint kListedXQuads = 0u; // along axes, perpendicular to x
+layout(constant_id = kListedYQuadsId) const uint kListedYQuads = 0u;
+layout(constant_id = kListedZQuadsId) const uint kListedZQuads = 0u;
 layout(constant_id = kListedQuadsId) const uint kListedQuads = 0u;
 layout(constant_id = kListedTrianglesId) const uint kListedTriangles = 0u;
+
+// See PathLoop.glsl: all lanes of a group shade at a time, then all trace. Of lists a program can hold two copies.
+const uint kRaysPerStep = 2u;
+bool tracesApart() { return kIsLinear != 0u || !has(kFeatures, kFeatureLights); }
 
 layout(set = 0, binding = 2, scalar) uniform LinearLists { vec4 listVectors[kListVectors]; };
 
@@ -88,6 +95,29 @@ Nearest nothingWithin(float tMax) {
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
 
+// u and v of a hit quad along axes, which so far are in the order of the axes.
+void turnQuad(inout Nearest nearest) {
+    if (nearest.place == kNone || (nearest.place & kTurned) == 0u) return;
+    nearest.place &= ~kTurned;
+    float u = nearest.u;
+    nearest.u = nearest.v;
+    nearest.v = u;
+}
+
+// The quads perpendicular to an axis, from a vector of the lists on; turnQuad() is to follow.
+void traceAxisQuads(TracedRay r, uint axis, uint first, uint count, inout Nearest nearest) {
+    vec3 origin = axisLast(r.ray.origin, axis);
+    vec3 direction = axisLast(r.ray.direction, axis);
+    float inverse = 1.0f / direction.z;
+    for (uint at = first; at < first + 2u * count; at += 2u) {
+        vec4 corner = listVectors[at];
+        vec4 extent = listVectors[at + 1u];
+        vec3 toCorner = axisLast(corner.xyz, axis) - origin;
+        ShapeHit hit = intersectAxisQuad(toCorner, direction, inverse, r.rayLength, extent.xy, extent.zw, nearest.t);
+        accept(nearest, hit, kQuad, floatBitsToUint(corner.w));
+    }
+}
+
 // Every primitive is tested, by all lanes together and without a branch that depends on one.
 Hit traceLinear(Ray ray, float tMax) {
     TracedRay r = makeTracedRay(ray, true);
@@ -99,9 +129,17 @@ Hit traceLinear(Ray ray, float tMax) {
             acceptSphere(nearest, t, floatBitsToUint(motion.w));
         }
     }
+    uint first = 2u * kListedSpheres;
     if (has(kFeatures, kFeatureQuads)) {
+        traceAxisQuads(r, 0u, first, kListedXQuads, nearest);
+        first += 2u * kListedXQuads;
+        traceAxisQuads(r, 1u, first, kListedYQuads, nearest);
+        first += 2u * kListedYQuads;
+        traceAxisQuads(r, 2u, first, kListedZQuads, nearest);
+        first += 2u * kListedZQuads;
+        turnQuad(nearest);
         for (uint i = 0u; i < kListedQuads; i++) {
-            uint at = 2u * kListedSpheres + 4u * i;
+            uint at = first + 4u * i;
             vec4 normal = listVectors[at + 1u];
             ShapeHit hit = testQuad(r, listVectors[at], normal, listVectors[at + 2u], listVectors[at + 3u], nearest.t);
             accept(nearest, hit, kQuad, floatBitsToUint(normal.w));
@@ -109,7 +147,7 @@ Hit traceLinear(Ray ray, float tMax) {
     }
     if (has(kFeatures, kFeatureTriangles)) {
         for (uint i = 0u; i < kListedTriangles; i++) {
-            uint at = 2u * kListedSpheres + 4u * kListedQuads + 3u * i;
+            uint at = first + 4u * kListedQuads + 3u * i;
             vec4 vertex = listVectors[at];
             ShapeHit hit = testTriangle(r, vertex, listVectors[at + 1u], listVectors[at + 2u], nearest.t);
             accept(nearest, hit, kTriangle, floatBitsToUint(vertex.w));

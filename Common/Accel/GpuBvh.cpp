@@ -43,10 +43,32 @@ shared::TreeTriangle triangleRecord(const AccelInput& input, std::uint32_t index
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
 
+// The axis that a quad whose edges run along axes is perpendicular to.
+std::optional<int> perpendicularAxis(const shared::Quad& quad) {
+    const auto isAlong = [](vec3 edge, int axis) { return edge[(axis + 1) % 3] == 0 && edge[(axis + 2) % 3] == 0; };
+    for (int axis = 0; axis < 3; ++axis) {
+        const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+        if ((isAlong(quad.edgeU, first) && isAlong(quad.edgeV, second)) ||
+            (isAlong(quad.edgeU, second) && isAlong(quad.edgeV, first)))
+            return axis;
+    }
+    return {};
+}
+
+std::array<vec4, 2> axisQuadVectors(const shared::Quad& quad, std::uint32_t index, int axis) {
+    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+    const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
+    const bool turned = quad.edgeU[first] == 0;
+    const vec3 edge = quad.edgeU + quad.edgeV;
+    const shared::vec2 margin = turned ? shared::vec2(frame.margin.y, frame.margin.x) : frame.margin;
+    const std::uint32_t place = turned ? index | shared::kTurned : index;
+    return {vec4(quad.corner, std::bit_cast<float>(place)),
+            vec4(1 / edge[first], 1 / edge[second], margin.x, margin.y)};
+}
+
 LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
     LinearLists lists;
     lists.spheres = world.sphereCount;
-    lists.quads = world.quadCount;
     lists.triangles = world.triangleCount;
     const auto add = [&](std::initializer_list<vec4> vectors) {
         lists.vectors.insert(lists.vectors.end(), vectors.begin(), vectors.end());
@@ -55,9 +77,19 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
         const std::uint32_t index = world.firstSphere + i;
         add({sphereVector(input, index), vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index))});
     }
-    for (std::uint32_t i = 0; i < world.quadCount; ++i) {
-        const shared::TreeQuad quad = quadRecord(input, world.firstQuad + i);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
+            if (perpendicularAxis(input.quads[i]) != axis) continue;
+            const std::array<vec4, 2> quad = axisQuadVectors(input.quads[i], i, axis);
+            add({quad[0], quad[1]});
+            ++lists.axisQuads[axis];
+        }
+    }
+    for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
+        if (perpendicularAxis(input.quads[i])) continue;
+        const shared::TreeQuad quad = quadRecord(input, i);
         add({quad.corner, quad.normal, quad.dualU, quad.dualV});
+        ++lists.quads;
     }
     for (std::uint32_t i = 0; i < world.triangleCount; ++i) {
         const shared::TreeTriangle triangle = triangleRecord(input, world.firstTriangle + i);

@@ -1,6 +1,7 @@
 // The acceleration structure of the compute engine: see Common/Shared/TreeRecords.h for its layout and
 // Shaders/Traverse.glsl for its traversal.
 #pragma once
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <optional>
@@ -27,9 +28,10 @@ struct GpuTrees {
 
 // The primitives of a scene without instances, not sorted at all.
 struct LinearLists {
-    std::vector<shared::vec4> vectors; // as in TreeRecords.h
-    std::uint32_t spheres = 0;         // how many of each there are
-    std::uint32_t quads = 0;
+    std::vector<shared::vec4> vectors;        // as in TreeRecords.h
+    std::uint32_t spheres = 0;                // how many of each there are
+    std::array<std::uint32_t, 3> axisQuads{}; // perpendicular to x, y, z
+    std::uint32_t quads = 0;                  // all others
     std::uint32_t triangles = 0;
 };
 

@@ -63,6 +63,7 @@ constexpr Axis kAxes[] = {
     method<"quad_light", &RenderSettings::quadLight, kFlatLights>(),
     method<"triangle_light", &RenderSettings::triangleLight, kFlatLights>(),
     method<"sampler", &RenderSettings::sampler, kSamplers>(),
+    method<"adaptive", &RenderSettings::adaptive, kAdaptive>(),
     method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),
     {"features", Says::How, [](const Config& c) { return nameOf(kFeatures, c.settings.features.has_value()); },
      setFeatures},

@@ -7,6 +7,7 @@
 
 #include "Common/App/Platform.h"
 #include "Common/App/Session/FilmRun.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Image/Summary.h"
 
 namespace rt::bench {
@@ -53,6 +54,7 @@ class Measurer {
         app::RenderSettings settings = settings_;
         settings.spp = device ? kUnknownSpp : kWarmUpSpp;
         settings.sppIsKnown = !device;
+        settings.adaptive = false;
         app::FilmRun film(engine_, scene_.camera, settings);
         double rate = 0;
         while (film.seconds() < kMostDeviceWarmUpSeconds) {
@@ -101,7 +103,8 @@ class Measurer {
   private:
     // From the first sample on; `reached` is told the number of each step that was done in time.
     void climb(const Ladder& ladder, const std::function<void(std::size_t)>& reached) {
-        const bool anew = settings_.sampler == app::SamplerKind::Stratified;
+        const bool anew = settings_.sampler == app::SamplerKind::Stratified || settings_.adaptive;
+        const std::uint32_t replicates = settings_.replicates;
         done_ = {};
         for (std::size_t i = 0; i < ladder.spp.size(); ++i) {
             const std::uint32_t spp = ladder.spp[i];
@@ -110,6 +113,8 @@ class Measurer {
             image::Film film = anew || done_.spp == 0 ? image::Film() : engine_.film();
             if (anew) done_ = {};
             settings_.spp = spp;
+            settings_.replicates = replicates;
+            app::settleReplicates(settings_);
             film_.emplace(engine_, scene_.camera, settings_, std::move(film));
             if (!step(done_.spp > 0 ? std::nullopt : std::optional(ladder.maxSeconds))) return; // nothing tells as yet
             done_.spp = spp;
@@ -144,7 +149,7 @@ class Measurer {
 
     void take(std::optional<double> timeBudget) {
         const image::Film& film = engine_.film();
-        done_.spp = film.minSamples();
+        done_.spp = film.samplesPerPixel();
         done_.samples = film.totalSamples();
         done_.timeBudget = timeBudget;
         run_.snapshots.push_back(done_);

@@ -296,7 +296,7 @@ class Suite {
         }
     }
 
-    // The same quad twice: which of the two is hit must not matter.
+    // The floor twice: which of the two is hit must not matter.
     void coincident() {
         SceneDesc desc = litFloor();
         desc.objects.push_back(desc.objects.front());

@@ -1,11 +1,12 @@
 #include "Common/Core/AtomicFile.h"
 
-#include <cerrno>
 #include <cstdio>
+#include <mutex>
 #include <random>
+#include <set>
+#include <string_view>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/NewFile.h"
 
 namespace rt {
 
@@ -13,17 +14,30 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string reasonOf(int error) {
-    return error == 0 ? "write failed" : std::generic_category().message(error);
-}
+constexpr std::string_view kPrefix = ".rt-", kSuffix = ".tmp";
 
 // Short, whatever the target's name, so that it fits wherever the target does.
 std::string temporaryName() {
     std::random_device device;
-    char name[32];
-    std::snprintf(name, sizeof name, ".rt-%08x%08x.tmp", static_cast<unsigned>(device()),
-                  static_cast<unsigned>(device()));
-    return name;
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%08x%08x", static_cast<unsigned>(device()), static_cast<unsigned>(device()));
+    return std::string(kPrefix) + digits + std::string(kSuffix);
+}
+
+bool isTemporary(const std::string& name) {
+    return name.size() == temporaryName().size() && name.starts_with(kPrefix) && name.ends_with(kSuffix);
+}
+
+// Once a program in each folder that it writes to.
+void removeLeftovers(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> visited;
+    {
+        const std::scoped_lock lock(mutex);
+        if (!visited.insert(folder).second) return;
+    }
+    for (const std::string& name : namesIn(folder.empty() ? "." : folder))
+        if (isTemporary(name)) removeAbandoned(folder / name);
 }
 
 } // namespace
@@ -32,56 +46,52 @@ AtomicFile::AtomicFile(const fs::path& path) : path_(path), target_(path) {
     std::error_code ignored; // what cannot be looked at is reported when it is opened
     if (const fs::path followed = fs::canonical(path, ignored); !ignored) target_ = followed;
     const fs::file_status status = fs::status(target_, ignored);
-    if (fs::is_directory(status)) fail(reasonOf(EISDIR));
+    if (fs::is_directory(status)) fail(std::make_error_code(std::errc::is_a_directory));
     if (!fs::exists(status)) createTemporary(Access::Everybody);
     if (fs::is_regular_file(status)) createTemporary(Access::OwnerOnly); // what it replaces may be private
-    HeldPipe pipe;
-    if (fs::is_fifo(status))
-        if (const std::error_code error = pipe.open(target_))
-            fail(error == std::errc::no_such_device_or_address ? "nobody reads from this pipe" : error.message());
-    errno = 0;
-    stream_.open(temporary_.empty() ? target_ : temporary_, std::ios::binary | std::ios::trunc);
-    if (!stream_) {
-        const int error = errno;
+    if (const std::error_code error = file_.open(temporary_.empty() ? target_ : temporary_)) {
         fs::remove(temporary_, ignored);
-        fail(reasonOf(error));
+        fail(error);
     }
+    if (!temporary_.empty()) file_.lock();
 }
 
 void AtomicFile::createTemporary(Access access) {
+    removeLeftovers(target_.parent_path());
     std::error_code error = std::make_error_code(std::errc::file_exists);
     while (error == std::errc::file_exists) {
         temporary_ = target_.parent_path() / temporaryName();
         error = createExclusively(temporary_, access);
     }
-    if (error) fail(error.message());
+    if (error) fail(error);
 }
 
 AtomicFile::~AtomicFile() {
-    stream_.close();
+    file_.close();
     std::error_code ignored;
     if (!temporary_.empty()) fs::remove(temporary_, ignored);
 }
 
-void AtomicFile::commit() {
-    const bool lost = stream_.fail();
-    errno = 0;
-    if (lost) { // the reason may be gone by now: fail once more to learn it
-        stream_.clear();
-        stream_.put(0);
-    }
-    stream_.close();
-    if (lost || stream_.fail()) fail(reasonOf(errno));
+void AtomicFile::commit(Durability durability) {
+    const bool toDisk = durability == Durability::ToDisk;
+    if (const std::error_code error = file_.finish(toDisk)) fail(error);
+    if (stream_.fail()) fail(std::make_error_code(std::errc::io_error)); // by whoever wrote to it
     if (temporary_.empty()) return;
     std::error_code error;
     if (fs::is_regular_file(target_, error)) copyOwnerAndMode(target_, temporary_);
     fs::rename(temporary_, target_, error);
-    if (error) fail(error.message());
+    if (error) fail(error);
     temporary_.clear();
+    if (const std::error_code lost = toDisk ? syncFolder(target_.parent_path()) : error) fail(lost);
 }
 
-void AtomicFile::fail(const std::string& reason) const {
-    throw RenderError("cannot write " + path_.string() + ": " + reason);
+void AtomicFile::fail(const std::error_code& error) const {
+    const bool isUnread = error == std::errc::no_such_device_or_address;
+    const bool isStalled = error == std::errc::timed_out;
+    throw RenderError("cannot write " + path_.string() + ": " +
+                      (isUnread    ? "nobody reads from this pipe"
+                       : isStalled ? "whoever reads from this pipe takes nothing"
+                                   : error.message()));
 }
 
 } // namespace rt

@@ -15,8 +15,12 @@ Interruptible::~Interruptible() {
     requested = outer_;
 }
 
+bool interruptionRequested() {
+    return requested != nullptr && requested->load(std::memory_order_relaxed);
+}
+
 void interruptionPoint() {
-    if (requested != nullptr && requested->load(std::memory_order_relaxed)) throw Interrupted();
+    if (interruptionRequested()) throw Interrupted();
 }
 
 } // namespace rt

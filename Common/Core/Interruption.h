@@ -22,6 +22,8 @@ class Interruptible {
     const std::atomic<bool>* outer_;
 };
 
+bool interruptionRequested(); // somebody waits for the end of this thread's work
+
 // Throws Interrupted where somebody waits for the work to end. Cheap enough for every element of a mesh.
 void interruptionPoint();
 

@@ -1,4 +1,4 @@
-// Files as each operating system has them beyond std::filesystem: made by nobody else, of the same owner, pipes.
+// Files as each operating system has them beyond std::filesystem: made by nobody else, of the same owner.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -19,19 +19,8 @@ std::filesystem::path createNumbered(const std::filesystem::path& folder, const 
 // than others have. Does nothing where the platform has no such thing.
 void copyOwnerAndMode(const std::filesystem::path& from, const std::filesystem::path& to);
 
-// Keeps a pipe open for writing, so that whoever opens it meanwhile need not wait for a reader.
-class HeldPipe {
-  public:
-    HeldPipe() = default;
-    ~HeldPipe();
-    HeldPipe(const HeldPipe&) = delete;
-    HeldPipe& operator=(const HeldPipe&) = delete;
-
-    // Does not wait: fails with std::errc::no_such_device_or_address when nobody reads.
-    std::error_code open(const std::filesystem::path& path);
-
-  private:
-    int descriptor_ = -1;
-};
+// A standard stream that was closed when the program started becomes one that leads nowhere: or the next file that is
+// opened would take its place, and messages go into it.
+void openStandardStreams();
 
 } // namespace rt

@@ -8,13 +8,52 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Paths.h"
 
 namespace rt {
+
+namespace {
+
+thread_local const ReadsBelow* confinement = nullptr;
+
+// As the system finds it, links followed; what does not exist stays where it is named.
+std::filesystem::path located(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::path found = std::filesystem::weakly_canonical(path, error);
+    return error ? path : found;
+}
+
+} // namespace
+
+ReadsBelow::ReadsBelow(const std::filesystem::path& folder, const std::filesystem::path& file)
+    : file_(located(file)), outer_(confinement) {
+    if (folder.empty()) return;
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(folder, ignored))
+        throw InputError("--assets-below " + folder.string() + ": there is no such folder");
+    folders_ = assetFolders();
+    folders_.push_back(folder);
+    for (std::filesystem::path& allowed : folders_) allowed = located(allowed);
+    confinement = this;
+}
+
+ReadsBelow::~ReadsBelow() {
+    confinement = outer_;
+}
+
+bool ReadsBelow::allows(const std::filesystem::path& path) const {
+    const std::filesystem::path place = located(path);
+    const auto isBelow = [&place](const std::filesystem::path& folder) {
+        return std::mismatch(folder.begin(), folder.end(), place.begin(), place.end()).first == folder.end();
+    };
+    return place == file_ || std::any_of(folders_.begin(), folders_.end(), isBelow);
+}
 
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit) {
     const auto fail = [&path](const std::string& reason) {
         throw InputError("cannot read " + path.string() + ": " + reason);
     };
+    if (confinement != nullptr && !confinement->allows(path)) fail("--assets-below does not allow it");
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail(error ? error.message() : std::generic_category().message(ENOENT));

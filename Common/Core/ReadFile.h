@@ -7,6 +7,24 @@
 
 namespace rt {
 
+// While it exists, readFile() on this thread takes only files below a folder, assets (Paths.h), and one file more:
+// for scenes of others. Links are followed first. An empty folder confines nothing. Throws InputError for one that does
+// not exist.
+class ReadsBelow {
+  public:
+    ReadsBelow(const std::filesystem::path& folder, const std::filesystem::path& file);
+    ~ReadsBelow();
+    ReadsBelow(const ReadsBelow&) = delete;
+    ReadsBelow& operator=(const ReadsBelow&) = delete;
+
+    bool allows(const std::filesystem::path& path) const;
+
+  private:
+    std::vector<std::filesystem::path> folders_; // none: everything is allowed
+    std::filesystem::path file_;
+    const ReadsBelow* outer_;
+};
+
 // Of a regular file alone, in memory for its size. Throws InputError, naming the file and the reason, when it cannot be
 // read or holds more than `limit` bytes or than its size says.
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit);

@@ -100,6 +100,7 @@ void PictureArea::handlePointer() {
     inspect(pixel);
     if (inside && io.MouseClicked[0] && (gui_.pickFocus || gui_.window.clickedWithControl())) {
         gui_.pickFocus = false;
+        dragging_ = false; // the press that picks does not orbit
         if (pixel) gui_.session.pickFocus((*pixel)[0], (*pixel)[1]);
     } else if (dragging_ && io.MouseDown[0] && gui_.held && !io.KeyAlt) {
         gui_.split = std::clamp((io.MousePos.x - area_.x) / std::max(1.0f, area_.width), 0.0f, 1.0f);
@@ -118,7 +119,8 @@ void PictureArea::drag() {
         gui_.view.zoom = scale();
     } else if (io.MouseDown[1]) {
         gui_.camera.look(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
-    } else if (io.MouseDown[0] && io.KeyAlt) {
+    } else if (io.MouseDown[0] && (io.KeyAlt || (!gui_.held && ImGui::IsMouseDragging(0)))) {
+        // Alone from ImGui's threshold on, so that a click with an unsteady hand starts no new film.
         gui_.camera.orbit(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
     } else if (io.MouseDown[2] && height > 0) {
         gui_.camera.pan(-dx / height, dy / height);

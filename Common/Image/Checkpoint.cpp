@@ -25,11 +25,13 @@ nlohmann::json toJson(const FilmDesc& desc) {
     return {{"width", desc.width},
             {"height", desc.height},
             {"replicates", desc.replicates},
-            {"second_moments", desc.secondMoments}};
+            {"second_moments", desc.secondMoments},
+            {"adaptive", desc.adaptive}};
 }
 
 FilmDesc toFilmDesc(const nlohmann::json& json) {
-    return {json.at("width"), json.at("height"), json.at("replicates"), json.at("second_moments")};
+    return {json.at("width"), json.at("height"), json.at("replicates"), json.at("second_moments"),
+            json.value("adaptive", false)}; // which checkpoints of the first versions do not say
 }
 
 class Reader {
@@ -73,7 +75,7 @@ nlohmann::json readHeader(Reader& in) {
 void writeCheckpoint(const std::filesystem::path& path, const nlohmann::json& render, const Film& film) {
     AtomicFile file(path);
     writeCheckpoint(file.stream(), render, film);
-    file.commit();
+    file.commit(AtomicFile::Durability::ToDisk);
 }
 
 void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film& film) {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Image/FilmRows.h"
@@ -35,15 +36,28 @@ void checkSide(const char* what, std::uint32_t side) {
                          std::to_string(kMaxImageSide));
 }
 
+// Samples of the tile's pixels that are inside of the image.
+std::uint64_t samplesInside(const FilmDesc& desc, std::uint32_t tile, const Film::TileState& state) {
+    const std::uint32_t tilesX = (desc.width + Film::kTile - 1) / Film::kTile;
+    const std::uint32_t columns = std::min(Film::kTile, desc.width - tile % tilesX * Film::kTile);
+    const std::uint32_t rows = std::min(Film::kTile, desc.height - tile / tilesX * Film::kTile);
+    if (state.plan.empty()) return std::uint64_t{state.samples} * columns * rows;
+    std::uint64_t total = 0;
+    for (std::uint32_t y = 0; y < rows; ++y)
+        for (std::uint32_t x = 0; x < columns; ++x) total += state.samplesOf(std::size_t{y} * Film::kTile + x);
+    return total;
+}
+
 } // namespace
 
 Film::Film(const FilmDesc& desc) : desc_(desc) {
     checkSide("width", desc.width);
     checkSide("height", desc.height);
     if (desc.replicates < 1) throw UsageError("replicates 0 is less than 1");
+    if (desc.adaptive && desc.replicates % 2 != 0) throw UsageError("an adaptive film's replicates are not even");
     allocate(sums_, slotCount() * kTileValues, desc); // the largest first: what cannot be had is refused untouched
     allocate(samples_, slotCount(), desc);
-    if (desc.secondMoments) allocate(squares_, slotCount() * kTileValues, desc);
+    if (desc.secondMoments || desc.adaptive) allocate(squares_, slotCount() * kTileValues, desc);
 }
 
 std::uint64_t Film::samples(std::uint32_t tile) const {
@@ -64,12 +78,46 @@ std::uint32_t Film::minReplicateSamples() const {
 
 std::uint64_t Film::totalSamples() const {
     std::uint64_t total = 0;
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) {
-        const std::uint64_t columns = std::min(kTile, desc_.width - tile % tilesX() * kTile);
-        const std::uint64_t rows = std::min(kTile, desc_.height - tile / tilesX() * kTile);
-        total += samples(tile) * columns * rows;
-    }
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile)
+        for (std::uint32_t replicate = 0; replicate < desc_.replicates; ++replicate)
+            total += samplesInside(desc_, tile, state(tile, replicate));
     return total;
+}
+
+std::uint64_t Film::samplesPerPixel() const {
+    if (!hasPlan()) return minSamples();
+    return totalSamples() / (std::uint64_t{desc_.width} * desc_.height);
+}
+
+std::uint64_t Film::nextSample(std::uint64_t spp) const {
+    std::uint64_t least = kNoSample;
+    for (std::size_t at = 0; at < slotCount(); ++at) {
+        if (hasPlan() && samples_[at] >= ends_[at]) continue;
+        const std::uint64_t next = std::uint64_t{samples_[at]} * desc_.replicates + at % desc_.replicates;
+        if (hasPlan() || next < spp) least = std::min(least, next);
+    }
+    return least;
+}
+
+void Film::setPlan(std::vector<std::uint32_t> plan) {
+    if (!isPilot() || plan.size() != slotCount() * kTilePixels)
+        throw std::logic_error("the plan is not one of this film");
+    plan_ = std::move(plan);
+    setEnds();
+    squares_ = {};
+}
+
+void Film::setEnds() {
+    ends_.resize(slotCount());
+    for (std::size_t at = 0; at < slotCount(); ++at) {
+        const auto first = plan_.begin() + static_cast<std::ptrdiff_t>(at * kTilePixels);
+        ends_[at] = *std::max_element(first, first + kTilePixels);
+    }
+}
+
+std::span<const std::uint32_t> Film::plan(std::uint32_t tile, std::uint32_t replicate) const {
+    if (!hasPlan()) return {};
+    return {&plan_[slot(tile, replicate) * kTilePixels], kTilePixels};
 }
 
 void Film::reserveOpenBlocks() {
@@ -89,6 +137,7 @@ void Film::begin(std::uint32_t tile, std::uint32_t replicate, TileBlock& block) 
         std::copy(open.begin(), open.end(), block.sum);
     else
         std::fill_n(block.sum, kTileValues, 0.0f);
+    if (isPilot()) std::fill_n(block.squares, kTileValues, 0.0f);
 }
 
 void Film::commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& block) {
@@ -108,13 +157,15 @@ void Film::commit(std::uint32_t tile, std::uint32_t replicate, const TileBlock& 
                 squares[i] += double{block.sum[i]} * double{block.sum[i]} / kBlock;
         }
     }
+    if (isPilot())
+        for (std::size_t i = 0; i < kTileValues; ++i) squares_[at * kTileValues + i] += double{block.squares[i]};
     samples_[at] = closed + block.count;
 }
 
 Film::TileState Film::state(std::uint32_t tile, std::uint32_t replicate) const {
     const std::size_t at = slot(tile, replicate);
-    TileState state{samples_[at], {&sums_[at * kTileValues], kTileValues}, {}, openBlock(at)};
-    if (desc_.secondMoments) state.squares = {&squares_[at * kTileValues], kTileValues};
+    TileState state{samples_[at], {&sums_[at * kTileValues], kTileValues}, {}, openBlock(at), plan(tile, replicate)};
+    if (!squares_.empty()) state.squares = {&squares_[at * kTileValues], kTileValues};
     return state;
 }
 
@@ -124,7 +175,7 @@ void Film::assign(std::uint32_t tile, std::uint32_t replicate, const TileState& 
         throw std::logic_error("an unfilled block needs Film::reserveOpenBlocks()");
     samples_[at] = state.samples;
     std::copy(state.sums.begin(), state.sums.end(), &sums_[at * kTileValues]);
-    if (desc_.secondMoments) std::copy(state.squares.begin(), state.squares.end(), &squares_[at * kTileValues]);
+    if (!squares_.empty()) std::copy(state.squares.begin(), state.squares.end(), &squares_[at * kTileValues]);
     if (!state.open.empty()) std::copy(state.open.begin(), state.open.end(), &open_[at * kTileValues]);
 }
 
@@ -142,7 +193,8 @@ Image Film::sampleCounts() const {
 
 std::uint64_t Film::bytes() const {
     return samples_.capacity() * sizeof(samples_[0]) + sums_.capacity() * sizeof(sums_[0]) +
-           squares_.capacity() * sizeof(squares_[0]) + open_.capacity() * sizeof(open_[0]);
+           squares_.capacity() * sizeof(squares_[0]) + open_.capacity() * sizeof(open_[0]) +
+           (plan_.capacity() + ends_.capacity()) * sizeof(plan_[0]);
 }
 
 } // namespace rt::image

@@ -1,6 +1,7 @@
 // Radiance sums that are exact for any number of samples: per pixel, blocks of 16 consecutive sample indices are summed
 // in order in float and added in order to sums in double, so neither the size of a dispatch nor an interruption shows.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 #include <iosfwd>
 #include <span>
@@ -18,12 +19,14 @@ struct FilmDesc {
     std::uint32_t height = 0;
     std::uint32_t replicates = 1; // independent scramblings, each with sums of its own
     bool secondMoments = false;   // keep what the variance within a single replicate needs
+    bool adaptive = false;        // a plan follows a pilot, see SamplePlan.h; replicates are even in number then
     bool operator==(const FilmDesc&) const = default;
 };
 
 // Pixels are stored in tiles of 8x8, row by row; tiles at the right and lower edge are partly outside of the image.
 // Distinct tiles may be read and written by distinct threads at the same time; nothing else is synchronised.
-// Memory per pixel and replicate: 24 bytes, 24 more with second moments, 12 more once open blocks are reserved.
+// Memory per pixel and replicate: 24 bytes, 24 more with second moments, 12 more once open blocks are reserved; of an
+// adaptive film 24 more during the pilot and 4 more after it.
 class Film {
   public:
     static constexpr std::uint32_t kBlock = 16; // samples
@@ -36,6 +39,8 @@ class Film {
         std::uint32_t firstSample = 0; // index, in the replicate, of the block's first sample: a multiple of kBlock
         std::uint32_t count = 0;       // samples already summed, < kBlock when begin() returns it
         float sum[kTilePixels * 3] = {};
+        // Of an adaptive film's pilot: sums of the squares of the samples since begin().
+        float squares[kTilePixels * 3] = {};
     };
 
     Film() = default;
@@ -46,16 +51,38 @@ class Film {
     std::uint32_t tilesY() const { return (desc_.height + kTile - 1) / kTile; }
     std::uint32_t tileCount() const { return tilesX() * tilesY(); }
 
-    // Samples that each pixel of the tile has received in the replicate.
+    // Samples that each pixel of the tile has received in the replicate; where there is a plan, each that is not done
+    // before.
     std::uint32_t samples(std::uint32_t tile, std::uint32_t replicate) const { return samples_[slot(tile, replicate)]; }
     // The same over all replicates.
     std::uint64_t samples(std::uint32_t tile) const;
-    // Least over all tiles: what a statistic may call "done".
+    // Least over all tiles.
     std::uint64_t minSamples() const;
     // Least over all tiles and replicates.
     std::uint32_t minReplicateSamples() const;
     // Sum over all pixels of the image and all replicates.
     std::uint64_t totalSamples() const;
+    // What a statistic may call "done": samples of every pixel, or where there is a plan their mean, rounded down.
+    std::uint64_t samplesPerPixel() const;
+    // The replicates of an adaptive film make two halves.
+    static constexpr std::uint32_t halfOf(std::uint32_t replicate) { return replicate % 2; }
+    // The least index of a sample that some pixel lacks of its first `spp`, or of what the plan gives it; kNoSample:
+    // none does.
+    // Sample s of a pixel is number s / replicates of replicate s mod replicates.
+    static constexpr std::uint64_t kNoSample = ~std::uint64_t{0};
+    std::uint64_t nextSample(std::uint64_t spp) const;
+
+    // Of an adaptive film, once its pilot is done: how many samples each pixel gets in all, kTilePixels a slot, the
+    // slots of a tile's replicates side by side. The pilot's squares are dropped.
+    void setPlan(std::vector<std::uint32_t> plan);
+    bool hasPlan() const { return !plan_.empty(); }
+    bool isPilot() const { return desc_.adaptive && !hasPlan(); }
+    // What each pixel of the tile gets in the replicate; empty without a plan.
+    std::span<const std::uint32_t> plan(std::uint32_t tile, std::uint32_t replicate) const;
+    // Where all pixels of the tile are done in the replicate: the most that the plan gives one of them.
+    std::uint32_t planEnd(std::uint32_t tile, std::uint32_t replicate) const { return ends_[slot(tile, replicate)]; }
+    // The same of the whole image.
+    std::uint32_t planEnd() const { return *std::max_element(ends_.begin(), ends_.end()); }
 
     // Makes room for blocks that stay unfilled. To be called, by one thread, before work that may commit such a block;
     // costs nothing when called again. Throws RenderError when memory does not suffice.
@@ -71,20 +98,26 @@ class Film {
     struct TileState {
         std::uint32_t samples = 0;
         std::span<const double> sums;    // of all closed blocks
-        std::span<const double> squares; // of (block sum)^2 / kBlock; empty without second moments
+        std::span<const double> squares; // of (block sum)^2 / kBlock, or of a pilot's samples; empty without either
         std::span<const float> open;     // the open block; empty unless there is one
+        std::span<const std::uint32_t> plan{}; // most samples of each pixel; empty without one; assign() keeps its own
+        // Of a pixel, numbered row by row in the tile.
+        std::uint32_t samplesOf(std::size_t pixel) const {
+            return plan.empty() ? samples : std::min(samples, plan[pixel]);
+        }
     };
     // For engines that keep the film elsewhere and copy it. assign() replaces the state; an open block needs
     // reserveOpenBlocks().
     TileState state(std::uint32_t tile, std::uint32_t replicate) const;
     void assign(std::uint32_t tile, std::uint32_t replicate, const TileState& state);
 
-    // Mean radiance: sum over all replicates / true count; pixels without samples are black.
+    // Mean radiance: sum over all replicates / true count; pixels without samples are black. Where there is a plan, the
+    // mean of the means of both halves, see SamplePlan.h.
     Image resolve() const;
-    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them and unbiased for
-    // every sampler; with one it is taken across blocks, as if these were independent: unbiased for independent
-    // samples, too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than two replicates
-    // or blocks have samples it is 0. Requires secondMoments or replicates >= 2.
+    // Variance of each pixel's mean, per channel. With two or more replicates it is taken across them, with a plan in
+    // halves that have two or more, and unbiased for every sampler; with one it is taken across blocks: unbiased for
+    // independent samples, too large by factors for Sobol's and strata, which spread blocks evenly. Where fewer than
+    // two replicates or blocks have samples it is 0. Requires secondMoments or replicates >= 2.
     Image varianceOfMean() const;
     Image sampleCounts() const; // one channel
 
@@ -103,12 +136,15 @@ class Film {
     }
     std::size_t slotCount() const { return std::size_t{tileCount()} * desc_.replicates; }
     std::span<const float> openBlock(std::size_t slot) const; // empty unless the slot has an unfilled block
+    void setEnds();
 
     FilmDesc desc_;
     std::vector<std::uint32_t> samples_; // per slot; modulo kBlock it is the size of the slot's open block
     std::vector<double> sums_;           // kTileValues per slot: all closed blocks
-    std::vector<double> squares_;        // likewise, of (block sum)^2 / kBlock; empty without second moments
+    std::vector<double> squares_;        // likewise, see TileState
     std::vector<float> open_;            // likewise, the open block; empty until reserved
+    std::vector<std::uint32_t> plan_;    // kTilePixels per slot; empty without a plan
+    std::vector<std::uint32_t> ends_;    // per slot: the largest of these
 };
 
 } // namespace rt::image

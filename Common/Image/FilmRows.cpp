@@ -45,13 +45,22 @@ struct Groups {
 
 // Each replicate is a group.
 void addReplicate(Groups& groups, const Film::TileState& state, std::size_t value) {
-    if (state.samples == 0) return;
-    const double samples = state.samples;
+    const double samples = state.samplesOf(value / 3);
+    if (samples == 0) return;
     const double sum = state.sums[value] + openSum(state, value);
     groups.count += 1;
     groups.sumOfSquares += sum * sum / samples;
     groups.sum += sum;
     groups.samples += samples;
+}
+
+// Of the mean of two halves' means. The numbers of samples in a half depend on the other half alone, so that within it
+// they are weights like any; where each half is one group, the two means have to do.
+double varianceOfHalves(const Groups& a, const Groups& b) {
+    if (a.count >= 2 && b.count >= 2) return (a.varianceOfMean() + b.varianceOfMean()) / 4;
+    if (a.count < 1 || b.count < 1) return 0;
+    const double difference = a.sum / a.samples - b.sum / b.samples;
+    return difference * difference / 4;
 }
 
 // Of one replicate, each block is a group, the open one included.
@@ -68,17 +77,23 @@ Groups blocksOf(const Film::TileState& state, std::size_t value) {
 ImageRows meanRows(const Film& film) {
     const auto readRow = [&film](std::uint32_t y, Pixels row) {
         forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            double sums[Film::kTile * 3] = {};
+            const std::uint32_t parts = film.hasPlan() ? 2 : 1;
+            double sums[2][Film::kTile * 3] = {}, counts[2][Film::kTile * 3] = {};
             for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
                 const Film::TileState state = film.state(tile, r);
+                const std::uint32_t part = Film::halfOf(r) % parts;
                 for (std::size_t i = 0; i < pixels.size(); ++i) {
                     const std::size_t value = firstPixel * 3 + i;
-                    sums[i] += state.sums[value] + openSum(state, value);
+                    sums[part][i] += state.sums[value] + openSum(state, value);
+                    counts[part][i] += state.samplesOf(value / 3);
                 }
             }
-            const auto count = static_cast<double>(film.samples(tile));
-            for (std::size_t i = 0; i < pixels.size(); ++i)
-                pixels[i] = count > 0 ? static_cast<float>(sums[i] / count) : 0.0f;
+            for (std::size_t i = 0; i < pixels.size(); ++i) {
+                double mean = 0;
+                for (std::uint32_t part = 0; part < parts; ++part)
+                    if (counts[part][i] > 0) mean += sums[part][i] / counts[part][i];
+                pixels[i] = static_cast<float>(mean / parts);
+            }
         });
     };
     return {film.desc().width, film.desc().height, 3, readRow};
@@ -90,18 +105,21 @@ ImageRows varianceRows(const Film& film) {
         throw std::logic_error("the variance needs second moments or two replicates");
     const auto readRow = [&film, replicates](std::uint32_t y, Pixels row) {
         forEachTile(film, y, row, [&film, replicates](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
-            Groups groups[Film::kTile * 3];
+            Groups groups[2][Film::kTile * 3]; // of each half; of all in the first without a plan
             for (std::uint32_t r = 0; r < replicates; ++r) {
                 const Film::TileState state = film.state(tile, r);
+                const std::uint32_t part = film.hasPlan() ? Film::halfOf(r) : 0;
                 for (std::size_t i = 0; i < pixels.size(); ++i) {
                     const std::size_t value = firstPixel * 3 + i;
                     if (replicates > 1)
-                        addReplicate(groups[i], state, value);
+                        addReplicate(groups[part][i], state, value);
                     else
-                        groups[i] = blocksOf(state, value);
+                        groups[0][i] = blocksOf(state, value);
                 }
             }
-            for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<float>(groups[i].varianceOfMean());
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] = static_cast<float>(film.hasPlan() ? varianceOfHalves(groups[0][i], groups[1][i])
+                                                              : groups[0][i].varianceOfMean());
         });
     };
     return {film.desc().width, film.desc().height, 3, readRow};
@@ -109,8 +127,14 @@ ImageRows varianceRows(const Film& film) {
 
 ImageRows sampleCountRows(const Film& film) {
     const auto readRow = [&film](std::uint32_t y, Pixels row) {
-        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t, Pixels pixels) {
-            std::fill(pixels.begin(), pixels.end(), static_cast<float>(film.samples(tile)));
+        forEachTile(film, y, row, [&film](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+            std::uint64_t counts[Film::kTile] = {};
+            for (std::uint32_t r = 0; r < film.desc().replicates; ++r) {
+                const Film::TileState state = film.state(tile, r);
+                for (std::size_t i = 0; i < pixels.size(); ++i) counts[i] += state.samplesOf(firstPixel + i);
+            }
+            std::transform(counts, counts + pixels.size(), pixels.begin(),
+                           [](std::uint64_t count) { return static_cast<float>(count); });
         });
     };
     return {film.desc().width, film.desc().height, 1, readRow};

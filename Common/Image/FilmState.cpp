@@ -1,10 +1,12 @@
-// The film's part of a checkpoint: sample counts, sums, squares if kept, the open blocks that exist, and a hash of them
-// all.
+// The film's part of a checkpoint: sample counts, of an adaptive film whether it has a plan (1) and the plan, sums,
+// squares if kept, the open blocks that exist, and a hash of them all.
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <istream>
 #include <optional>
 #include <ostream>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
@@ -66,6 +68,9 @@ std::optional<double> remainingBytes(std::istream& in) {
 void Film::writeState(std::ostream& out) const {
     StateWriter writer(out);
     writer.put(std::span(samples_));
+    const std::uint32_t planned = hasPlan() ? 1 : 0;
+    if (desc_.adaptive) writer.put(std::span(&planned, 1));
+    writer.put(std::span(plan_));
     writer.put(std::span(sums_));
     writer.put(std::span(squares_));
     for (std::size_t at = 0; at < slotCount(); ++at) writer.put(openBlock(at));
@@ -80,10 +85,19 @@ Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& 
 
     Film film(desc);
     reader.get(std::span(film.samples_));
+    std::uint32_t planned = 0;
+    if (desc.adaptive) reader.get(std::span(&planned, 1));
+    if (planned > 1) reader.fail("is damaged: it neither has a plan nor lacks one");
+    if (planned == 1) {
+        std::vector<std::uint32_t> plan(film.slotCount() * kTilePixels);
+        reader.get(std::span(plan));
+        film.setPlan(std::move(plan));
+    }
     reader.get(std::span(film.sums_));
     reader.get(std::span(film.squares_));
     for (std::size_t at = 0; at < film.slotCount(); ++at) {
-        if (film.samples_[at] > kMaxSamples) reader.fail("is damaged: a sample count is too large");
+        if (film.samples_[at] > kMaxSamples || (planned == 1 && film.ends_[at] > kMaxSamples))
+            reader.fail("is damaged: a sample count is too large");
         if (film.samples_[at] % kBlock == 0) continue;
         film.reserveOpenBlocks();
         reader.get(std::span(&film.open_[at * kTileValues], kTileValues));
@@ -92,6 +106,13 @@ Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& 
     std::uint64_t hash = 0;
     reader.get(std::span(&hash, 1));
     if (hash != expected) reader.fail("is damaged: its hash does not fit its content");
+    // Radiance is neither, and one such pixel would spoil every figure of the whole image.
+    const auto isImpossible = [](auto value) { return !(value >= 0 && std::isfinite(value)); };
+    const auto hasImpossible = [&](const auto& values) {
+        return std::any_of(values.begin(), values.end(), isImpossible);
+    };
+    if (hasImpossible(film.sums_) || hasImpossible(film.squares_) || hasImpossible(film.open_))
+        reader.fail("is damaged: a sum is negative or not finite");
     return film;
 }
 

@@ -20,12 +20,8 @@ std::string sizeOf(const Image& image) {
 void checkComparable(const Image& image, const Image& reference) {
     if (image.width != reference.width || image.height != reference.height || image.channels != reference.channels)
         throw InputError("images differ in size: " + sizeOf(image) + " against " + sizeOf(reference));
-    for (std::size_t i = 0; i < image.data.size(); ++i) {
-        if (std::isfinite(image.data[i]) && std::isfinite(reference.data[i])) continue;
-        const std::size_t pixel = i / image.channels;
-        throw InputError("a value of pixel (" + std::to_string(pixel % image.width) + ", " +
-                         std::to_string(pixel / image.width) + ") is not finite");
-    }
+    checkFinite(image, "the image");
+    checkFinite(reference, "the reference");
 }
 
 double square(double x) {
@@ -53,6 +49,15 @@ Image colourise(const std::vector<float>& level, std::uint32_t width, std::uint3
             image.data[i * 3 + c] = shared::srgbDecode(std::lerp(kRamp[step][c], kRamp[step + 1][c], part));
     }
     return image;
+}
+
+void checkFinite(const Image& image, const std::string& name) {
+    const auto isBad = [](float value) { return !std::isfinite(value); };
+    const auto bad = std::find_if(image.data.begin(), image.data.end(), isBad);
+    if (bad == image.data.end()) return;
+    const auto pixel = static_cast<std::size_t>(bad - image.data.begin()) / image.channels;
+    throw InputError(name + ": a value of pixel (" + std::to_string(pixel % image.width) + ", " +
+                     std::to_string(pixel / image.width) + ") is not finite");
 }
 
 ErrorFigures compare(const Image& image, const Image& reference) {

@@ -1,6 +1,7 @@
 // How far an image is from a reference, or from what it would converge to. All in double, over pixels and channels.
 #pragma once
 #include <array>
+#include <string>
 
 #include "Common/Image/Image.h"
 
@@ -19,6 +20,7 @@ struct ErrorFigures {
 
 // Both linear. Throws InputError, saying what differs, unless both have the same size and channels and all values are
 // finite.
+void checkFinite(const Image& image, const std::string& name); // throws InputError that begins with the name
 ErrorFigures compare(const Image& image, const Image& reference);
 
 // |x - ref|, averaged over the channels, from black-blue over green to yellow, lightness rising throughout (readable

@@ -1,5 +1,6 @@
 // PNG, JPEG, BMP and TGA, read by stb, whose implementation is compiled here and nowhere else.
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <memory>
 
@@ -29,6 +30,22 @@ bool isJpeg(std::span<const std::byte> bytes) {
     return bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
 }
 
+// stb takes a PNG that is too large for it for no image at all.
+void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
+    constexpr std::size_t kSignatureBytes = 8, kWidthAt = 16, kHeightAt = 20;
+    constexpr double kMostValues = 1 << 30;
+    if (bytes.size() < kHeightAt + 4 || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", kSignatureBytes) != 0) return;
+    const auto number = [bytes](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | std::to_integer<std::uint32_t>(bytes[i]);
+        return value;
+    };
+    const std::uint32_t width = number(kWidthAt), height = number(kHeightAt);
+    if (3.0 * width * height > kMostValues)
+        throw InputError(name + ": image of " + std::to_string(width) + "x" + std::to_string(height) +
+                         " pixels: a .png may have at most 2^30 values of red, green and blue");
+}
+
 } // namespace
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
@@ -39,6 +56,7 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
     if (isJpeg(bytes)) checkJpeg(bytes, name);
+    checkPngSize(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
     checkDimensions(name, width, height, 3.0 * width * height, bytes.size());

@@ -237,6 +237,7 @@ struct SceneDesc {
     std::vector<ObjectDesc> objects;
     std::vector<TargetDesc> importanceTargets;
     RenderDefaults render;
+    std::vector<std::string> notices; // of reading it, one line each; not part of a scene file
     bool operator==(const SceneDesc&) const = default;
 };
 

@@ -66,6 +66,8 @@ int diff(const Arguments& arguments) {
     if (!arguments.output.empty()) image::checkWritable(arguments.output);
     if (arguments.max && !std::isfinite(*arguments.max)) throw UsageError("--max: allowed are finite numbers");
     const image::Image a = image::readImage(arguments.a), b = image::readImage(arguments.b);
+    image::checkFinite(a, arguments.a);
+    image::checkFinite(b, arguments.b);
     const image::ErrorFigures figures = image::compare(a, b);
     for (const Metric& metric : kMetrics)
         if (arguments.metric.empty() || arguments.metric == metric.name)

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 
+#include "Common/Core/Printable.h"
 #include "Common/Vulkan/Check.h"
 
 namespace rt::vulkan {
@@ -102,8 +103,8 @@ DeviceInfo describe(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties2(device, &properties);
     DeviceInfo info;
     info.device = device;
-    info.name = properties.properties.deviceName;
-    info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    info.name = printable(properties.properties.deviceName);
+    info.driver = printable(std::string(driver.driverName) + " " + driver.driverInfo);
     info.version = versionText(properties.properties.apiVersion);
     info.type = properties.properties.deviceType;
     if (properties.properties.apiVersion < kApiVersion) {

@@ -82,6 +82,9 @@ Instance::Instance(bool validation, std::vector<const char*> extensions) {
             "no Vulkan driver is installed; Mesa's software driver needs version 25.0 or newer "
             "(./build.sh run provides it)");
     }
+    // The loader says so also of a driver's description that it cannot read.
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        throw NoDeviceError("Vulkan does not start: a driver's file is damaged, or memory is short");
     check(result, "Starting Vulkan");
     if (!validation) return;
 

@@ -116,6 +116,30 @@ TEST_P(ControlsTest, ACtrlClickMakesSharpWhatIsThere) {
     expectCleanEnd();
 }
 
+// Where the pictures were seen from is told by their descriptions.
+TEST_P(ControlsTest, ALeftDragOrbits) {
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    const auto isSavedFrom = [this](std::size_t places) {
+        key("F12");
+        pause(500);
+        std::set<std::string> seen;
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / "pictures")) {
+            if (entry.path().extension() != ".exr") continue;
+            const std::string note = image::readDescription(entry.path()).value_or("");
+            const std::size_t begin = note.find("look_from");
+            if (begin != std::string::npos) seen.insert(note.substr(begin, note.find(']', begin) - begin));
+        }
+        return seen.size() == places;
+    };
+    ASSERT_TRUE(eventually([&] { return isSavedFrom(1); })) << log();
+    act("mousemove 1000 500 mousedown 1 sleep 0.2 mousemove 1002 501 sleep 0.2 mouseup 1"); // a click, shaken a little
+    EXPECT_TRUE(isSavedFrom(1));
+    act("mousemove 1000 500 mousedown 1 sleep 0.2 mousemove 1040 500 sleep 0.2 mousemove 1080 500 sleep 0.2 mouseup 1");
+    EXPECT_TRUE(eventually([&] { return isSavedFrom(2) || isSavedFrom(3); })) << log();
+    expectCleanEnd();
+}
+
 TEST_P(ControlsTest, ExportsRunsAndChart) {
     start();
     ASSERT_FALSE(HasFatalFailure());

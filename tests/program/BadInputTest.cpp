@@ -31,6 +31,30 @@ TEST_F(BadInput, Scenes) {
     EXPECT_TRUE(failsWith(render({"--scene", "missing.obj"}), 3, "missing.obj"));
 }
 
+TEST_F(BadInput, NamesThatAreTooLong) {
+    const std::string name(300, 'n');
+    EXPECT_TRUE(failsWith(render({"-o", name + ".png"}), 1, "cannot write nnn"));
+    EXPECT_TRUE(failsWith(render({"-o", name + "/a.png"}), 1, "cannot write nnn"));
+    EXPECT_TRUE(failsWith(render({"--scene", name + ".json"}), 3, "cannot read nnn"));
+    EXPECT_TRUE(failsWith(render({"--resume", name}), 3, "cannot read nnn"));
+}
+
+TEST_F(BadInput, AspectsOfScenes) {
+    writeFile("thin.json", R"({"render": {"aspect": 1e-9}, "objects": []})");
+    EXPECT_TRUE(failsWith(cpu({"-q", "--scene", "thin.json", "--headless", "--spp", "1"}), 3, "thin.json: an aspect"));
+}
+
+TEST_F(BadInput, ScenesThatAreNotTrusted) {
+    fs::create_directories(folder_ / "theirs");
+    writeFile("mine.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    writeFile("theirs/scene.json", R"({"objects": [{"type": "mesh", "file": "../mine.obj"}]})");
+    EXPECT_EQ(render({"--scene", "theirs/scene.json"}).exitCode, 0);
+    const Outcome refused = render({"--scene", "theirs/scene.json", "--assets-below", "theirs"});
+    EXPECT_TRUE(failsWith(refused, 3, "mine.obj: --assets-below does not allow it"));
+    EXPECT_EQ(render({"--scene", "theirs/scene.json", "--assets-below", "."}).exitCode, 0);
+    EXPECT_TRUE(failsWith(render({"--assets-below", "none"}), 3, "--assets-below none"));
+}
+
 TEST_F(BadInput, References) {
     const Arguments reference = {"--stats", "s.json", "--reference"};
     const auto against = [&](const std::string& file) {

@@ -81,7 +81,7 @@ TEST_F(Bench, EnginesOfBothKindsVerifyTheReference) {
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     const auto results = jsonOf("r/results.json");
     ASSERT_EQ(results["rows"].size(), 2u);
-    // The same paths but for rounding: hardly another error, another time.
+    // Equal paths but for rounding: hardly another error, another time.
     EXPECT_NEAR(results["rows"][1]["mse"].get<double>() / results["rows"][0]["mse"].get<double>(), 1, 0.1);
     EXPECT_GT(results["rows"][1]["speedup"], 0.0);
     EXPECT_GT(results["rows"][1]["seconds_device"], 0.0);

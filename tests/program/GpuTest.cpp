@@ -37,6 +37,9 @@ TEST_F(Gpu, ListsDevices) {
 TEST_F(Gpu, WithoutADriverSaysSo) {
     const Environment none = {{"VK_DRIVER_FILES", "/none.json"}, {"VK_ICD_FILENAMES", "/none.json"}};
     EXPECT_TRUE(failsWith(run("ray-tracing-gpu", {"--list-devices"}, none), 4, "no Vulkan driver"));
+    writeFile("words.json", "no driver is here");
+    const Environment damaged = {{"VK_DRIVER_FILES", path("words.json")}, {"VK_ICD_FILENAMES", path("words.json")}};
+    EXPECT_TRUE(failsWith(run("ray-tracing-gpu", {"--list-devices"}, damaged), 4, "a driver's file is damaged"));
     EXPECT_TRUE(failsWith(gpu({"-o", "a.png"}, none), 4, "no Vulkan driver"));
 }
 

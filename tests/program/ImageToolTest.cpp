@@ -127,7 +127,7 @@ TEST_F(ImageTool, BadInputExitsWith3) {
     fs::resize_file(path("reference.exr"), 500);
     EXPECT_TRUE(failsWith(tool({"diff", "reference.exr", "brighter.pfm"}), 3, "truncated"));
     writeFile("nan.pfm", std::string("Pf\n1 1\n-1.0\n\0\0\xc0\x7f", 16));
-    EXPECT_TRUE(failsWith(tool({"diff", "nan.pfm", "nan.pfm"}), 3, "not finite"));
+    EXPECT_TRUE(failsWith(tool({"diff", "nan.pfm", "nan.pfm"}), 3, "nan.pfm: a value of pixel (0, 0) is not finite"));
 }
 
 TEST_F(ImageTool, FailingOutputExitsWith1AndLeavesNothing) {

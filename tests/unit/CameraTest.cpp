@@ -62,7 +62,7 @@ TEST(Camera, DirectionsAreUnitAndFillThePixel) {
         const Ray ray = rayAt(camera, pixel, uvec2(320, 200), uniform.pair());
         ASSERT_NEAR(glm::length(dvec3(ray.direction)), 1, 3e-7);
     }
-    // The same point of the image, reached from two pixels that share it.
+    // One point of the image, reached from two pixels that share it.
     const Ray a = rayAt(camera, uvec2(10, 20), uvec2(320, 200), vec2(1, 0.5f));
     const Ray b = rayAt(camera, uvec2(11, 20), uvec2(320, 200), vec2(0, 0.5f));
     EXPECT_EQ(a.direction, b.direction);

@@ -233,6 +233,7 @@ TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
             surface.add(double(s.wi.z) / double(s.pdf));
             EXPECT_NEAR(glm::length(glm::inverse(axes) * (dvec3(s.point) - dvec3(light.position))), 1, 1e-5);
             EXPECT_GT(glm::dot(s.normal, s.wi), 0.0f); // outward
+            EXPECT_NEAR(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), kUp, 0, s.wi), s.pdf, 1e-6f);
             const LightSample m = sampleLight(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, u);
             medium.add(1 / double(m.pdf));
             EXPECT_EQ(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, m.wi), m.pdf);
@@ -338,7 +339,7 @@ TEST(Ellipsoids, RecordsHoldTheWorldsShape) {
         EXPECT_NEAR(4 * kPiD * double(light.radius) * double(light.radius) / light.area, 1, 1e-6);
         EXPECT_NEAR(bound.intensity / (0.25 * light.area * (0.2126 + 2 * 0.7152 + 4 * 0.0722)), 1, 1e-5);
         EXPECT_EQ(bound.axis, vec3(0));
-        // The same points as by hand, within the bound, and it is no larger than it must be.
+        // The points found by hand, within the bound, and it is no larger than it must be.
         const scene::Affine map = scene::toAffine(outer.transform) * scene::toAffine(inner.transform) *
                                   scene::translation({0.1, 0.2, 0.3}) * scene::scaling(dvec3(2));
         const scene::Affine back = *scene::inverse(map);

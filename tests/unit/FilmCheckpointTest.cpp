@@ -1,5 +1,6 @@
 // Checkpoints: bit for bit, and no damage goes unnoticed.
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include <gtest/gtest.h>
@@ -71,6 +72,22 @@ TEST(FilmCheckpoint, ComesBackBitForBit) {
     makeFilm().begin(0, 1, original);
     EXPECT_EQ(restored.count, 7u);
     EXPECT_TRUE(std::equal(std::begin(restored.sum), std::end(restored.sum), std::begin(original.sum)));
+}
+
+// Made by hand, as its hash fits.
+TEST(FilmCheckpoint, SumsThatNoRenderHasAreRefused) {
+    for (const float value : {-1.0f, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+        for (const std::uint32_t count : {7u, Film::kBlock}) {
+            Film film = makeFilm();
+            Film::TileBlock block;
+            film.begin(0, 0, block);
+            block.count = count;
+            block.sum[1] = value;
+            film.commit(0, 0, block);
+            std::ostringstream out;
+            writeCheckpoint(out, kRender, film);
+            EXPECT_NE(errorOf(out.str()).find("damaged: a sum is negative or not finite"), std::string::npos) << value;
+        }
 }
 
 TEST(FilmCheckpoint, TruncationIsNoticedAtEveryByte) {

@@ -152,7 +152,7 @@ TEST(Film, VarianceWithinOneReplicateIsThatOfBlocks) {
     // 192 estimates of 60 degrees of freedom each
     EXPECT_NEAR(mean * count * 12, 1.0, 4 * std::sqrt(2.0 / 60 / 192));
 
-    // The same from its definition, for one value, with the open block as a group of 5.
+    // The variance from its definition, for one value, with the open block as a group of 5.
     double sum = 0, squares = 0, block = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         block += stream(i, 30);

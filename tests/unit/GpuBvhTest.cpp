@@ -7,6 +7,7 @@
 
 #include "Common/Accel/Build/PrimitiveBoxes.h"
 #include "Common/Accel/GpuBvh.h"
+#include "Common/Shared/Shape/Shapes.h"
 #include "tests/unit/AccelScene.h"
 
 namespace rt::accel {
@@ -174,6 +175,52 @@ TEST(GpuBvh, SmallScenesAreLists) {
     EXPECT_EQ(std::bit_cast<std::uint32_t>(bvh.lists.vectors[quad + 1].w), 1u);
     EXPECT_EQ(shared::vec3(bvh.lists.vectors[quad]), geometry.quads[1].corner);
     EXPECT_FALSE(buildGpuBvh(mixture(shared::kMaxListedPrimitives + 1, 11).input())->isLinear);
+}
+
+// Whatever axis they are perpendicular to and whichever edge comes first, quads along axes are hit where the general
+// test of quads hits them.
+TEST(GpuBvh, QuadsAlongAxesHaveListsOfTheirOwn) {
+    Random random(19);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int turned = 0; turned < 2; ++turned) {
+            Geometry geometry;
+            shared::vec3 u(0.0f), v(0.0f);
+            u[(axis + 1 + turned) % 3] = 2.0f;
+            v[(axis + 2 - turned) % 3] = -0.5f;
+            geometry.addQuad(shared::vec3(0.5f, -0.25f, 3.0f), u, v);
+            const LinearLists lists = buildGpuBvh(geometry.input())->lists;
+            ASSERT_EQ(lists.axisQuads[axis], 1u);
+            ASSERT_EQ(lists.quads, 0u);
+            ASSERT_EQ(lists.vectors.size(), 2u);
+            const shared::vec4 corner = lists.vectors[0], extent = lists.vectors[1];
+            EXPECT_EQ(std::bit_cast<std::uint32_t>(corner.w), turned ? shared::kTurned : 0u);
+
+            const std::uint32_t last = static_cast<std::uint32_t>(axis);
+            const shared::QuadFrame frame = shared::quadFrame(u, v);
+            int hits = 0, disagreements = 0;
+            for (int i = 0; i < 20000; ++i) {
+                const shared::vec3 from = random.inCube(8.0f);
+                const shared::vec3 to =
+                    geometry.quads[0].corner + u * random.uniform() * 1.5f + v * random.uniform() * 1.5f;
+                const shared::Ray ray{from, shared::normalize(to - from), 0.0f};
+                const shared::ShapeHit general = shared::intersectQuad(ray, geometry.quads[0].corner, frame, 100.0f);
+                const shared::vec3 direction = shared::axisLast(ray.direction, last);
+                const shared::ShapeHit own = shared::intersectAxisQuad(
+                    shared::axisLast(shared::vec3(corner), last) - shared::axisLast(from, last), direction,
+                    1 / direction.z, 1.0f, {extent.x, extent.y}, {extent.z, extent.w}, 100.0f);
+                if ((general.t > 0) != (own.t > 0)) ++disagreements;
+                if (!(general.t > 0 && own.t > 0)) continue;
+                ++hits;
+                const float ownU = turned ? own.v : own.u, ownV = turned ? own.u : own.v;
+                const float far = 4e-6f * (1 + 1 / std::abs(direction.z));
+                EXPECT_NEAR(own.t, general.t, far * general.t);
+                EXPECT_NEAR(ownU, general.u, far * 8);
+                EXPECT_NEAR(ownV, general.v, far * 32);
+            }
+            EXPECT_GT(hits, 5000);
+            EXPECT_LE(disagreements, 1); // rays within rounding of an edge
+        }
+    }
 }
 
 TEST(GpuBvh, OfNothingIsAnEmptyList) {

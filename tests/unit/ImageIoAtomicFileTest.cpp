@@ -1,4 +1,6 @@
 // Output files are replaced wholly or left alone, and nothing else stays behind.
+#include <atomic>
+#include <chrono>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -7,12 +9,15 @@
 
 #ifdef __linux__
 #include <csignal>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #endif
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/ReadFile.h"
 #include "tests/TempFolder.h"
 
@@ -86,7 +91,53 @@ TEST(ImageIoAtomicFile, ErrorsNameFileAndReason) {
     EXPECT_EQ(filesIn(folder.path()), 1u);
 }
 
+TEST(ImageIoAtomicFile, RemovesWhatAKilledProgramLeft) {
+    const test::TempFolder folder;
+    const std::string left = ".rt-0123456789abcdef.tmp", young = ".rt-0123456789abcde0.tmp", other = ".rt-words.tmp";
+    for (const std::string& name : {left, young, other}) std::ofstream(folder / name) << "half";
+    for (const std::string& name : {left, other})
+        fs::last_write_time(folder / name, fs::file_time_type::clock::now() - std::chrono::hours(1));
+    AtomicFile atWork(folder / "a");
+    EXPECT_FALSE(fs::exists(folder / left));
+    EXPECT_TRUE(fs::exists(folder / young)); // somebody may be about to write it
+    EXPECT_TRUE(fs::exists(folder / other));
+
+    // A slow writer is not robbed of its file.
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+        fs::last_write_time(entry.path(), fs::file_time_type::clock::now() - std::chrono::hours(1));
+    for (const auto& entry : fs::directory_iterator(folder.path())) removeAbandoned(entry.path());
+    EXPECT_EQ(filesIn(folder.path()), 1u);
+    atWork.stream() << "whole";
+    atWork.commit(AtomicFile::Durability::ToDisk);
+    EXPECT_EQ(contentOf(folder / "a"), "whole");
+}
+
+TEST(ImageIoAtomicFile, TakesLargePiecesAndSmallOnes) {
+    const test::TempFolder folder;
+    AtomicFile file(folder / "a");
+    std::string expected;
+    for (std::size_t size = 1; size < 300'000; size = size * 3 + 1) {
+        const std::string piece(size, static_cast<char>('a' + size % 26));
+        file.stream() << piece << '.';
+        expected += piece + '.';
+    }
+    file.commit();
+    EXPECT_TRUE(contentOf(folder / "a") == expected);
+}
+
 #ifdef __linux__
+TEST(ImageIoAtomicFile, LeavesAReaderThatStallsOnceInterrupted) {
+    const test::TempFolder folder;
+    const fs::path pipe = folder / "pipe";
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    std::atomic<bool> requested{true};
+    const Interruptible interruptible(requested);
+    write(pipe, "what fits is written all the same");
+    EXPECT_NE(errorOf(pipe).find("takes nothing"), std::string::npos);
+    close(reader);
+}
+
 TEST(ImageIoAtomicFile, WritesDevicesDirectly) {
     write("/dev/null", "gone");
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
@@ -185,6 +236,33 @@ TEST(ImageIoAtomicFile, NamesAReadOnlyFolder) {
     EXPECT_NE(error.find("Permission denied"), std::string::npos);
 }
 #endif
+
+TEST(ImageIoAtomicFile, ReadsOnlyBelowAFolderWhereConfined) {
+    const test::TempFolder folder;
+    fs::create_directories(folder / "in" / "deep");
+    fs::create_directories(folder / "inner");
+    for (const char* file : {"in/a", "in/deep/b", "inner/c", "scene"}) write(folder / file, "x");
+    fs::create_directory_symlink(folder / "inner", folder / "in" / "link");
+    const auto reads = [&](const char* file) {
+        try {
+            return readFile(folder / file, 10).size() == 1;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find("--assets-below does not allow it"), std::string::npos);
+            return false;
+        }
+    };
+    {
+        const ReadsBelow confined(folder / "in", folder / "scene");
+        for (const char* file : {"in/a", "in/deep/b", "in/deep/../a", "scene"}) EXPECT_TRUE(reads(file)) << file;
+        for (const char* file : {"inner/c", "in/../inner/c", "in/link/c"}) EXPECT_FALSE(reads(file)) << file;
+    }
+    EXPECT_TRUE(reads("inner/c"));
+    {
+        const ReadsBelow unconfined({}, folder / "scene");
+        EXPECT_TRUE(reads("inner/c"));
+    }
+    EXPECT_THROW(ReadsBelow(folder / "none", folder / "scene"), InputError);
+}
 
 TEST(ImageIoAtomicFile, ReadFileKeepsToItsLimit) {
     const test::TempFolder folder;

@@ -42,6 +42,14 @@ std::vector<File> makeFiles() {
     return files;
 }
 
+// The first bytes of a PNG of that size.
+std::string pngHeader(std::uint32_t width, std::uint32_t height) {
+    std::string bytes("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR", 16);
+    for (const std::uint32_t number : {width, height})
+        for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(number >> shift);
+    return bytes + std::string("\x08\x02\0\0\0", 5);
+}
+
 // The error of reading the bytes as a file of that name; empty when there is none.
 std::string errorOf(const std::string& name, const std::string& bytes) {
     try {
@@ -50,6 +58,10 @@ std::string errorOf(const std::string& name, const std::string& bytes) {
         return e.what();
     }
     return "";
+}
+
+TEST(ImageIoHostile, APngThatIsTooLargeSaysSo) {
+    EXPECT_NE(errorOf("a.png", pngHeader(30000, 30000)).find("a.png: image of 30000x30000 pixels"), std::string::npos);
 }
 
 TEST(ImageIoHostile, TruncationIsNoticedAtEveryByte) {

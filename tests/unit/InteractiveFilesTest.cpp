@@ -55,6 +55,7 @@ TEST_F(InteractiveFilesTest, RunsThatEndGoIntoTheHistory) {
     EXPECT_EQ(records[0].width, 24u);
     EXPECT_GT(records[0].renderSeconds, 0);
     EXPECT_GT(records[0].samplesPerSecond, 0);
+    EXPECT_EQ(lackingIn(records[0]), ""); // all that the work depends on
 }
 
 TEST_F(InteractiveFilesTest, ErrorsAreTakenAgainstAReferenceOfTheSameView) {

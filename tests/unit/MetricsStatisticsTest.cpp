@@ -121,7 +121,7 @@ TEST_F(MetricsImageTest, FindsOneWrongTileAndOneWrongPixel) {
 }
 
 TEST_F(MetricsImageTest, FindsCorrelatedPixels) {
-    // The same noise in both: too alike to be independent.
+    // One noise in both: too alike to be independent.
     const std::vector<Image> a = render();
     std::vector<Image> b = a;
     EXPECT_LT(testImages(a, b).spreadZ, -4);

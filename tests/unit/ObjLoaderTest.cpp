@@ -138,6 +138,17 @@ TEST_F(ObjLoader, ErrorsNameFileAndLine) {
     EXPECT_THROW(loadObj(folder_, true), InputError);
 }
 
+TEST_F(ObjLoader, AMaterialFileThatIsNoneIsANotice) {
+    write("words.mtl", "no material is here\n");
+    write("model.obj", "mtllib words.mtl\n" + kSquare + "f 1 2 3\n");
+    const auto says = [](const std::vector<std::string>& notices) {
+        return notices.size() == 1 && notices[0].find("words.mtl: there is no material in it") != std::string::npos;
+    };
+    EXPECT_TRUE(says(compileScene(loadObjScene(folder_ / "model.obj"))->notices));
+    write("scene.json", R"({"objects": [{"type": "mesh", "file": "model.obj"}]})");
+    EXPECT_TRUE(says(compileScene(loadSceneFile(folder_ / "scene.json"))->notices));
+}
+
 TEST_F(ObjLoader, DamagedFilesDoNoHarm) {
     write("model.mtl", "newmtl red\nKd 1 0 0\nKe 1 1 1\nillum 3\n");
     const std::string text = "mtllib model.mtl\n" + kSquare +

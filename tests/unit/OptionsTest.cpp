@@ -47,7 +47,7 @@ class OptionsTest : public testing::Test {
     }
     static Options sized(std::vector<std::string> arguments, double sceneAspect = 1) {
         Options options = render(std::move(arguments));
-        settleImageSize(options, sceneAspect);
+        settleImageSize(options, "scene", sceneAspect);
         return options;
     }
     // The message of the usage error, which is one line.
@@ -55,7 +55,7 @@ class OptionsTest : public testing::Test {
         arguments.push_back("--headless");
         try {
             Options options = read(std::move(arguments)).value();
-            settleImageSize(options, 1);
+            settleImageSize(options, "scene", 1);
         } catch (const UsageError& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
             return error.what();
@@ -70,6 +70,14 @@ class OptionsTest : public testing::Test {
 
     std::filesystem::path home_;
 };
+
+TEST_F(OptionsTest, AnAspectOutOfRangeIsOfWhoGaveIt) {
+    EXPECT_THROW(sized({}, 1e-6), InputError);
+    EXPECT_THROW(sized({"--width", "700"}, 1e-6), UsageError);
+    EXPECT_THROW(sized({"--height", "700"}, 1e6), UsageError);
+    EXPECT_EQ(sized({"--width", "700", "--height", "70"}, 1e-6).settings.height, 70u);
+    EXPECT_EQ(sized({"--aspect", "2"}, 1e-6).settings.height, 300u);
+}
 
 TEST_F(OptionsTest, DefaultsAreThoseOfTheInterface) {
     const Options options = sized({});
@@ -252,6 +260,10 @@ TEST_F(OptionsTest, ContradictionsAreRefused) {
     EXPECT_EQ(error({"--aov", "depth"}), "--aov: needs --output");
     EXPECT_EQ(error({"--save-every", "5"}), "--save-every: needs --checkpoint or --output");
     EXPECT_EQ(error({"--replicates", "8", "--spp", "7"}), "--replicates 8: must be at most --spp 7");
+    EXPECT_EQ(error({"--replicates", "3", "--adaptive", "on"}),
+              "--replicates 3: must be even with --adaptive on, which makes two halves of them");
+    EXPECT_EQ(error({"--sampler", "stratified", "--adaptive", "on"}),
+              "--adaptive on: not with --sampler stratified, whose strata are made for one number of samples");
     EXPECT_EQ(read({"--list-scenes", "--json"})->command, Command::ListScenes);
     EXPECT_EQ(read({"--export-scene", "a.json"})->command, Command::ExportScene);
 }
@@ -281,6 +293,9 @@ TEST_F(OptionsTest, ErrorEstimatesAreKeptOnlyWhereSomethingReadsThem) {
     EXPECT_FALSE(render({"--stats", "-", "--replicates", "4"}).settings.secondMoments);
     EXPECT_EQ(render({"--target-error", "0.1"}).settings.replicates, 4u);
     EXPECT_EQ(render({"--target-error", "0.1", "--replicates", "8"}).settings.replicates, 8u);
+    EXPECT_EQ(render({"--target-error", "0.1", "--adaptive", "on"}).settings.replicates, 4u);
+    EXPECT_EQ(render({"--adaptive", "on"}).settings.replicates, 2u);
+    EXPECT_EQ(render({"--adaptive", "on", "--spp", "15"}).settings.replicates, 1u); // too few for a pilot
     EXPECT_FALSE(render({"--target-error", "0.1"}).settings.sppIsKnown);
 }
 

@@ -25,9 +25,22 @@ class RunHistoryTest : public ::testing::Test {
         r.height = 400;
         r.spp = 5'000'000'000;
         r.renderSeconds = 1.5;
+        r.samplesPerSecond = 1e6;
+        r.sceneHash = "0123456789abcdef";
+        r.camera = R"({"look_from":[0.0,0.0,1.0]})";
+        r.lightSelection = "contribution";
+        r.sphereLight = r.quadLight = r.triangleLight = "auto";
+        r.russianRoulette = r.oneSidedLights = "on";
+        r.adaptive = "off";
         r.relmse = 0.1;
         r.hasReference = true;
         r.curve = {{0.5, 0.4}, {1.5, 0.1}};
+        return r;
+    }
+    static RunRecord gpuRecord(const std::string& scene) {
+        RunRecord r = record(scene);
+        r.app = "ray-tracing-gpu";
+        r.engine = "compute";
         return r;
     }
     std::size_t lines() const {
@@ -101,6 +114,63 @@ TEST_F(RunHistoryTest, CsvQuotesWhatHasCommas) {
     const std::string csv = toCsv({record("a")});
     EXPECT_NE(csv.find("\"a \"\"quoted\"\", device\""), std::string::npos) << csv;
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
+}
+
+// The line is as programs wrote it before records told their whole work.
+TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
+    std::filesystem::create_directories(file().parent_path());
+    std::ofstream(file()) << R"({"version":1,"time":"2026-01-31T12:00:00Z","app":"ray-tracing-cpu","engine":"multi",)"
+                          << R"("device":"d","scene":"a","light_sampling":"mis","sampler":"sobol","width":8,)"
+                          << R"("height":8,"spp":16,"max_depth":50,"threads":2,"seconds":{"load":0,"accel_build":0,)"
+                          << R"("pipeline":0,"render":1},"samples_per_second":1024,"rays_per_second":0,"relmse":0,)"
+                          << R"("against_reference":false,"curve":[]})" << '\n';
+    RunHistory history(file());
+    ASSERT_EQ(history.records().size(), 1u);
+    const RunRecord& old = history.records()[0];
+    EXPECT_EQ(old.spp, 16u);
+    EXPECT_EQ(lackingIn(old),
+              "scene_hash, camera, light_selection, sphere_light, quad_light, triangle_light, "
+              "russian_roulette, one_sided_lights");
+    EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
+    EXPECT_EQ(lackingIn(record("a")), "");
+}
+
+TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {
+    const RunRecord cpu = record("a");
+    EXPECT_TRUE(isSameWork(cpu, gpuRecord("a"))); // by whom is left free
+    using Change = void (*)(RunRecord&);
+    for (const Change change : {
+             Change([](RunRecord& r) { r.scene = "b"; }),
+             Change([](RunRecord& r) { r.sceneHash = "0"; }),
+             Change([](RunRecord& r) { r.camera = "{}"; }),
+             Change([](RunRecord& r) { ++r.width; }),
+             Change([](RunRecord& r) { ++r.height; }),
+             Change([](RunRecord& r) { ++r.spp; }),
+             Change([](RunRecord& r) { ++r.maxDepth; }),
+             Change([](RunRecord& r) { r.lightSampling = "bsdf"; }),
+             Change([](RunRecord& r) { r.lightSelection = "power"; }),
+             Change([](RunRecord& r) { r.sphereLight = "area"; }),
+             Change([](RunRecord& r) { r.quadLight = "area"; }),
+             Change([](RunRecord& r) { r.triangleLight = "area"; }),
+             Change([](RunRecord& r) { r.sampler = "independent"; }),
+             Change([](RunRecord& r) { r.russianRoulette = "off"; }),
+             Change([](RunRecord& r) { r.oneSidedLights = "off"; }),
+             Change([](RunRecord& r) { r.adaptive = "on"; }),
+         }) {
+        RunRecord gpu = gpuRecord("a");
+        change(gpu);
+        EXPECT_FALSE(isSameWork(cpu, gpu)) << toJsonLine(gpu);
+    }
+}
+
+TEST_F(RunHistoryTest, TheNewestRunsOfEqualWorkAreCompared) {
+    RunRecord other = gpuRecord("a");
+    other.sampler = "independent";
+    const RunRecord cpu = record("a"), newerCpu = record("a"), gpu = gpuRecord("a");
+    const EnginePair pair = newestOfEqualWork({&other, &newerCpu, &gpu, &cpu});
+    EXPECT_EQ(pair.cpu, &newerCpu);
+    EXPECT_EQ(pair.gpu, &gpu);
+    EXPECT_EQ(newestOfEqualWork({&other, &newerCpu, &cpu}).gpu, nullptr);
 }
 
 } // namespace

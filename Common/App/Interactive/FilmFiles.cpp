@@ -1,7 +1,9 @@
 #include "Common/App/Interactive/FilmFiles.h"
 
+#include <cstdio>
 #include <exception>
 
+#include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/Core/Error.h"
@@ -70,11 +72,22 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     record.scene = scene.scene->id;
     record.lightSampling = nameOf(kLightSamplings, settings.lightSampling);
     record.sampler = nameOf(kSamplers, settings.sampler);
+    char hash[17];
+    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene->hash));
+    record.sceneHash = hash;
+    record.camera = CameraController::toText(film.camera());
+    record.lightSelection = nameOf(kLightSelections, settings.lightSelection);
+    record.sphereLight = nameOf(kSphereLights, settings.sphereLight);
+    record.quadLight = nameOf(kFlatLights, settings.quadLight);
+    record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
+    record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
+    record.oneSidedLights = nameOf(kOnOff, scene.request.oneSidedLights);
+    record.adaptive = nameOf(kAdaptive, settings.adaptive);
     record.width = settings.width;
     record.height = settings.height;
     record.maxDepth = settings.maxDepth;
     record.threads = report.threads;
-    record.spp = film.engine().film().minSamples();
+    record.spp = film.engine().film().samplesPerPixel();
     record.loadSeconds = scene.seconds;
     record.buildSeconds = report.accelBuildSeconds;
     record.pipelineSeconds = report.pipelineSeconds;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "Common/App/Session/RenderParams.h"
+
 namespace rt::app {
 namespace {
 
@@ -28,7 +30,7 @@ RenderSettings sizedSettings(const RenderRequest& request, const scene::Compiled
     Options options;
     options.size = request.size;
     options.settings = request.settings;
-    settleImageSize(options, scene.defaults.aspect);
+    settleImageSize(options, scene.id, scene.defaults.aspect);
     return options.settings;
 }
 
@@ -37,11 +39,12 @@ RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledS
     RenderSettings settings = sizedSettings(request, scene);
     settings.seed += round;
     settings.sppIsKnown = !request.timeLimit;
-    settings.secondMoments = settings.replicates < 2 && (request.accumulate || wantsVariance);
     if (!request.accumulate)
         settings.spp =
             request.samplesPerFrame > 0 ? request.samplesPerFrame : speed.sppIn(kFrameSeconds, settings, 65536);
     settings.replicates = std::min(settings.replicates, settings.spp);
+    settleReplicates(settings);
+    settings.secondMoments = settings.replicates < 2 && (request.accumulate || wantsVariance);
     return settings;
 }
 
@@ -51,6 +54,7 @@ RenderSettings referenceSettings(RenderSettings film, std::uint32_t spp) {
     film.seed ^= 0x5f3759dfu;
     film.lightSampling = LightSampling::Mis;
     film.sampler = SamplerKind::Sobol;
+    film.adaptive = false;
     film.replicates = 1;
     film.secondMoments = false;
     return film;
@@ -65,6 +69,7 @@ std::optional<RenderSettings> draftSettings(const RenderSettings& film, const Re
     draft.width = scaled(film.width);
     draft.height = scaled(film.height);
     draft.spp = speed.sppIn(kDraftSeconds, film, kDraftSpp);
+    draft.adaptive = false;
     draft.replicates = 1;
     draft.secondMoments = false;
     return draft;

@@ -198,6 +198,7 @@ void override(GuiSettings& settings, const Options& options) {
     take("--quad-light", s.quadLight, o.quadLight);
     take("--triangle-light", s.triangleLight, o.triangleLight);
     take("--sampler", s.sampler, o.sampler);
+    take("--adaptive", s.adaptive, o.adaptive);
     take("--russian-roulette", s.russianRoulette, o.russianRoulette);
     take("--one-sided-lights", settings.request.oneSidedLights, options.oneSidedLights);
     take("--exposure", settings.exposure, options.exposure);

@@ -61,7 +61,7 @@ struct Picture {
     bool isPreview = false;                       // by rasterisation
     std::optional<Legend> legend{};               // of the image's colours, where they stand for something else
     std::uint64_t serial = 0;                     // grows with each new picture
-    std::uint64_t spp = 0; // of the pixel with the fewest samples; 0: partly a draft of lower resolution
+    std::uint64_t spp = 0; // of every pixel, adaptive ones in the mean; 0: partly a draft of lower resolution
     // With ViewRequest::inspect, where known: variance of each pixel's mean, and its samples in one channel.
     std::shared_ptr<const image::Image> variance, samples;
 };

@@ -6,6 +6,7 @@
 
 #include "Common/App/Interactive/Draft.h"
 #include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/RenderParams.h"
 
 namespace rt::app {
 namespace {
@@ -99,6 +100,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     auto radiance = std::make_shared<image::Image>(std::move(snapshot.radiance));
     Picture picture;
     picture.spp = snapshot.leastSamples();
+    if (picture.spp > 0 && isAdaptive(film.settings())) picture.spp = film.status().samplesDone / film.pixels();
     if (picture.spp == 0 && hasDraft()) fillFromDraft(*radiance, snapshot.tileSamples, draft_);
     if (picture.spp > 0) reference.follow(film, *radiance);
     picture.image = picture.radiance = std::move(radiance);

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Common/App/Options/Options.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -28,7 +29,7 @@ std::vector<std::string> readLines(const fs::path& file) {
     return lines;
 }
 
-// Every field but the curve: its place in the JSON object, its column in the table, its value.
+// Every field that all records have, but the curve: its place in the JSON object, its column in the table, its value.
 template <class Record, class Visit>
 void forEachField(Record&& r, const Visit& visit) {
     visit("/time", "time", r.time);
@@ -53,10 +54,27 @@ void forEachField(Record&& r, const Visit& visit) {
     visit("/against_reference", "against_reference", r.hasReference);
 }
 
+// The fields that records of earlier programs lack.
+template <class Record, class Visit>
+void forEachLaterField(Record&& r, const Visit& visit) {
+    visit("/scene_hash", "scene_hash", r.sceneHash);
+    visit("/camera", "camera", r.camera);
+    visit("/light_selection", "light_selection", r.lightSelection);
+    visit("/sphere_light", "sphere_light", r.sphereLight);
+    visit("/quad_light", "quad_light", r.quadLight);
+    visit("/triangle_light", "triangle_light", r.triangleLight);
+    visit("/russian_roulette", "russian_roulette", r.russianRoulette);
+    visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
+    visit("/adaptive", "adaptive", r.adaptive);
+}
+
 RunRecord fromJson(const nlohmann::json& json) {
     RunRecord r;
     forEachField(r, [&](const char* place, const char*, auto& value) {
         json.at(nlohmann::json::json_pointer(place)).get_to(value);
+    });
+    forEachLaterField(r, [&](const char* place, const char*, std::string& value) {
+        value = json.value(nlohmann::json::json_pointer(place), "");
     });
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
@@ -80,8 +98,11 @@ std::string toJsonLine(const RunRecord& r) {
     Json curve = Json::array();
     for (const RunRecord::Point& point : r.curve) curve.push_back({point.seconds, point.relmse});
     Json json{{"version", kVersion}};
-    forEachField(r,
-                 [&](const char* place, const char*, const auto& value) { json[Json::json_pointer(place)] = value; });
+    const auto put = [&](const char* place, const char*, const auto& value) {
+        json[Json::json_pointer(place)] = value;
+    };
+    forEachField(r, put);
+    forEachLaterField(r, put);
     json["curve"] = curve;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -89,13 +110,44 @@ std::string toJsonLine(const RunRecord& r) {
 std::string toCsv(const std::vector<RunRecord>& records) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
-    forEachField(RunRecord{}, [&](const char*, const char* column, const auto&) { out << column << ','; });
+    const auto putColumn = [&](const char*, const char* column, const auto&) { out << column << ','; };
+    forEachField(RunRecord{}, putColumn);
+    forEachLaterField(RunRecord{}, putColumn);
     out << "efficiency\n" << std::setprecision(9);
     for (const RunRecord& r : records) {
-        forEachField(r, [&](const char*, const char*, const auto& value) { out << csvField(value) << ','; });
+        const auto put = [&](const char*, const char*, const auto& value) { out << csvField(value) << ','; };
+        forEachField(r, put);
+        forEachLaterField(r, put);
         out << r.efficiency() << '\n';
     }
     return out.str();
+}
+
+std::string lackingIn(const RunRecord& record) {
+    std::string names;
+    forEachLaterField(record, [&](const char*, const char* name, const std::string& value) {
+        if (value.empty()) names += (names.empty() ? "" : ", ") + std::string(name);
+    });
+    return names;
+}
+
+bool isSameWork(const RunRecord& a, const RunRecord& b) {
+    return a.scene == b.scene && a.sceneHash == b.sceneHash && a.camera == b.camera && a.width == b.width &&
+           a.height == b.height && a.spp == b.spp && a.maxDepth == b.maxDepth && a.lightSampling == b.lightSampling &&
+           a.lightSelection == b.lightSelection && a.sphereLight == b.sphereLight && a.quadLight == b.quadLight &&
+           a.triangleLight == b.triangleLight && a.sampler == b.sampler && a.russianRoulette == b.russianRoulette &&
+           a.oneSidedLights == b.oneSidedLights && a.adaptive == b.adaptive && lackingIn(a).empty();
+}
+
+EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst) {
+    for (const RunRecord* a : newestFirst) {
+        if (a->samplesPerSecond <= 0 || !lackingIn(*a).empty()) continue;
+        for (const RunRecord* b : newestFirst) {
+            if (a->app == b->app || b->samplesPerSecond <= 0 || !isSameWork(*a, *b)) continue;
+            return a->app == kGpuProgram ? EnginePair{b, a} : EnginePair{a, b};
+        }
+    }
+    return {};
 }
 
 std::string utcNow() {

@@ -17,6 +17,9 @@ struct RunRecord {
     std::uint64_t spp = 0; // samples that every pixel has
     double loadSeconds = 0, buildSeconds = 0, pipelineSeconds = 0, renderSeconds = 0;
     double samplesPerSecond = 0, raysPerSecond = 0;
+    // What else the work depends on, as the flags take it. Empty in records of programs that did not write it yet.
+    std::string sceneHash, camera; // 16 hexadecimal digits; JSON as a window copies it
+    std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive;
     double relmse = 0;
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
     struct Point {
@@ -52,6 +55,19 @@ class RunHistory {
     std::uintmax_t readSize_ = 0;
     bool wasRead_ = false;
 };
+
+// The names of what a record does not tell of its work, with commas; empty: it tells all.
+std::string lackingIn(const RunRecord& record);
+// Whether all that the work depends on is known of both and equal. Who did it, engine, device and threads, is left free.
+bool isSameWork(const RunRecord& a, const RunRecord& b);
+
+// One run of each program; both or none.
+struct EnginePair {
+    const RunRecord* cpu = nullptr;
+    const RunRecord* gpu = nullptr;
+};
+// The newest runs of both programs that did the same work, where their speed is known.
+EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst);
 
 std::string toJsonLine(const RunRecord& record); // without the line's end
 std::string toCsv(const std::vector<RunRecord>& records);

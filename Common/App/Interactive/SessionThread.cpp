@@ -246,7 +246,7 @@ void SessionThread::renderPreview() {
 void SessionThread::finish(StopReason reason) {
     if (!film_.hasSamples()) return setActivity(Activity::Stopped);
     film_.show();
-    const std::uint64_t spp = engine_->film().minSamples();
+    const std::uint64_t spp = engine_->film().samplesPerPixel();
     if (film_.reference.renderedSpp()) {
         setReference(engine_->film().resolve(), "rendered, " + std::to_string(spp) + " spp");
         film_.reference.giveUp();

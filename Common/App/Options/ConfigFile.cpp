@@ -1,5 +1,6 @@
 #include "Common/App/Options/ConfigFile.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "Common/App/Options/ConfigText.h"
@@ -24,15 +25,22 @@ std::string readAll(std::istream& input, const std::string& file) {
 
 } // namespace
 
+const CLI::Option* findOption(const CLI::App& app, const std::string& flag) {
+    const std::vector<const CLI::Option*> options = app.get_options();
+    const auto isNamed = [&flag](const CLI::Option* option) { return option->check_name(flag); };
+    const auto found = std::find_if(options.begin(), options.end(), isNamed);
+    return found == options.end() ? nullptr : *found;
+}
+
 std::vector<CLI::ConfigItem> ConfigFile::from_config(std::istream& input) const {
-    if (app_.get_option("--no-config")->count() > 0) {
+    if (findOption(app_, "--no-config")->count() > 0) {
         if (isNamed_) throw UsageError("--no-config: contradicts --config");
         return {};
     }
     std::vector<CLI::ConfigItem> items;
     for (const ConfigEntry& entry : readConfigText(readAll(input, path()), path())) {
         if (leftOut_.count("--" + entry.name) > 0) continue;
-        const CLI::Option* option = app_.get_option_no_throw((entry.name.size() == 1 ? "-" : "--") + entry.name);
+        const CLI::Option* option = findOption(app_, (entry.name.size() == 1 ? "-" : "--") + entry.name);
         const std::string named = entry.place + ": \"" + excerpt(entry.name) + "\" ";
         if (option == nullptr) throw UsageError(named + "is no flag; --help lists them all");
         if (!option->get_configurable()) throw UsageError(named + "can be given on the command line only");

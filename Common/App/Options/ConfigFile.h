@@ -9,6 +9,9 @@
 
 namespace rt::app {
 
+// Nothing where there is no such flag. In CLI::App::get_option() and its kin want of memory ends the program.
+const CLI::Option* findOption(const CLI::App& app, const std::string& flag);
+
 class ConfigFile : public CLI::ConfigBase {
   public:
     explicit ConfigFile(const CLI::App& app) : app_(app) {}
@@ -19,7 +22,7 @@ class ConfigFile : public CLI::ConfigBase {
     void leaveOut(const std::string& flag) { leftOut_.insert(flag); }
     // "FILE:LINE: ", or without the line, where the flag's value comes from the file; else empty.
     std::string placeOf(const std::string& flag) const;
-    std::string path() const { return app_.get_option("--config")->as<std::string>(); }
+    std::string path() const { return findOption(app_, "--config")->as<std::string>(); }
     // Whether the command line has --config. Some versions of CLI11 count the user's own file as given, too.
     void setNamed(bool named) { isNamed_ = named; }
 

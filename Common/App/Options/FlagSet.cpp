@@ -104,6 +104,11 @@ void FlagSet::applyEnvironment() {
     }
 }
 
+bool FlagSet::given(const std::string& flag) const {
+    const CLI::Option* option = findOption(app_, flag);
+    return option != nullptr && option->count() > 0;
+}
+
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
     config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
         return argument == "--config" || argument.starts_with("--config=");

@@ -63,7 +63,7 @@ class FlagSet {
 
     // Returns false when --help or --version was asked for and has been answered on `out`.
     bool parse(std::vector<std::string> arguments, std::ostream& out);
-    bool given(const std::string& flag) const { return app_.get_option(flag)->count() > 0; }
+    bool given(const std::string& flag) const;
 
   private:
     void applyEnvironment();

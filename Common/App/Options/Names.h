@@ -74,6 +74,9 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"depth", Aov::Depth},
                                        {"variance", Aov::Variance},
                                        {"samples", Aov::Samples}};
+inline constexpr Named<bool> kAdaptive[] = {
+    {"off", false, "Uniform", "every pixel gets the same number"},
+    {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -91,6 +94,7 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
+    visit("adaptive", "Samples over the image", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }
 
 // "--light-sampling" of "light_sampling".

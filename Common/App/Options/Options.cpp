@@ -6,6 +6,7 @@
 
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Session/FeatureNames.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
@@ -34,6 +35,7 @@ constexpr const char* kStoredFlags[] = {"--scene",
                                         "--light-sampling",
                                         "--light-selection",
                                         "--sampler",
+                                        "--adaptive",
                                         "--sphere-light",
                                         "--quad-light",
                                         "--triangle-light",
@@ -72,6 +74,7 @@ void addScene(FlagSet& flags, Parsed& parsed) {
                   (void)poseOf(text, {}); // the scene may say the rest
                   options.camera = text;
               });
+    flags.addFile("--assets-below", options.assetsBelow, "DIR: no file of the scene may lie elsewhere");
     flags.addSwitch("--list-scenes", parsed.listScenes, "print ids and titles and exit")->configurable(false);
     flags.addSwitch("--json", options.json, "with --list-scenes: as JSON")->configurable(false);
     flags.addFile("--export-scene", options.exportFile, "write the scene as a scene file and exit")
@@ -235,6 +238,13 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
 void settleErrorEstimate(Options& options) {
     RenderSettings& settings = options.settings;
     if (options.targetError) settings.replicates = std::max(settings.replicates, kErrorReplicates);
+    if (settings.adaptive && settings.sampler == SamplerKind::Stratified)
+        throw UsageError(
+            "--adaptive on: not with --sampler stratified, whose strata are made for one number of samples");
+    if (isAdaptive(settings) && settings.replicates > 1 && settings.replicates % 2 != 0)
+        throw UsageError("--replicates " + std::to_string(settings.replicates) +
+                         ": must be even with --adaptive on, which makes two halves of them");
+    settleReplicates(settings);
     if (settings.replicates > settings.spp)
         throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
                          std::to_string(settings.spp));
@@ -245,6 +255,8 @@ void settleErrorEstimate(Options& options) {
 
 void settleFiles(Options& options) {
     if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
+    if (options.settings.adaptive && (options.region || options.tiles))
+        throw UsageError("--adaptive on: plans the samples of a whole image; not with --region or --tiles");
     if (options.targetError && (options.region || options.tiles))
         throw UsageError("--target-error: is that of a whole image; not with --region or --tiles");
     if ((!options.saveEvery && !options.tiles) || !options.checkpoint.empty()) return;
@@ -310,7 +322,7 @@ std::string checkpointBeside(const std::string& output) {
     return output + ".rtc";
 }
 
-void settleImageSize(Options& options, double sceneAspect) {
+void settleImageSize(Options& options, const std::string& scene, double sceneAspect) {
     const auto& [width, height, aspect] = options.size;
     const double ratio = aspect.value_or(sceneAspect);
     std::uint32_t& w = options.settings.width;
@@ -324,6 +336,9 @@ void settleImageSize(Options& options, double sceneAspect) {
         h = *height;
         w = rounded(h * ratio, "--height " + std::to_string(h));
     } else {
+        if (!width && !aspect && kDefaultWidth / sceneAspect >= image::kMaxImageSide + 0.5)
+            throw InputError(scene + ": an aspect of " + std::to_string(sceneAspect) +
+                             " makes an image larger than 16384 pixels a side");
         w = width.value_or(kDefaultWidth);
         h = rounded(w / ratio, "--width " + std::to_string(w));
     }

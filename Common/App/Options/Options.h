@@ -43,6 +43,7 @@ struct Options {
 
     std::string scene = "cornell-box-lights"; // id or file
     std::string camera;                       // its pose as JSON; empty: the scene's
+    std::string assetsBelow;                  // the folder that the scene's files must lie in; empty: anywhere
     bool oneSidedLights = true;
     SizeRequest size;
     RenderSettings settings;        // complete but for width and height, which may depend on the scene
@@ -90,8 +91,8 @@ inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags diffe
 std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out);
 
 // Sets settings.width and height: 600 pixels wide and of the scene's own aspect where nothing is said. Throws
-// UsageError.
-void settleImageSize(Options& options, double sceneAspect);
+// UsageError, or InputError where the scene is to blame.
+void settleImageSize(Options& options, const std::string& scene, double sceneAspect);
 
 // The checkpoint of an output that has no other name: image.png.rtc for image.png.
 std::string checkpointBeside(const std::string& output);

@@ -7,6 +7,7 @@
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Ranks/TilePool.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
@@ -82,6 +83,8 @@ class RankedEngine final : public Engine {
 };
 
 void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& settings) {
+    if (isAdaptive(settings))
+        throw UsageError("--adaptive on: plans the samples of a whole image; not with several ranks");
     local_->reset(camera, settings); // whose failures are seen before anybody waits
     settings_ = settings;
     film_ = image::Film(local_->film().desc());

@@ -77,7 +77,7 @@ struct AovImages {
 // The film as a picture.
 struct Snapshot {
     image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
-    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as in image::Film
+    std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as Film::samples()
     std::uint64_t leastSamples() const {
         return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
     }
@@ -106,6 +106,7 @@ struct Engine {
     virtual void restore(image::Film film) = 0;
     // After reset and restore: from now on only these tiles, and of them `spp` samples per pixel, at most those of the
     // settings; none of the bits depends on it. The film first takes over what `packed` holds (FilmTiles.h).
+    // An adaptive film takes all tiles.
     virtual void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed = {}) = 0;
     virtual RenderStatus renderSome(const Budget& budget) = 0;
     // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to

@@ -21,6 +21,8 @@ static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::int64_t
 // `timeout` sends its signal to the program and to the program's group: two within a moment are one request.
 constexpr std::int64_t kOneRequest = 200; // milliseconds
 
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+
 std::int64_t milliseconds() {
     const auto now = std::chrono::steady_clock::now().time_since_epoch();
     return std::max<std::int64_t>(1, std::chrono::duration_cast<std::chrono::milliseconds>(now).count());
@@ -29,7 +31,10 @@ std::int64_t milliseconds() {
 void handle(int signal) {
     const std::int64_t now = milliseconds();
     std::int64_t first = 0;
-    const bool again = !firstRequest.compare_exchange_strong(first, now) && now - first > kOneRequest;
+    bool again = !firstRequest.compare_exchange_strong(first, now) && now - first > kOneRequest;
+#ifdef SIGHUP
+    again = again && signal != SIGHUP; // of a terminal that closes, the shell and the system tell one after the other
+#endif
     if (!deferring || again) std::_Exit(static_cast<int>(ExitCode::Interrupted));
     stopRequested = true;
     std::signal(signal, handle); // some systems reset it
@@ -41,13 +46,16 @@ Interrupt::Interrupt() {
     deferring = false;
     stopRequested = false;
     firstRequest = 0;
-    previousInt_ = std::signal(SIGINT, handle);
-    previousTerm_ = std::signal(SIGTERM, handle);
+    for (const int signal : kSignals) previous_.emplace_back(signal, std::signal(signal, handle));
+#ifdef SIGHUP
+    const Handler hangUp = std::signal(SIGHUP, handle);
+    if (hangUp == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
+    previous_.emplace_back(SIGHUP, hangUp);
+#endif
 }
 
 Interrupt::~Interrupt() {
-    std::signal(SIGINT, previousInt_ == SIG_ERR ? SIG_DFL : previousInt_);
-    std::signal(SIGTERM, previousTerm_ == SIG_ERR ? SIG_DFL : previousTerm_);
+    for (const auto& [signal, handler] : previous_) std::signal(signal, handler == SIG_ERR ? SIG_DFL : handler);
 }
 
 void Interrupt::defer() {

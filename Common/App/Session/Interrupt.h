@@ -1,11 +1,14 @@
-// Ctrl-C and termination requests, by what standard C++ offers.
+// Ctrl-C, termination requests and terminals that go away, by what standard C++ offers.
 #pragma once
 #include <atomic>
+#include <utility>
+#include <vector>
 
 namespace rt::app {
 
-// While it exists, SIGINT and SIGTERM end the program at once with exit code 130; after defer() the first asks to
-// stop, and only one that comes at least 0.2 s later ends the program at once. One at a time.
+// While it exists, SIGINT, SIGTERM and SIGHUP end the program at once with exit code 130; after defer() the first asks
+// to stop, and only a SIGINT or SIGTERM that comes at least 0.2 s later ends the program at once. A SIGHUP that was
+// ignored, as nohup does, stays so. One at a time.
 class Interrupt {
   public:
     Interrupt();
@@ -18,8 +21,7 @@ class Interrupt {
 
   private:
     using Handler = void (*)(int);
-    Handler previousInt_;
-    Handler previousTerm_;
+    std::vector<std::pair<int, Handler>> previous_; // of each signal
 };
 
 } // namespace rt::app

@@ -71,8 +71,8 @@ ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features) {
 }
 
 void probe(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path)) throw RenderError(path.string() + ": is a directory");
-    std::error_code ignored;
+    std::error_code ignored; // what cannot be looked at cannot be written either
+    if (std::filesystem::is_directory(path, ignored)) throw RenderError(path.string() + ": is a directory");
     if (std::filesystem::is_fifo(path, ignored)) return; // whose reader would take a probe for all there is
     AtomicFile file(path);                               // never committed: only its temporary file comes and goes
 }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "Common/Image/SamplePlan.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Material/Bsdf.h"
 
@@ -43,7 +44,8 @@ constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatu
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {
     const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
-    const std::uint32_t wanted = settings.sppIsKnown ? static_cast<std::uint32_t>(std::bit_width(samples - 1)) : 4u;
+    std::uint32_t wanted = settings.sppIsKnown ? static_cast<std::uint32_t>(std::bit_width(samples - 1)) : 4u;
+    if (isAdaptive(settings)) wanted = std::max(wanted, 4u); // a block of the film must not go beyond
     const auto side = static_cast<std::uint32_t>(std::bit_width(std::max(settings.width, settings.height) - 1));
     return std::min(wanted, 32u - 2u * std::min(side, 16u));
 }
@@ -66,6 +68,19 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataY = strata(settings).y;
     if (settings.russianRoulette) params.russianRoulette = isUnderPlainSky(scene) ? kRouletteUnderSky : kRoulette;
     return params;
+}
+
+bool isAdaptive(const RenderSettings& settings) {
+    return settings.adaptive && settings.sampler != SamplerKind::Stratified && image::pilotSamples(settings.spp) > 0;
+}
+
+void settleReplicates(RenderSettings& settings) {
+    if (isAdaptive(settings)) settings.replicates += settings.replicates % 2;
+}
+
+image::FilmDesc filmDesc(const RenderSettings& settings) {
+    const bool adaptive = isAdaptive(settings);
+    return {settings.width, settings.height, settings.replicates, settings.secondMoments && !adaptive, adaptive};
 }
 
 std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "Common/App/Session/Settings.h"
+#include "Common/Image/Film.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Shared/Base/Types.h"
 
@@ -10,6 +11,13 @@ namespace rt::app {
 
 // The settings as kernels see them for this scene.
 shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings);
+
+// Whether they ask for an adaptive film and can have one: strata are made for a number of samples that is known.
+bool isAdaptive(const RenderSettings& settings);
+// An adaptive film has two halves: makes the number of replicates even.
+void settleReplicates(RenderSettings& settings);
+// The film that they ask for.
+image::FilmDesc filmDesc(const RenderSettings& settings);
 
 // What a kernel needs for this scene, camera and settings, and whatever else the settings force on it.
 std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,

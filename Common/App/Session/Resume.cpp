@@ -64,6 +64,11 @@ std::uint64_t mostSamples(const image::Film& film) {
 // other.
 void checkSpp(const std::string& file, std::uint32_t stored, const RenderSettings& settings, const image::Film& film) {
     const std::string now = std::to_string(settings.spp) + " now";
+    if (settings.adaptive) {
+        if (stored == settings.spp) return;
+        throw InputError(file + ": spp is " + std::to_string(stored) +
+                         " in the checkpoint, whose adaptive samples allow no other, but " + now);
+    }
     const bool isMadeForSpp = settings.sampler == SamplerKind::Stratified || settings.sampler == SamplerKind::SobolBlue;
     if (isMadeForSpp && settings.sppIsKnown && stored != settings.spp)
         throw InputError(file + ": spp is " + std::to_string(stored) +

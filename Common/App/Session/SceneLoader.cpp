@@ -48,7 +48,8 @@ void SceneLoader::request(SceneRequest request) {
 }
 
 void SceneLoader::open(const std::string& source) {
-    request({source, lastRequest().oneSidedLights});
+    const SceneRequest last = lastRequest();
+    request({source, last.oneSidedLights, {}, last.assetsBelow});
 }
 
 bool SceneLoader::setOneSidedLights(bool on) {

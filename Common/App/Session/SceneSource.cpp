@@ -11,6 +11,7 @@
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/ReadFile.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
@@ -71,6 +72,7 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
+    const ReadsBelow confined(request.assetsBelow, request.source);
     const scene::SceneDesc desc = loadScene(request.source);
     std::optional<scene::CameraDesc> camera;
     if (!request.pose.empty()) camera = poseOf(request.pose, desc.camera);

@@ -20,7 +20,8 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 struct SceneRequest {
     std::string source; // id or file, as --scene takes it
     bool oneSidedLights = true;
-    std::string pose = {}; // of the camera, as --camera takes it; empty: the scene's own
+    std::string pose = {};        // of the camera, as --camera takes it; empty: the scene's own
+    std::string assetsBelow = {}; // the folder that the scene's files must lie in; empty: anywhere
     bool operator==(const SceneRequest&) const = default;
 };
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request);

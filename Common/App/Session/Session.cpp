@@ -20,9 +20,11 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
 #include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Interruption.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/NewFile.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/ReadFile.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {
@@ -113,9 +115,9 @@ class HeadlessRender {
 // Also settles what the options leave to the scene.
 void HeadlessRender::load() {
     const Stopwatch watch;
-    scene_ = compile(SceneRequest{options_.scene, options_.oneSidedLights, options_.camera});
+    scene_ = compile(SceneRequest{options_.scene, options_.oneSidedLights, options_.camera, options_.assetsBelow});
     for (const std::string& notice : scene_->notices) logWarning(scene_->id + ": " + notice);
-    settleImageSize(options_, scene_->defaults.aspect);
+    settleImageSize(options_, scene_->id, scene_->defaults.aspect);
     checkFeatures(options_.settings, *scene_);
     if (!options_.reference.empty())
         reference_ = readReference(options_.reference, options_.settings.width, options_.settings.height);
@@ -162,6 +164,7 @@ void HeadlessRender::sample() {
 // counts.
 void HeadlessRender::write() {
     memoryForWriting_.reset();
+    const Interruptible interruptible(interrupt_.requested()); // where a reader stalls
     const Stopwatch watch;
     std::string lost;
     const image::Film& film = run_->keptFilm(lost);
@@ -185,6 +188,7 @@ void HeadlessRender::write() {
 }
 
 void HeadlessRender::save(const std::string& file) const {
+    const Interruptible interruptible(interrupt_.requested());
     saveCheckpoint(file, options_.settings, *scene_, engine_->report(), engine_->film());
 }
 
@@ -214,6 +218,7 @@ std::string HeadlessRender::rescue() const {
 }
 
 void exportScene(const Options& options) {
+    const ReadsBelow confined(options.assetsBelow, options.scene);
     scene::SceneDesc scene = loadScene(options.scene);
     if (!options.camera.empty()) scene.camera = poseOf(options.camera, scene.camera);
     writeText(options.exportFile, scene::toJson(scene));

@@ -48,6 +48,7 @@ struct RenderSettings {
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
     bool secondMoments = false;            // keep what error estimates need
+    bool adaptive = false;                 // spp is the mean; needs an even number of replicates
     std::optional<std::uint32_t> features; // forced feature mask, a superset of the scene's
 
     bool operator==(const RenderSettings&) const = default;

@@ -56,7 +56,7 @@ void drawCameraPanel(Gui& gui) {
     if (button("Paste pose", "From the clipboard (Ctrl+Shift+V)", true, width)) gui.pastePose();
     ImGui::SameLine(0, space);
     if (button("Reset", "Back to the scene's camera (R)", true, width)) gui.camera.reset();
-    note("W A S D Q E fly, Shift fast, Ctrl slow; right drag looks, Alt + left drag orbits, middle drag pans.");
+    note("W A S D Q E fly, Shift fast, Ctrl slow; left drag orbits, right drag looks, middle drag pans.");
 }
 
 } // namespace rt::gui

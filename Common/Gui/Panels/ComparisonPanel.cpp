@@ -50,15 +50,23 @@ void cell(const std::string& text) {
     ImGui::TextUnformatted(text.c_str());
 }
 
-void drawRow(const RunRecord& r) {
+// What the columns do not show.
+std::string provenance(const RunRecord& r) {
+    const std::string lacking = lackingIn(r);
+    return r.time + ", " + r.device +
+           (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
+}
+
+void drawRow(const RunRecord& r, bool isCompared) {
     ImGui::TableNextRow();
+    if (isCompared) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_Header));
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, isGpuRun(r) ? kGpuColor : kCpuColor);
     ImGui::Bullet();
     ImGui::PopStyleColor();
     ImGui::SameLine();
     ImGui::TextUnformatted(((isGpuRun(r) ? "GPU " : "CPU ") + r.engine).c_str());
-    tooltip((r.time + ", " + r.device).c_str());
+    tooltip(provenance(r).c_str());
     cell(std::to_string(r.spp));
     cell(shortDuration(r.renderSeconds));
     cell((r.hasReference || r.relmse <= 0 ? "" : "~") + scientific(r.relmse));
@@ -69,49 +77,43 @@ void drawRow(const RunRecord& r) {
     cell(withPrefix(r.samplesPerSecond));
     cell(withPrefix(r.raysPerSecond));
     cell(r.lightSampling + ", " + r.sampler);
+    cell(std::to_string(r.maxDepth));
     cell(std::to_string(r.width) + " x " + std::to_string(r.height));
     cell(r.scene);
     cell(r.device);
 }
 
-void drawTable(const std::vector<const RunRecord*>& runs, ImVec2 size) {
+void drawTable(const std::vector<const RunRecord*>& runs, const app::EnginePair& pair, ImVec2 size) {
     constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
                                        ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingFixedFit |
                                        ImGuiTableFlags_NoSavedSettings;
-    if (!ImGui::BeginTable("##runs", 11, kFlags, size)) return;
+    if (!ImGui::BeginTable("##runs", 12, kFlags, size)) return;
     ImGui::TableSetupScrollFreeze(1, 1);
     for (const char* title : {"Engine", "SPP", "Time", "relMSE", "Efficiency", "Samples/s", "Rays/s", "Estimator",
-                              "Size", "Scene", "Device"}) {
+                              "Depth", "Size", "Scene", "Device"}) {
         ImGui::TableSetupColumn(title);
     }
     ImGui::TableHeadersRow();
-    for (const RunRecord* record : runs) drawRow(*record);
+    for (const RunRecord* record : runs) drawRow(*record, record == pair.cpu || record == pair.gpu);
     ImGui::EndTable();
 }
 
-// Of the newest runs of both programs that did the same work.
-std::string speedUp(const std::vector<const RunRecord*>& runs) {
-    for (const RunRecord* a : runs) {
-        if (a->samplesPerSecond <= 0) continue;
-        for (const RunRecord* b : runs) {
-            const bool same = isGpuRun(*a) != isGpuRun(*b) && b->samplesPerSecond > 0 && a->scene == b->scene &&
-                              a->width == b->width && a->height == b->height && a->maxDepth == b->maxDepth &&
-                              a->lightSampling == b->lightSampling;
-            if (!same) continue;
-            const RunRecord& gpu = isGpuRun(*a) ? *a : *b;
-            const RunRecord& cpu = isGpuRun(*a) ? *b : *a;
-            char text[160];
-            std::snprintf(text, sizeof text, "GPU against CPU: %.3g times the samples per second",
-                          gpu.samplesPerSecond / cpu.samplesPerSecond);
-            std::string line = text;
-            if (gpu.hasReference && cpu.hasReference && cpu.efficiency() > 0 && gpu.efficiency() > 0) {
-                std::snprintf(text, sizeof text, ", %.3g times the efficiency", gpu.efficiency() / cpu.efficiency());
-                line += text;
-            }
-            return line + " (" + gpu.scene + ", newest runs of both)";
-        }
+std::string speedUp(const app::EnginePair& pair) {
+    if (pair.cpu == nullptr)
+        return "Run both programs on the same work for a speed-up: all of scene, camera, size, "
+               "SPP, depth, estimator and sampler";
+    const RunRecord& cpu = *pair.cpu;
+    const RunRecord& gpu = *pair.gpu;
+    char text[160];
+    const double ratio = gpu.samplesPerSecond / cpu.samplesPerSecond;
+    std::snprintf(text, sizeof text, "GPU is %.3g\u00d7 %s than CPU (samples/s)", ratio >= 1 ? ratio : 1 / ratio,
+                  ratio >= 1 ? "faster" : "slower");
+    std::string line = text;
+    if (gpu.hasReference && cpu.hasReference && cpu.efficiency() > 0 && gpu.efficiency() > 0) {
+        std::snprintf(text, sizeof text, ", %.3g\u00d7 the efficiency", gpu.efficiency() / cpu.efficiency());
+        line += text;
     }
-    return "Run both programs on one scene and size for a speed-up";
+    return line + ": " + gpu.scene + ", the two runs marked";
 }
 
 void exportCsv(Gui& gui) {
@@ -194,6 +196,7 @@ void drawChart(Gui& gui, const std::vector<const RunRecord*>& runs, ImVec2 size)
 
 void drawComparisonPanel(Gui& gui) {
     const std::vector<const RunRecord*> runs = chosenRuns(gui);
+    const app::EnginePair pair = app::newestOfEqualWork(runs);
     const ImVec2 all = ImGui::GetContentRegionAvail();
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
     const bool isNarrow = all.x < kNarrow * font; // the chart is below, not beside
@@ -206,9 +209,9 @@ void drawComparisonPanel(Gui& gui) {
     besideIfItFits(buttonWidth("Export PNG"));
     if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
     ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(speedUp(runs).c_str());
+    ImGui::TextUnformatted(speedUp(pair).c_str());
     ImGui::PopTextWrapPos();
-    drawTable(runs, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
+    drawTable(runs, pair, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
     if (isNarrow) drawChart(gui, runs, {ImGui::GetContentRegionAvail().x, chart.y});
     ImGui::EndChild();
     if (isNarrow) return;

@@ -22,7 +22,7 @@ constexpr Shortcut kShortcuts[] = {
     {"W A S D, Q E", "fly; down, up"},
     {"Shift, Ctrl", "fly fast, slowly"},
     {"Right drag", "look around"},
-    {"Alt + left drag", "orbit around the target"},
+    {"Left drag", "orbit around the target; with a pinned picture: Alt + left drag"},
     {"Middle drag", "pan"},
     {"Ctrl + click", "make sharp what is there"},
     {"Wheel", "flying speed; with Shift: nearer, farther"},

@@ -16,6 +16,8 @@ const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
     if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id)) {
         entry->second = loadObj(*path, withMaterials, source.file + "/");
         textures_.add(entry->second.textures);
+        const std::vector<std::string>& notices = entry->second.notices;
+        out_.notices.insert(out_.notices.end(), notices.begin(), notices.end());
     } else {
         out_.notices.push_back(source.file + ": a generated mesh stands in");
         entry->second.parts.push_back({{}, makeMeshStandIn(source.standIn)});

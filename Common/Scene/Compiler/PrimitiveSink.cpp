@@ -156,7 +156,7 @@ void PrimitiveSink::ellipsoid(Affine toWorld, const SphereFrame& frame) {
             ++dropped_.spheres;
             return;
         }
-        // The same surface, but for how it is turned.
+        // The surface of toWorld, but for how it is turned.
         if (!frame.isOriented) toWorld.linear = axes;
         const shared::Light record = ellipsoidLight(toWorld);
         if (isInvertible(record))

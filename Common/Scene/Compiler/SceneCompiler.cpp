@@ -204,6 +204,7 @@ class Compiler {
         globals.sceneRadius = static_cast<float>(bounds_.radius());
         out_->features = featureMask(*out_);
         out_->hash = sceneHash(*out_);
+        out_->notices.insert(out_->notices.end(), desc_.notices.begin(), desc_.notices.end());
         sink_.appendNotices(out_->notices);
         if (droppedMedia_ > 0)
             out_->notices.push_back(std::to_string(droppedMedia_) + " media without volume or density were dropped");

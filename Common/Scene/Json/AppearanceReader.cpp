@@ -1,49 +1,58 @@
 // Reading of scene files: textures and materials.
 #include <algorithm>
 
-#include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Json/SceneReader.h"
+#include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
 
 namespace {
 
-NoiseTexture readNoise(const JsonNode& node) {
-    node.expectKeys({"type", "kind", "scale", "frequency", "tint", "seed"});
-    NoiseTexture noise;
-    const std::string kind = node.at("kind").oneOf({"marble", "turbulence", "smooth"});
-    if (kind == "turbulence") noise.kind = NoiseKind::Turbulence;
-    if (kind == "smooth") noise.kind = NoiseKind::Smooth;
-    if (const auto value = node.find("scale")) noise.scale = value->positive();
-    if (const auto value = node.find("frequency")) noise.frequency = value->number();
-    if (const auto value = node.find("tint")) noise.tint = value->vectorWithin(0, 1);
-    if (const auto value = node.find("seed")) noise.seed = value->unsignedInteger();
-    return noise;
-}
+// Reads the parameters of one texture.
+class ParameterReader {
+  public:
+    ParameterReader(const JsonNode& texture, const SceneReferences& references)
+        : texture_(texture), references_(references) {}
 
-ImageTexture readImage(const JsonNode& node, const SceneReferences& references) {
-    node.expectKeys({"type", "file", "stand_in", "tint"});
-    ImageTexture image;
-    if (const auto standIn = node.find("stand_in")) image.standIn = readChoice(*standIn, planetMapNames());
-    image.file = references.file(node.at("file"), !image.standIn.empty());
-    if (const auto tint = node.find("tint")) image.tint = tint->vectorWithin(0, 1);
-    return image;
-}
+    void read(const TextureParameter& p, double& value) const { value = at(p).within(p.least, p.most); }
+    void read(const TextureParameter& p, std::uint32_t& value) const { value = at(p).unsignedInteger(); }
+    void read(const TextureParameter& p, glm::dvec3& value) const { value = at(p).vectorWithin(0, 1); }
+    void read(const TextureParameter& p, ColorOrTexture& value) const { value = references_.colorOrTexture(at(p)); }
+    void read(const TextureParameter& p, std::string& value) const {
+        value = p.choices ? readChoice(at(p), p.choices()) : references_.file(at(p), texture_.has("stand_in"));
+    }
+    void read(const TextureParameter& p, NoiseKind& value) const {
+        const auto& names = p.choices();
+        value = static_cast<NoiseKind>(std::ranges::find(names, readChoice(at(p), names)) - names.begin());
+    }
+
+  private:
+    JsonNode at(const TextureParameter& p) const { return texture_.at(p.name); }
+
+    const JsonNode& texture_;
+    const SceneReferences& references_;
+};
 
 } // namespace
 
 TextureDesc readTexture(const JsonNode& node, const SceneReferences& references) {
-    const std::string type = node.at("type").oneOf({"solid", "checker", "noise", "image"});
-    if (type == "noise") return readNoise(node);
-    if (type == "image") return readImage(node, references);
-    if (type == "solid") {
-        node.expectKeys({"type", "color"});
-        return SolidTexture{node.at("color").vectorWithin(0, 1)};
-    }
-    node.expectKeys({"type", "scale", "even", "odd"});
-    return CheckerTexture{node.at("scale").positive(), references.colorOrTexture(node.at("even")),
-                          references.colorOrTexture(node.at("odd"))};
+    std::vector<std::string> names;
+    forEachTextureType([&]<typename Texture>(const Texture&) { names.emplace_back(TextureType<Texture>::name); });
+    const std::string name = readChoice(node.at("type"), names);
+    TextureDesc read;
+    forEachTextureType([&]<typename Texture>(Texture texture) {
+        if (name != TextureType<Texture>::name) return;
+        std::vector<const char*> keys = {"type"};
+        TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto) { keys.push_back(p.name); });
+        node.expectKeys(keys);
+        const ParameterReader reader(node, references);
+        TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
+            if (p.isRequired || node.has(p.name)) reader.read(p, texture.*member);
+        });
+        read = std::move(texture);
+    });
+    return read;
 }
 
 MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& references) {

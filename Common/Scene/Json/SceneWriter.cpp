@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/Scene/Json/SceneJson.h"
+#include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
@@ -134,38 +135,27 @@ Json json(const Background& background) {
 
 // ---- appearance ----------------------------------------------------------------------------------------------------
 
-const char* nameOf(NoiseKind kind) {
-    switch (kind) {
-        case NoiseKind::Marble:
-            return "marble";
-        case NoiseKind::Turbulence:
-            return "turbulence";
-        case NoiseKind::Smooth:
-            break;
-    }
-    return "smooth";
+template <typename Value>
+Json json(const TextureParameter& parameter, const Value& value) {
+    if constexpr (std::is_enum_v<Value>)
+        return parameter.choices().at(static_cast<std::size_t>(value));
+    else if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture>)
+        return json(value);
+    else
+        return value;
 }
 
-Json json(const TextureDesc& texture) {
-    if (const auto* solid = std::get_if<SolidTexture>(&texture))
-        return {{"type", "solid"}, {"color", json(solid->color)}};
-    if (const auto* checker = std::get_if<CheckerTexture>(&texture))
-        return {
-            {"type", "checker"}, {"scale", checker->scale}, {"even", json(checker->even)}, {"odd", json(checker->odd)}};
-    if (const auto* noise = std::get_if<NoiseTexture>(&texture)) {
-        const NoiseTexture usual;
-        Json out = {{"type", "noise"}, {"kind", nameOf(noise->kind)}};
-        setUnless(out, "scale", noise->scale, usual.scale);
-        setUnless(out, "frequency", noise->frequency, usual.frequency);
-        setUnless(out, "tint", noise->tint, usual.tint);
-        setUnless(out, "seed", noise->seed, usual.seed);
-        return out;
-    }
-    const auto& image = std::get<ImageTexture>(texture);
-    Json out = {{"type", "image"}, {"file", image.file}};
-    setUnless(out, "stand_in", image.standIn, std::string());
-    setUnless(out, "tint", image.tint, glm::dvec3(1));
-    return out;
+Json json(const TextureDesc& desc) {
+    return std::visit(
+        []<typename Texture>(const Texture& texture) {
+            const Texture usual;
+            Json out = {{"type", TextureType<Texture>::name}};
+            TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
+                if (p.isRequired || texture.*member != usual.*member) out[p.name] = json(p, texture.*member);
+            });
+            return out;
+        },
+        desc);
 }
 
 Json json(const MaterialDesc& material) {

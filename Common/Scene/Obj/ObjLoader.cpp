@@ -166,6 +166,9 @@ class Builder : public tinyobj::MaterialReader {
         MemoryBuffer buffer(bytes);
         std::istream stream(&buffer);
         tinyobj::LoadMtl(ids, materials, &stream, warnings, errors);
+        const auto isNamed = [](const tinyobj::material_t& material) { return !material.name.empty(); };
+        if (std::none_of(materials->begin(), materials->end(), isNamed)) // the parser makes one of nothing
+            model_.notices.push_back(file.string() + ": there is no material in it");
         for (const tinyobj::material_t& material : *materials)
             if (!material.name.empty()) {
                 const std::string key = prefix_ + material.name;
@@ -325,6 +328,7 @@ SceneDesc loadObjScene(const fs::path& path) {
     SceneDesc scene;
     scene.id = scene.title = path.filename().string();
     scene.background = GradientBackground{};
+    scene.notices = std::move(model.notices);
     scene.materials = std::move(model.materials);
     scene.textures = std::move(model.textures);
     Bounds bounds;

@@ -19,6 +19,7 @@ struct ObjModel {
     std::vector<ObjPart> parts; // none is empty
     std::map<std::string, MaterialDesc> materials;
     std::map<std::string, TextureDesc> textures;
+    std::vector<std::string> notices; // one line each: material files that are none
 };
 
 // What a surface without a material looks like.

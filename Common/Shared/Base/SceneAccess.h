@@ -69,6 +69,9 @@ RT_FN const SceneGlobals& loadGlobals(SceneRef scene) {
 RT_FN vec3 loadSphereMotion(SceneRef scene, uint i) {
     return scene.sphereMotions != nullptr ? scene.sphereMotions[i] : vec3(0.0f);
 }
+RT_FN const LightBound& loadLightBound(SceneRef scene, uint i) {
+    return scene.lightBounds[i];
+}
 RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     const LightNode& n = scene.lightNodes[node];
     LightCluster c;
@@ -106,7 +109,8 @@ struct SceneRef {
 RT_SCENE_ARRAYS(RT_DECLARE, RT_DECLARED_BELOW)
 
 SceneGlobals loadGlobals(SceneRef scene);
-vec3 loadSphereMotion(SceneRef scene, uint i);                    // 0 for all where none moves
+vec3 loadSphereMotion(SceneRef scene, uint i); // 0 for all where none moves
+LightBound loadLightBound(SceneRef scene, uint i);
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i); // child i of a node
 vec3 loadTexel(SceneRef scene, Image image, uint x, uint y);      // linear RGB
 

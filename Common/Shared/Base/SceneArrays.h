@@ -31,7 +31,7 @@
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
-    PLAIN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
+    OWN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \
     /* node * kLightNodeChildren + child, or kNone: of each of those lights, then of each node, in its parent */ \
     PLAIN(uint, lightToLeaf, loadLightLeaf, "the light tree")

@@ -135,6 +135,24 @@ RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) 
     return intersectQuad(ray, length(ray.direction), corner, frame, tMax);
 }
 
+// A quad that is a rectangle perpendicular to an axis, in coordinates of which that axis is the last: `toCorner` from
+// the ray's origin; `inverse` 1 / direction.z; `scale` 1 / extent, signed; `margin` as QuadFrame's. u runs along x, v
+// along y.
+RT_FN ShapeHit intersectAxisQuad(vec3 toCorner, vec3 direction, float inverse, float rayLength, vec2 scale, vec2 margin,
+                                 float tMax) {
+    ShapeHit hit = missedShape();
+    float t = toCorner.z * inverse;
+    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
+    float u = (t * direction.x - toCorner.x) * scale.x;
+    float v = (t * direction.y - toCorner.y) * scale.y;
+    vec2 reach = t * rayLength * margin + (0.5f + kQuadError);
+    if (!(abs(u - 0.5f) <= reach.x && abs(v - 0.5f) <= reach.y)) return hit;
+    hit.t = t;
+    hit.u = clamp(u, 0.0f, 1.0f);
+    hit.v = clamp(v, 0.0f, 1.0f);
+    return hit;
+}
+
 // p.x q.y - p.y q.x, rounded alike for both directions of an edge, however a compiler fuses products with sums: the two
 // triangles at an edge always agree on which side of it a ray passes.
 RT_FN float edgeFunction(vec2 p, vec2 q) {

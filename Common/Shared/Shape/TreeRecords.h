@@ -58,9 +58,14 @@ struct TreeTriangle {
 };
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
-// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), then four a quad, three a
-// triangle, as above.
+// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), two a quad whose edges run along
+// axes (below), then four of any other quad, three a triangle, as above.
+//
+// Quads along axes, those perpendicular to x first, then to y, to z: corner and place; 1 / extent and margin of u and v
+// (QuadFrame) along the two axes that follow the perpendicular one in cyclic order. The place is the index of the
+// primitive, and kTurned if edgeU runs along the second of these axes.
 
+const uint kTurned = 0x80000000u;
 const uint kMaxListedPrimitives = 64u; // most that lists may hold
 const uint kListVectors = 4u * kMaxListedPrimitives;
 
