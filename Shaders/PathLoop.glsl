@@ -32,8 +32,8 @@ bool findWork(inout Work work) {
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
     uint done = launch.samples.at[slot];
     uint index = done + step % launch.steps;
-    work.smp = makeSampler(renderParams(), work.pixel.y * constants.params.width + work.pixel.x, slot % launch.replicates,
-                           index);
+    uint pixelIndex = work.pixel.y * constants.params.width + work.pixel.x;
+    work.smp = makeSampler(renderParams(), pixelIndex, slot % launch.replicates, index);
     work.end = index + 1u;
     return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, slot, done));
 }

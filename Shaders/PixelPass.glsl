@@ -19,5 +19,6 @@ bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) 
 }
 
 PathState beginPath(RenderParams params, PixelSamples samples) {
-    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, cameraSamples(kFeatures, samples.smp)));
+    CameraSamples u = cameraSamples(kFeatures, samples.smp);
+    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, u));
 }
