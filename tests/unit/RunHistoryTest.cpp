@@ -130,7 +130,7 @@ TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
     EXPECT_EQ(old.spp, 16u);
     EXPECT_EQ(lackingIn(old),
               "scene_hash, camera, light_selection, sphere_light, quad_light, triangle_light, "
-              "russian_roulette, one_sided_lights");
+              "russian_roulette, one_sided_lights, adaptive");
     EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
     EXPECT_EQ(lackingIn(record("a")), "");
 }
