@@ -13,9 +13,9 @@ float sphereDistance(SceneRef scene, Ray ray) {
     Ray local = ray;
     if (has(kFeatures, kFeatureInstances) && place.y != kNone) {
         Instance instance = loadInstance(scene, place.y);
-        vec4 rows[3] = instance.toObject;
-        local.origin = transformPoint(rows[0], rows[1], rows[2], ray.origin);
-        local.direction = transformVector(rows[0], rows[1], rows[2], ray.direction);
+        local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
+        local.direction =
+            transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
     }
     Sphere sphere = loadSphere(scene, place.x);
     return intersectSphere(local, sphere.center, sphere.radius, kInfinity);
