@@ -11,8 +11,7 @@ layout(push_constant, scalar) uniform Launch { ResolveLaunch launch; };
 void main() {
     uint tile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
     uint tilePixel = gl_LocalInvocationID.x;
-    uvec2 first = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile;
-    uvec2 pixel = first + uvec2(tilePixel % kTile, tilePixel / kTile);
+    uvec2 pixel = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile + uvec2(tilePixel % kTile, tilePixel / kTile);
     if (pixel.x >= launch.width || pixel.y >= launch.height) return;
     vec3 mean = vec3(0.0f);
     for (uint half_ = 0u; half_ < launch.halves; half_++) {

@@ -19,6 +19,5 @@ bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) 
 }
 
 PathState beginPath(RenderParams params, PixelSamples samples) {
-    CameraSamples u = cameraSamples(kFeatures, samples.smp);
-    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, u));
+    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, cameraSamples(kFeatures, samples.smp)));
 }

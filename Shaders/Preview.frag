@@ -14,8 +14,7 @@ float sphereDistance(SceneRef scene, Ray ray) {
     if (has(kFeatures, kFeatureInstances) && place.y != kNone) {
         Instance instance = loadInstance(scene, place.y);
         local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
-        local.direction =
-            transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+        local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
     }
     Sphere sphere = loadSphere(scene, place.x);
     return intersectSphere(local, sphere.center, sphere.radius, kInfinity);

@@ -41,7 +41,6 @@ vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint texel = y * image.width + x;
     if (image.format == kTexelSrgb8) return decodeSrgb8(constants.arrays.texels.at[image.firstTexel + texel]);
     uint first = image.firstTexel + 3u * texel;
-    uvec3 words = uvec3(constants.arrays.texels.at[first], constants.arrays.texels.at[first + 1u],
-                        constants.arrays.texels.at[first + 2u]);
-    return uintBitsToFloat(words);
+    return vec3(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
+                uintBitsToFloat(constants.arrays.texels.at[first + 2u]));
 }
