@@ -49,6 +49,9 @@ class Merger {
 
     void add(std::uint32_t file) {
         Checkpoint part = readCheckpoint(files_[file]);
+        if (part.film.desc().adaptive)
+            throw InputError(name(file) + ": its samples are adaptive, which is planned for a whole image: " +
+                             "it cannot be merged");
         if (whole_) {
             checkSameRender(name(file), part, name(0), *whole_);
         } else {
@@ -59,7 +62,7 @@ class Merger {
         unpackTiles(packTiles(part.film, tiles), whole_->film);
     }
 
-    // Those with samples, which nobody has had before.
+    // The tiles that have samples, which no file before has.
     TileList tilesOf(const Checkpoint& part, std::uint32_t file) {
         TileList tiles;
         const std::uint64_t spp = part.render.value("spp", std::uint64_t{0});

@@ -52,6 +52,11 @@ TEST_F(Parts, WhatDoesNotFitIsNamed) {
     EXPECT_TRUE(failsWith(merge({"1.rtc", "replicates.rtc", "-o", "a.pfm"}), 3, "keeps its film otherwise"));
     EXPECT_TRUE(failsWith(merge({"early.rtc", "-o", "a.pfm"}), 3, "finish it by --resume"));
     EXPECT_TRUE(failsWith(merge({"1.rtc", "none.rtc", "-o", "a.pfm"}), 3, "none.rtc"));
+    ASSERT_EQ(render({"--width", "40", "--height", "24", "--spp", "32", "--adaptive", "on", "--checkpoint",
+                      "adaptive.rtc", "-o", "adaptive.pfm", "--save-every", "60"})
+                  .exitCode,
+              0);
+    EXPECT_TRUE(failsWith(merge({"adaptive.rtc", "-o", "a.pfm"}), 3, "adaptive.rtc: its samples are adaptive"));
     EXPECT_TRUE(failsWith(merge({"1.rtc", "2.rtc", "-o", "1.rtc"}), 2, "would overwrite"));
     EXPECT_FALSE(std::filesystem::exists(path("a.pfm")));
 }
