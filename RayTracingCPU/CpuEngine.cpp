@@ -248,7 +248,7 @@ class CpuEngine final : public app::Engine {
     }
 
     // Samples per pixel that passes lead to in the end, or before there is a plan.
-    std::uint64_t goal() const { return film_.desc().adaptive ? image::goalOf(film_, settings_.spp) : spp_; }
+    std::uint64_t goal() const { return image::goalOf(film_, spp_); }
 
     // The least that a pixel of the tiles has, if some lack any.
     std::uint64_t nextSample() const {
@@ -335,7 +335,7 @@ class CpuEngine final : public app::Engine {
     app::RenderStatus status() const {
         app::RenderStatus status;
         status.samplesTotal = image::pixelCount(film_, tiles_) * spp_;
-        status.samplesDone = film_.desc().adaptive ? film_.totalSamples() : image::totalSamples(film_, tiles_);
+        status.samplesDone = image::totalSamples(film_, tiles_);
         status.finished = status.samplesDone >= status.samplesTotal;
         return status;
     }

@@ -188,11 +188,11 @@ void GpuEngine::loadTiles() {
         region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
     }
     region_->load(film_, tiles_, 0);
-    const bool adaptive = film_.desc().adaptive; // of all tiles, see renderOnly()
-    samplesDone_ = adaptive ? film_.totalSamples() : image::totalSamples(film_, tiles_);
+    samplesDone_ = image::totalSamples(film_, tiles_);
     samplesTotal_ = image::pixelCount(film_, tiles_) * spp_;
-    goal_ = adaptive ? image::goalOf(film_, spp_) : spp_;
-    begun_ = adaptive ? film_.nextSample(goal_) : image::minSamples(film_, tiles_);
+    goal_ = image::goalOf(film_, spp_);
+    // Of an adaptive film all tiles, see renderOnly().
+    begun_ = film_.desc().adaptive ? film_.nextSample(goal_) : image::minSamples(film_, tiles_);
     dirty_ = false;
     failed_ = false;
     pass_.reset();

@@ -45,7 +45,7 @@ class OutputFile final : public std::streambuf {
 // Makes a rename within a folder outlive a loss of power, where the file system can.
 std::error_code syncFolder(const std::filesystem::path& folder);
 
-// The names in a folder; none where it cannot be read. Throws std::bad_alloc, for which std::filesystem ends the program.
+// The names in a folder; none where it cannot be read. Throws std::bad_alloc, where std::filesystem ends the program.
 std::vector<std::string> namesIn(const std::filesystem::path& folder);
 
 // Removes a file of the user's own that has not changed for a minute, and that nobody has locked.

@@ -8,6 +8,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Image/FilmRows.h"
+#include "Common/Image/FilmTiles.h"
 
 namespace rt::image {
 
@@ -34,18 +35,6 @@ void checkSide(const char* what, std::uint32_t side) {
     if (side < 1 || side > kMaxImageSide)
         throw UsageError("image " + std::string(what) + " " + std::to_string(side) + " is not in 1 to " +
                          std::to_string(kMaxImageSide));
-}
-
-// Samples of the tile's pixels that are inside of the image.
-std::uint64_t samplesInside(const FilmDesc& desc, std::uint32_t tile, const Film::TileState& state) {
-    const std::uint32_t tilesX = (desc.width + Film::kTile - 1) / Film::kTile;
-    const std::uint32_t columns = std::min(Film::kTile, desc.width - tile % tilesX * Film::kTile);
-    const std::uint32_t rows = std::min(Film::kTile, desc.height - tile / tilesX * Film::kTile);
-    if (state.plan.empty()) return std::uint64_t{state.samples} * columns * rows;
-    std::uint64_t total = 0;
-    for (std::uint32_t y = 0; y < rows; ++y)
-        for (std::uint32_t x = 0; x < columns; ++x) total += state.samplesOf(std::size_t{y} * Film::kTile + x);
-    return total;
 }
 
 } // namespace
@@ -78,9 +67,7 @@ std::uint32_t Film::minReplicateSamples() const {
 
 std::uint64_t Film::totalSamples() const {
     std::uint64_t total = 0;
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile)
-        for (std::uint32_t replicate = 0; replicate < desc_.replicates; ++replicate)
-            total += samplesInside(desc_, tile, state(tile, replicate));
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) total += image::totalSamples(*this, {&tile, 1});
     return total;
 }
 

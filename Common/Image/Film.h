@@ -81,7 +81,7 @@ class Film {
     std::span<const std::uint32_t> plan(std::uint32_t tile, std::uint32_t replicate) const;
     // Where all pixels of the tile are done in the replicate: the most that the plan gives one of them.
     std::uint32_t planEnd(std::uint32_t tile, std::uint32_t replicate) const { return ends_[slot(tile, replicate)]; }
-    // The same of the whole image.
+    // The most that the plan gives any pixel.
     std::uint32_t planEnd() const { return *std::max_element(ends_.begin(), ends_.end()); }
 
     // Makes room for blocks that stay unfilled. To be called, by one thread, before work that may commit such a block;

@@ -19,11 +19,23 @@ struct Header { // of a tile's state in one replicate
     std::uint32_t unused = 0;
 };
 
-std::uint64_t pixelCount(const Film& film, std::uint32_t tile) {
+// Of a tile, inside of the image.
+struct Extent {
+    std::uint32_t columns, rows;
+};
+
+Extent extentOf(const Film& film, std::uint32_t tile) {
     const FilmDesc& desc = film.desc();
-    const std::uint64_t columns = std::min(Film::kTile, desc.width - tile % film.tilesX() * Film::kTile);
-    const std::uint64_t rows = std::min(Film::kTile, desc.height - tile / film.tilesX() * Film::kTile);
-    return columns * rows;
+    return {std::min(Film::kTile, desc.width - tile % film.tilesX() * Film::kTile),
+            std::min(Film::kTile, desc.height - tile / film.tilesX() * Film::kTile)};
+}
+
+std::uint64_t samplesIn(const Extent& extent, const Film::TileState& state) {
+    if (state.plan.empty()) return std::uint64_t{state.samples} * extent.columns * extent.rows;
+    std::uint64_t total = 0;
+    for (std::uint32_t y = 0; y < extent.rows; ++y)
+        for (std::uint32_t x = 0; x < extent.columns; ++x) total += state.samplesOf(std::size_t{y} * Film::kTile + x);
+    return total;
 }
 
 template <class T>
@@ -63,13 +75,18 @@ std::uint64_t minSamples(const Film& film, std::span<const std::uint32_t> tiles)
 
 std::uint64_t pixelCount(const Film& film, std::span<const std::uint32_t> tiles) {
     std::uint64_t pixels = 0;
-    for (const std::uint32_t tile : tiles) pixels += pixelCount(film, tile);
+    for (const std::uint32_t tile : tiles) {
+        const Extent extent = extentOf(film, tile);
+        pixels += std::uint64_t{extent.columns} * extent.rows;
+    }
     return pixels;
 }
 
 std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tiles) {
     std::uint64_t total = 0;
-    for (const std::uint32_t tile : tiles) total += film.samples(tile) * pixelCount(film, tile);
+    for (const std::uint32_t tile : tiles)
+        for (std::uint32_t replicate = 0; replicate < film.desc().replicates; ++replicate)
+            total += samplesIn(extentOf(film, tile), film.state(tile, replicate));
     return total;
 }
 

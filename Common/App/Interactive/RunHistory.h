@@ -58,7 +58,7 @@ class RunHistory {
 
 // The names of what a record does not tell of its work, with commas; empty: it tells all.
 std::string lackingIn(const RunRecord& record);
-// Whether all that the work depends on is known of both and equal. Who did it, engine, device and threads, is left free.
+// Whether all that the work depends on is known of both and equal. Engine, device and threads are left free.
 bool isSameWork(const RunRecord& a, const RunRecord& b);
 
 // One run of each program; both or none.

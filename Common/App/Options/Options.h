@@ -81,7 +81,7 @@ struct Options {
 // What a program built without a window says when one is asked for.
 inline constexpr const char* kNoWindow =
     "this program was built without a window: say --output FILE, --stats FILE or --headless";
-// The same, when mpirun has started several programs.
+// What one says of a window when mpirun has started several.
 inline constexpr const char* kNoWindowOfRanks =
     "mpirun: renders without a window: say --output FILE, --stats FILE or --headless";
 inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do

@@ -47,6 +47,10 @@ image::TileList tilesToRender(const Options& options, const Film& film) {
     return tiles;
 }
 
+std::uint64_t samplesPerPixel(const Options& options, const Film& film) {
+    return isWholeImage(options) ? film.samplesPerPixel() : image::minSamples(film, tilesToRender(options, film));
+}
+
 image::ImageRows withinRegion(image::ImageRows rows, const std::optional<Region>& region) {
     if (!region) return rows;
     image::ImageRows result = rows;

@@ -63,8 +63,7 @@ std::string renderNote(const Options& options, const scene::CameraDesc& camera, 
                     {"program", options.program},
                     {"program_version", RT_VERSION},
                     {"device", report.device},
-                    {"spp_done", isWholeImage(options) ? film.samplesPerPixel()
-                                                       : image::minSamples(film, tilesToRender(options, film))},
+                    {"spp_done", samplesPerPixel(options, film)},
                     {"arguments", argumentList(options, camera, report)}};
     return json.dump(-1, ' ', false, Json::error_handler_t::replace); // names of files may be anything
 }
