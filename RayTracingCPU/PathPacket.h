@@ -27,7 +27,7 @@ struct ActiveSlots {
 RT_CALL void sampleDiffuse(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = get(lanes.vertices, i);
-        const BsdfSample b = sampleLambertian(v.albedo, v.shading, get(lanes.u, i).bsdf);
+        const BsdfSample b = sampleLambertian(v.bsdf.albedo, v.shading, get(lanes.u, i).bsdf);
         set(lanes.diffuse, i, b.wi);
         lanes.diffusePdf.at[i] = b.pdf;
     }
@@ -36,10 +36,10 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
 template <uint kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
-    if (inMedium || !isLambertian(kFeatures, v.material)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
+    if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
     BsdfSample b = absorbed();
     b.wi = get(lanes.diffuse, i);
-    b.weight = v.albedo;
+    b.weight = v.bsdf.albedo;
     b.pdf = lanes.diffusePdf.at[i];
     return b;
 }
@@ -83,7 +83,7 @@ class PathPacket {
                 end(slot);
             }
             if (slot.sample == kNone) continue;
-            set(lanes_.vertices, i, v);
+            keepVertex<kFeatures>(lanes_, i, v);
             active.arrived |= 1u << i;
             active.lit |= uint(choosesLight(v)) << i;
         }
@@ -127,7 +127,7 @@ class PathPacket {
     void goOnFrom(uint i, bool isLit) {
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;
-        const Vertex v = get(lanes_.vertices, i);
+        const Vertex v = vertexIn<kFeatures>(lanes_, i);
         const VertexSamples u = get(lanes_.u, i);
         const DirectLight direct = isLit && usesMis(params_) ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);

@@ -18,7 +18,7 @@ void writeFeatures(uint invocation) {
         if (hit.t < 0.0f) continue;
         Surface surface = makeSurface(kFeatures, scene, ray, hit);
         Material material = loadMaterial(scene, surface.material);
-        albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+        albedo += surfaceAlbedo(kFeatures, scene, material, surface);
         normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
         depth += hit.t;
         hits++;

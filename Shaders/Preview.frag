@@ -27,10 +27,10 @@ vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     vec3 normal = isFront ? surface.shading : -surface.shading;
     vec3 radiance = vec3(0.0f);
     if (has(kFeatures, kFeatureEmissive) && (isFront || material.emissionSides == kSidesBoth)) {
-        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv);
+        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv, surface.uv2);
     }
     if (material.kind == kMaterialEmitter) return radiance;
-    vec3 albedo = texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+    vec3 albedo = surfaceAlbedo(kFeatures, scene, material, surface);
     vec3 incident = incidentLight(scene, surface.position, normal, wo);
     if (material.kind != kMaterialLambertian) {
         incident = 0.5f * (incident + skyRadiance(kFeatures, scene, reflect(-wo, normal)));

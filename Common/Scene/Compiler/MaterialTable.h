@@ -26,6 +26,9 @@ class MaterialTable {
     const glm::dvec3& meanEmission(std::uint32_t material) const { return meanEmission_[material]; }
 
   private:
+    // The record beside the material that is about to be added.
+    void addPrincipled(const PrincipledDesc& desc);
+
     const SceneDesc& desc_;
     const CompileOptions& options_;
     CompiledScene& out_;
