@@ -9,4 +9,7 @@ namespace rt::scene {
 // the first time that it is asked for. Errors are below 0.005.
 const std::vector<shared::vec3>& directionalAlbedos();
 
+// Likewise what glassAlbedo() reads of one index of refraction, from outside and from inside.
+std::vector<float> glassAlbedos(float ior);
+
 } // namespace rt::scene

@@ -82,6 +82,15 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
 #undef RT_COLOR
     p.ior = static_cast<float>(desc.ior);
     p.thin = desc.isThin ? 1u : 0u;
+    p.glass = shared::kNone;
+    if (desc.transmission.factor > 0 && !desc.isThin) {
+        const auto [entry, isNew] = glass_.try_emplace(p.ior, static_cast<std::uint32_t>(out_.glassAlbedos.size()));
+        if (isNew) {
+            const std::vector<float> albedos = glassAlbedos(p.ior);
+            out_.glassAlbedos.insert(out_.glassAlbedos.end(), albedos.begin(), albedos.end());
+        }
+        p.glass = entry->second;
+    }
     if (desc.attenuationDistance)
         for (int c = 0; c < 3; ++c)
             p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kLeastAttenuation)) /

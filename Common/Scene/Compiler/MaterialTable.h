@@ -2,6 +2,7 @@
 // features.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -34,6 +35,7 @@ class MaterialTable {
     CompiledScene& out_;
     TextureTable& textures_;
     std::unordered_map<const MaterialDesc*, std::uint32_t> indices_;
+    std::map<float, std::uint32_t> glass_; // by index of refraction: first of glassAlbedos
     std::vector<glm::dvec3> meanEmission_;
 };
 

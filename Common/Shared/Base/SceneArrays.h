@@ -34,6 +34,7 @@
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
     PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledSurface.h; empty without */ \
+    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* likewise, for each index of refraction */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     OWN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \

@@ -43,6 +43,7 @@ struct Principled {
 #undef RT_COLOR
     float ior;          // index of refraction inside over outside, >= 1
     uint thin;          // 1: transmits without bending, as a sheet does
+    uint glass;         // first of the glassAlbedos of its index; kNone: it is thin, or nothing is transmitted
     vec3 absorption;    // per world unit of length inside
     uint normalTexture; // tangent-space normals, 2 rgb - 1; kNone: none
     float normalScale;  // of their x and y

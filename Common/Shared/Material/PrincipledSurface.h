@@ -33,6 +33,19 @@ RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
     return mix(lower, upper, part.y);
 }
 
+// What rough glass reflects and transmits in all, from outside or from inside: two such tables, one after the other,
+// from `first` on.
+RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, float roughness) {
+    vec2 at = vec2(cosine, roughness) * float(kAlbedoSteps - 1u);
+    uint column = min(uint(at.x), kAlbedoSteps - 2u);
+    uint row = min(uint(at.y), kAlbedoSteps - 2u);
+    vec2 part = at - vec2(float(column), float(row));
+    uint i = first + ((inside ? kAlbedoSteps : 0u) + row) * kAlbedoSteps + column;
+    float lower = mix(loadGlassAlbedo(scene, i), loadGlassAlbedo(scene, i + 1u), part.x);
+    i += kAlbedoSteps;
+    return mix(lower, mix(loadGlassAlbedo(scene, i), loadGlassAlbedo(scene, i + 1u), part.x), part.y);
+}
+
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 // A texture's colour and opacity on a surface.
@@ -146,6 +159,12 @@ RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled)
     lobes.sheenExponent = 1.0f / square(sheenRoughness);
     lobes.alpha = square(roughness);
     lobes.glass = (1.0f - metallic) * transmission * below;
+    if (lobes.glass > 0.0f && roughness > 0.0f) {
+        // A sheet mirrors to its other side what it does not reflect.
+        float whole = a.x + a.y;
+        if (p.glass != kNone) whole = glassAlbedo(scene, p.glass, !front, cosine, roughness);
+        lobes.glass *= compensation(vec3(1.0f), whole).x;
+    }
     lobes.eta = front || p.thin != 0u ? 1.0f / p.ior : p.ior;
     lobes.thin = p.thin;
     lobes.coat = coat * coatBoost;
