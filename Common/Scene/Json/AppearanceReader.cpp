@@ -21,8 +21,8 @@ class ParameterReader {
     void read(const SceneParameter& p, std::optional<double>& value) const { value = at(p).within(p.least, p.most); }
     void read(const SceneParameter& p, bool& value) const { value = at(p).boolean(); }
     void read(const SceneParameter& p, std::uint32_t& value) const {
-        at(p).within(p.least, p.most);
         value = at(p).unsignedInteger();
+        at(p).within(p.least, p.most);
     }
     void read(const SceneParameter& p, std::optional<std::uint32_t>& value) const { read(p, value.emplace()); }
     void read(const SceneParameter& p, glm::dvec3& value) const { value = at(p).vectorWithin(0, 1); }
