@@ -57,7 +57,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
             const Ray ray = cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
-            const Hit hit = traceRay(scene, ray);
+            const Hit hit = traceRay<kFeatures>(scene, smp, 0u, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);
             const Material material = loadMaterial(scene, surface.material);

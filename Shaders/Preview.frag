@@ -38,6 +38,12 @@ vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     return radiance + albedo * incident;
 }
 
+// Of what is partly there the preview draws what is mostly there.
+bool isClear(SceneRef scene, Surface surface) {
+    if (!isPrincipled(kFeatures, loadMaterial(scene, surface.material))) return false;
+    return surfaceOpacity(kFeatures, scene, loadPrincipled(scene, surface.material), surface) < 0.5f;
+}
+
 void main() {
     SceneRef scene;
     scene.unused = 0u;
@@ -54,6 +60,7 @@ void main() {
         if (hit.t < 0.0f) discard;
     }
     Surface surface = makeSurface(kFeatures, scene, ray, hit);
+    if (has(kFeatures, kFeatureOpacity) && isClear(scene, surface)) discard;
     float t = kShape == kSphere ? hit.t : dot(surface.position - ray.origin, ray.direction);
     gl_FragDepth = launch.near / dot(launch.clipW, vec4(ray.origin + t * ray.direction, 1.0f));
     color = vec4(surfaceRadiance(scene, surface, -ray.direction), t);
