@@ -56,6 +56,10 @@ TEST(EllipsoidLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(desc);
 }
 
+TEST(Principled, IsTheSameForAllWaysToSampleLights) {
+    expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"));
+}
+
 std::vector<std::string> sceneIds() {
     std::vector<std::string> ids;
     for (const scene::BuiltinScene& builtin : scene::builtinScenes()) {
