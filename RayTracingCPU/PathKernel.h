@@ -76,7 +76,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
     }
 }
 
-// What the kernels cover, from the leanest; the last covers everything.
+// What the kernels cover, from the leanest; the last covers everything, the one before all that the books have.
 constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
                                        kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
                                        kFeatureQuadLights | kFeatureTargets;
@@ -84,6 +84,8 @@ constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian 
                                            kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
                                         kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
+
+constexpr std::uint32_t kBookFeatures = kFeatureAll & ~kFeaturePunctualLights;
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {
@@ -95,6 +97,7 @@ constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
+    makeKernel<kBookFeatures>("books"),
     makeKernel<kFeatureAll>("all"),
 };
 

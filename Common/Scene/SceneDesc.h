@@ -198,6 +198,26 @@ struct MediumDesc {
     ColorOrTexture albedo{glm::dvec3(1)};
     bool operator==(const MediumDesc&) const = default;
 };
+// Lights without extent, as KHR_lights_punctual of glTF has them. Transforms move and turn them; what they emit stays the
+// same under scales. No camera and no reflection shows them.
+struct PointLightDesc {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 intensity{1, 1, 1}; // radiant intensity: irradiance at a distance of 1
+    bool operator==(const PointLightDesc&) const = default;
+};
+struct SpotLightDesc {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 direction{0, -1, 0}; // in which it shines; of any length but 0
+    glm::dvec3 intensity{1, 1, 1};  // within innerAngle of the direction
+    double innerAngle = 0;          // degrees, [0, outerAngle)
+    double outerAngle = 45;         // degrees, (0, 90]: dark from here on, and a smooth edge in between
+    bool operator==(const SpotLightDesc&) const = default;
+};
+struct DirectionalLightDesc {
+    glm::dvec3 direction{0, -1, 0};  // in which it shines; of any length but 0
+    glm::dvec3 irradiance{1, 1, 1}; // of a surface across the direction
+    bool operator==(const DirectionalLightDesc&) const = default;
+};
 struct ObjectDesc;
 struct GroupDesc {
     Transform transform;
@@ -212,7 +232,8 @@ struct InstanceDesc {
 };
 struct ObjectDesc {
     using Shape =
-        std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, GroupDesc, InstanceDesc>;
+        std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, PointLightDesc, SpotLightDesc,
+                     DirectionalLightDesc, GroupDesc, InstanceDesc>;
     Shape shape;
     bool operator==(const ObjectDesc&) const = default;
 };

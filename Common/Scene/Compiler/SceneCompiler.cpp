@@ -42,6 +42,7 @@ class Compiler {
         emitWorld(plan, toWorld);
         emitSharedGeometries(plan);
         emitEllipsoids();
+        placeDirectionalLights(bounds_, *out_);
         emitSky();
         finishLights(*out_);
         for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);

@@ -245,6 +245,24 @@ Json json(const MediumDesc& medium) {
     setUnless(out, "albedo", medium.albedo, MediumDesc().albedo);
     return out;
 }
+Json json(const PointLightDesc& light) {
+    return {{"type", "point_light"}, {"position", json(light.position)}, {"intensity", json(light.intensity)}};
+}
+Json json(const SpotLightDesc& light) {
+    const SpotLightDesc usual;
+    Json out = {{"type", "spot_light"},
+                {"position", json(light.position)},
+                {"direction", json(light.direction)},
+                {"intensity", json(light.intensity)}};
+    setUnless(out, "inner_angle", light.innerAngle, usual.innerAngle);
+    setUnless(out, "outer_angle", light.outerAngle, usual.outerAngle);
+    return out;
+}
+Json json(const DirectionalLightDesc& light) {
+    return {{"type", "directional_light"},
+            {"direction", json(light.direction)},
+            {"irradiance", json(light.irradiance)}};
+}
 Json json(const GroupDesc& group) {
     Json out = {{"type", "group"}};
     if (!group.transform.empty()) out["transform"] = json(group.transform);

@@ -37,9 +37,10 @@ RT_FN float mixtureProbability(uint features, SceneRef scene, RT_IN(SceneGlobals
     return float(globals.lightCount) / all * lightProbability(features, scene, globals.lightCount, i, context);
 }
 
-// Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
+// Density over solid angle with which light sampling as a whole, occluded or not, proposes wi. For a punctual light,
+// which no direction hits, the bsdf proposes one, with the density `scattering`.
 RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
-                            float time, vec3 wi, RT_IN(LightContext) context) {
+                            float time, vec3 wi, float scattering, RT_IN(LightContext) context) {
     float sum = 0.0f;
     uint count = globals.lightCount + globals.targetCount;
     for (uint i = 0u; i < count; i++) {
@@ -47,6 +48,8 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
         float density = 0.0f;
         if (has(features, kFeatureSkyImage) && light.kind == kLightSky) {
             density = skyPdf(scene, wi);
+        } else if (isPunctual(features, light)) {
+            density = scattering;
         } else {
             density = lightPdfAlong(features, params, light, context.position, context.normal, time, wi);
         }
@@ -70,14 +73,22 @@ RT_FN LightChoice mixtureChoice(uint features, RT_IN(SceneGlobals) globals, RT_I
     return choice;
 }
 
-// Samples a direction to a light or target; a pdf of 0 where there is none.
+// Samples a direction to a light or target, or takes that of b, the bsdf's sample, in place of a punctual light's; a pdf
+// of 0 where there is none.
 RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
                                      RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light, RT_IN(Vertex) v,
-                                     RT_IN(VertexSamples) u, float time) {
+                                     RT_IN(VertexSamples) u, RT_IN(BsdfSample) b, float time) {
     LightChoice choice = mixtureChoice(features, globals, light, u);
     if (choice.light == kNone) return noLightSample();
+    RT_IN(Light) chosen = loadLight(scene, choice.light);
+    if (isPunctual(features, chosen)) {
+        LightSample scattered = noLightSample();
+        scattered.wi = b.wi;
+        scattered.pdf = b.pdf;
+        return scattered;
+    }
     vec2 position = positionSample(features, globals, choice, u);
-    return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, position);
+    return sampleChosenLight(features, scene, params, chosen, v, time, position);
 }
 
 // Replaces b, the bsdf's sample, by that of the one-sample mixture: half from the lights, half from the bsdf. `light`
@@ -92,12 +103,12 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
     BsdfSample mixed = b;
     mixed.weight = vec3(0.0f, 0.0f, 0.0f);
     if (u.roulette.y < 0.5f) {
-        LightSample sampled = sampleMixtureLight(features, scene, params, globals, light, v, u, time);
+        LightSample sampled = sampleMixtureLight(features, scene, params, globals, light, v, u, b, time);
         if (!(sampled.pdf > 0.0f)) return mixed;
         mixed.wi = sampled.wi;
     }
     vec4 f = evalScattering(features, v, mixed.wi);
-    float pdf = 0.5f * f.w + 0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
+    float pdf = 0.5f * f.w + 0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, f.w, context);
     mixed.pdf = pdf;
     if (pdf > 0.0f) mixed.weight = vec3(f) / pdf;
     return mixed;
