@@ -133,7 +133,7 @@ class PathPacket {
         const DirectLight direct = isSampled ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);
         BsdfSample b = sampleScattering<kFeatures>(lanes_, i, v);
-        if (has(kFeatures, kFeatureMixture) && isLit && !usesMis(params_)) {
+        if (isLit && usesMixture(kFeatures, params_, scene_.globals, v)) {
             const LightChoice choice = get(lanes_.choices, i);
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
         }

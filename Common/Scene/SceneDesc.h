@@ -49,6 +49,7 @@ struct GradientBackground {
 struct ImageBackground {
     std::string file;
     glm::dvec3 factor{1, 1, 1};
+    double rotation = 0; // degrees, right-handed about +Y
     bool operator==(const ImageBackground&) const = default;
 };
 using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground>;

@@ -1,6 +1,9 @@
 #include "Common/Scene/Compiler/SceneCompiler.h"
 
+#include <cmath>
 #include <string>
+
+#include <glm/trigonometric.hpp>
 
 #include "Common/Scene/Compiler/FeatureMask.h"
 #include "Common/Scene/Compiler/InstancePlan.h"
@@ -177,6 +180,8 @@ class Compiler {
             const auto& sky = std::get<ImageBackground>(desc_.background);
             globals.skyImage = textures_.image(sky.file, {});
             globals.skyTop = shared::vec3(sky.factor);
+            const double turn = glm::radians(sky.rotation);
+            globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));
             globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
         }
     }

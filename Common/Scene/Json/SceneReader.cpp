@@ -48,10 +48,11 @@ Background readBackground(const JsonNode& node, const SceneReferences& reference
         return GradientBackground{node.at("bottom").vectorWithin(0, kLargest),
                                   node.at("top").vectorWithin(0, kLargest)};
     }
-    node.expectKeys({"type", "file", "factor"});
+    node.expectKeys({"type", "file", "factor", "rotation"});
     ImageBackground image;
     image.file = references.file(node.at("file"), false);
     if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kLargest);
+    if (const auto rotation = node.find("rotation")) image.rotation = rotation->number();
     return image;
 }
 

@@ -130,6 +130,7 @@ Json json(const Background& background) {
     const auto& image = std::get<ImageBackground>(background);
     Json out = {{"type", "image"}, {"file", image.file}};
     setUnless(out, "factor", image.factor, glm::dvec3(1));
+    setUnless(out, "rotation", image.rotation, 0.0);
     return out;
 }
 

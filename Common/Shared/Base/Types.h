@@ -234,6 +234,7 @@ struct SceneGlobals {
     uint skyKind;
     vec3 skyTop;
     vec3 skyBottom;
+    vec2 skyTurn;     // cosine and sine of the angle by which a sky image is turned about +y
     uint skyImage;    // into images
     uint skyLight;    // into lights, kNone unless the sky is sampled
     uint lightCount;  // lights proper
