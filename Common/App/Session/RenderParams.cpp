@@ -33,14 +33,13 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
     return !scene.media.empty() || std::ranges::any_of(scene.materials, [](const shared::Material& material) {
-        return shared::scattersWidely(material);
+        return shared::scattersWidely(shared::makeBsdf(material, material.albedo));
     });
 }
-constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |
-                                         shared::kFeatureSphereLights | shared::kFeatureQuadLights |
-                                         shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights |
-                                         shared::kFeaturePunctualLights | shared::kFeatureTargets |
-                                         shared::kFeatureMixture | shared::kFeatureProjected;
+constexpr std::uint32_t kLightSampling =
+    shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
+    shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
+    shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {

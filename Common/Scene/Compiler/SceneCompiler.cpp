@@ -178,7 +178,9 @@ class Compiler {
             globals.skyBottom = shared::vec3(gradient->bottom);
         } else {
             const auto& sky = std::get<ImageBackground>(desc_.background);
-            globals.skyImage = textures_.image(sky.file, {});
+            ImageTexture image;
+            image.file = sky.file;
+            globals.skyImage = textures_.image(image);
             globals.skyTop = shared::vec3(sky.factor);
             const double turn = glm::radians(sky.rotation);
             globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));
