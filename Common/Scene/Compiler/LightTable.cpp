@@ -52,8 +52,7 @@ double longestHalfAxis(const shared::Light& ellipsoid) {
 constexpr double kSteepestEdge = 1e12; // of a spot: keeps it finite where the angles are as good as the same
 // Directional lights are bounded as points so many radii of the scene away from its middle.
 constexpr float kDistantRadii = 1000;
-// Keeps bounds of points finite at their very place; about the shortest length that scenes may have.
-constexpr float kPointRadius = 1e-9f;
+constexpr float kPointRadius = 1e-12f; // protects what a point contributes at its very place from a division by zero
 
 // Spots are taken for flat lights, whose cosine is positive wherever a cone of at most half the directions reaches.
 shared::LightBound punctualBound(const shared::Light& light) {

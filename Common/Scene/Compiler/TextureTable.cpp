@@ -156,8 +156,7 @@ TexelData TextureTable::load(const ImageTexture& source) {
 }
 
 std::uint32_t TextureTable::image(const ImageTexture& source) {
-    const std::string key = source.file + '\n' + source.standIn + '\n' +
-                            (source.image ? std::to_string(*source.image) : "") +
+    const std::string key = source.file + '\n' + source.standIn + '\n' + (source.image ? std::to_string(*source.image) : "") +
                             (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
     const auto [entry, isNew] = images_.try_emplace(key, shared::kNone);
     if (!isNew) return entry->second;
@@ -170,8 +169,7 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
     if (source.colorSpace == ColorSpace::Linear && image.format == shared::kTexelSrgb8)
         image.format = shared::kTexelLinear8;
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
-    if (out_.texels.size() > shared::kNone)
-        throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
+    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
     return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
 }

@@ -19,9 +19,6 @@ RT_FN float spotFalloff(RT_IN(Light) spot, vec3 w) {
     return ramp * ramp;
 }
 
-// Nearer than about the shortest length that scenes may have there is no direction to a point.
-const float kLeastSquaredDistance = 1.0e-18f;
-
 // The one direction in which the light lies. `pdf` is 1, its probability; `radiance` is the irradiance that arrives
 // across it. `normal` as in sampleLight.
 RT_FN LightSample samplePunctualLight(RT_IN(Light) light, vec3 position, vec3 normal) {
@@ -33,13 +30,15 @@ RT_FN LightSample samplePunctualLight(RT_IN(Light) light, vec3 position, vec3 no
         s.pdf = 1.0f;
     } else {
         vec3 toLight = light.position - position;
-        float squared = max(dot(toLight, toLight), kLeastSquaredDistance);
+        float squared = max(dot(toLight, toLight), 1.0e-37f);
         s.distance = sqrt(squared);
         s.wi = toLight / s.distance;
         s.radiance *= 1.0f / squared;
         if (light.kind == kLightSpot) s.radiance *= spotFalloff(light, -s.wi);
         s.point = light.position;
-        s.pdf = squared > kLeastSquaredDistance && maxComponent(s.radiance) > 0.0f ? 1.0f : 0.0f;
+        // Not at the very place of the light, where there is no direction.
+        float strongest = maxComponent(s.radiance);
+        s.pdf = squared > 1.0e-37f && strongest > 0.0f && strongest < kInfinity ? 1.0f : 0.0f;
     }
     s.normal = -s.wi;
     if (isSurface(normal) && !(dot(normal, s.wi) > 0.0f)) s.pdf = 0.0f;
