@@ -241,8 +241,8 @@ struct MediumDesc {
     ColorOrTexture albedo{glm::dvec3(1)};
     bool operator==(const MediumDesc&) const = default;
 };
-// Lights without extent, as KHR_lights_punctual of glTF has them. Transforms move and turn them; what they emit stays the
-// same under scales. No camera and no reflection shows them.
+// Lights without extent, as KHR_lights_punctual of glTF has them. Transforms move and turn them; what they emit stays
+// the same under scales. No camera and no reflection shows them.
 struct PointLightDesc {
     glm::dvec3 position{0, 0, 0};
     glm::dvec3 intensity{1, 1, 1}; // radiant intensity: irradiance at a distance of 1

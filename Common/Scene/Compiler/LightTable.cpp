@@ -63,8 +63,8 @@ shared::LightBound punctualBound(const shared::Light& light) {
     bound.intensity = luminous;
     if (light.kind == shared::kLightSpot) bound.axis = light.normal;
     if (light.kind == shared::kLightDirectional) {
-        // Seen from anywhere in the scene the true direction is one to a point in the sphere around the distant one: where
-        // the light contributes a part of the sphere is above the horizon. The margin is for rounding.
+        // Seen from anywhere in the scene the true direction is one to a point in the sphere around the distant one:
+        // where the light contributes a part of the sphere is above the horizon. The margin is for rounding.
         const float distance = kDistantRadii * light.radius;
         bound.center -= distance * light.normal;
         bound.radius = light.radius * 1.001f;

@@ -184,8 +184,8 @@ class Builder {
         const bool sky = out_.globals.skyLight != shared::kNone;
         const std::uint32_t root = addNode(shared::kNone);
         std::uint32_t slot = 0;
-        // The sky surrounds everything, so no group may hold it, and directional lights are too far away from all others
-        // to be in a group with them.
+        // The sky surrounds everything, so no group may hold it, and directional lights are too far away from all
+        // others to be in a group with them.
         if (sky) placeLight(root, slot++, out_.globals.skyLight);
         if (!distant.empty()) place(root, slot++, makeGroup(distant));
         if (!items.empty()) fill(root, slot, makeGroup(items));

@@ -305,7 +305,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     out_.meshes.push_back(mesh);
 }
 
-// ---- punctual lights -------------------------------------------------------------------------------------------------
+// ---- punctual lights -----------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const PointLightDesc& light, const Placement& at) {
     if (at.part == Part::Shared) return;
