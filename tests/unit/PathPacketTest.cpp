@@ -9,6 +9,7 @@
 #include "Common/Accel/CpuAccel.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Texture/Color.h"
@@ -21,7 +22,8 @@ constexpr uint kSide = 40;
 
 // A scene as the engine prepares it.
 struct TracedScene {
-    explicit TracedScene(const std::string& id) : compiled(app::compile(app::loadScene(id), true, true)) {
+    explicit TracedScene(const std::string& id) : TracedScene(app::loadScene(id)) {}
+    explicit TracedScene(const scene::SceneDesc& desc) : compiled(app::compile(desc, true, true)) {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
@@ -107,19 +109,38 @@ app::RenderSettings smallImage() {
     return settings;
 }
 
+void compareEstimators(const TracedScene& scene) {
+    for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
+        SCOPED_TRACE("estimator " + std::to_string(estimator));
+        app::RenderSettings settings = smallImage();
+        settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
+        comparePaths(scene, settings);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
 // Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id :
          {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "one-weekend-final",
           "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json"}) {
         const TracedScene scene(id);
-        for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
-            SCOPED_TRACE(std::string(id) + ", estimator " + std::to_string(estimator));
-            app::RenderSettings settings = smallImage();
-            settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
-            comparePaths(scene, settings);
-            if (HasFatalFailure()) return;
-        }
+        SCOPED_TRACE(id);
+        compareEstimators(scene);
+        if (HasFatalFailure()) return;
+    }
+}
+
+// Beside a lamp, and in a medium.
+TEST(PathPacket, WithPunctualLights) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke"}) {
+        scene::SceneDesc desc = scene::findBuiltinScene(id);
+        desc.objects.push_back({scene::PointLightDesc{{200, 300, 100}, glm::dvec3(3e4)}});
+        desc.objects.push_back({scene::SpotLightDesc{{300, 500, 300}, {0.1, -1, 0}, glm::dvec3(2e5), 10, 40}});
+        desc.objects.push_back({scene::DirectionalLightDesc{{0.1, -0.5, 1}, glm::dvec3(0.5)}});
+        SCOPED_TRACE(id);
+        compareEstimators(TracedScene(desc));
+        if (HasFatalFailure()) return;
     }
 }
 
