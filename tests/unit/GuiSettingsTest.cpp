@@ -34,6 +34,8 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.request.size.width = 320;
     s.request.size.aspect = 1.5;
     s.request.accumulate = false;
+    s.request.timeLimit = 1.5;
+    s.request.targetError = 0.01;
     s.engine.policy = Policy::Seq;
     s.rayTracing = false;
     s.openPanels = {{"scene", false}, {"view", true}, {"of_a_newer_version", true}};

@@ -71,6 +71,11 @@ void readRequest(const Reader& reader, RenderRequest& request) {
     reader.read("accumulate", request.accumulate);
     reader.read("samples_per_frame", request.samplesPerFrame, 0, 65536);
     reader.read("loop", request.loop);
+    double seconds = 0, error = 0;
+    reader.read("time_limit", seconds, 0, 1e9);
+    if (seconds > 0) request.timeLimit = seconds;
+    reader.read("target_error", error, 0, 1e9);
+    if (error > 0) request.targetError = error;
 }
 
 Json toJson(const RenderRequest& request) {
@@ -87,6 +92,8 @@ Json toJson(const RenderRequest& request) {
     forEachMethod([&json](const char* key, const char*, const char*, const auto& table,
                           const auto& value) { json[key] = nameOf(table, value); },
                   s);
+    if (request.timeLimit) json["time_limit"] = *request.timeLimit;
+    if (request.targetError) json["target_error"] = *request.targetError;
     if (request.size.width) json["width"] = *request.size.width;
     if (request.size.aspect) json["aspect"] = *request.size.aspect;
     return json;
@@ -205,7 +212,8 @@ void override(GuiSettings& settings, const Options& options) {
     take("--tonemap", settings.tonemap, options.tonemap);
     if (given("--width") || given("--height") || given("--aspect")) settings.request.size = options.size;
     s.features = o.features;
-    settings.request.timeLimit = options.timeLimit;
+    take("--time-limit", settings.request.timeLimit, options.timeLimit);
+    take("--target-error", settings.request.targetError, options.targetError);
     if (!options.device.empty()) settings.engine.device = options.device;
     take("--engine", settings.engine.kind, options.gpuEngine);
     if (given("--threads")) settings.engine.threads = options.threads;

@@ -31,6 +31,8 @@ class InteractiveSession {
     void moveCamera(const scene::CameraDesc& camera,
                     std::uint64_t sceneSerial);               // ignored if the scene is another by now
     void render() { post(Cancel::Nothing, Command::Render); } // from the beginning when ended, else goes on
+    // Likewise, but a film that has ended goes on where it has samples to go: those that a change has added to it.
+    void goOn() { post(Cancel::Nothing, Command::GoOn); }
     void pause() { post(Cancel::Slice, Command::Pause); }
     void stop() { post(Cancel::FirstPicture, Command::Stop); }
     void reset() { post(Cancel::FirstPicture, Command::Reset); } // begins anew

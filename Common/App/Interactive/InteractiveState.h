@@ -13,6 +13,7 @@
 #include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/Engine.h"
+#include "Common/App/Session/ReferenceCache.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Settings.h"
 #include "Common/App/Session/Statistics.h"
@@ -45,11 +46,15 @@ struct RenderRequest {
     // old sum may have more. 0: as many as there is time for between two frames.
     std::uint32_t samplesPerFrame = 25;
     bool loop = false;               // begin again when done, with the next seed
-    std::optional<double> timeLimit; // seconds of sampling
+    // Budgets: what is reached first ends the film, of which only its samples must be bounded.
+    std::optional<double> timeLimit;   // seconds of sampling
+    std::optional<double> targetError; // estimated relMSE
     bool operator==(const RenderRequest&) const = default;
 };
 // Whether the film of one is of no use for the other.
 bool needsAnotherFilm(const RenderRequest& before, RenderRequest after);
+// Whether at most the number of samples and what ends the film before differ: one film may do for both.
+bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after);
 
 enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
 
@@ -109,6 +114,8 @@ struct SessionState {
     std::optional<LastRun> lastRun;
 
     std::string reference;           // what it is; empty: there is none
+    std::shared_ptr<const image::Image> referenceImage;
+    double referenceError = 0;       // its own relMSE, estimated; 0: not known
     bool referenceFits = false;      // it is of this scene, camera, size and depth
     bool isReferenceRender = false;  // what is being rendered will be the reference
     std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
@@ -143,6 +150,7 @@ struct SessionSetup {
     bool preview = false;             // is shown from the beginning
     double sliceSeconds = 0.03;       // of one call of the engine, at most
     bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
+    ReferenceCache references{{}};    // that were rendered; keeps none by itself
     RunHistory* history = nullptr;    // gets the runs that end; may be none
     std::function<void()> onChange;   // called on other threads when there is something new to show
 };

@@ -19,7 +19,7 @@ namespace rt::app {
 
 // The last request of a kind counts, of files each. InteractiveSession says what they mean.
 struct Requests {
-    enum class Command { Render, Pause, Stop, Reset };
+    enum class Command { Render, GoOn, Pause, Stop, Reset };
     bool quit = false;
     std::optional<EngineChoice> engine{};
     std::optional<RenderRequest> request{};

@@ -115,7 +115,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
         relmse = reference.curve().back().relmse;
     else if (film.status().finished)
         if (const auto estimated = estimate(engine.film()).relmse) relmse = estimated->value;
-    const EngineReport report = engine.report();
+    const EngineReport report = film.report();
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);
         state.status = film.status();

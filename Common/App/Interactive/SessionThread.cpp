@@ -56,8 +56,11 @@ void SessionThread::apply(Requests requests) {
     if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
     if (requests.request) {
         const bool isAnother = needsAnotherFilm(request_, *requests.request);
+        const bool isOnlyMore = isAnother && differsInBudgetsAlone(request_, *requests.request);
         request_ = *requests.request;
-        isAnother ? film_.change() : requests.request.reset();
+        const bool goesOn = isOnlyMore && isReady() && film_.goOn(subject());
+        if (goesOn && activity_ == Activity::Finished && !film_.isFinished()) setActivity(Activity::Rendering);
+        isAnother && !goesOn ? film_.change() : requests.request.reset();
     }
     if (requests.scene) adopt(std::move(*requests.scene));
     if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
@@ -163,7 +166,8 @@ void SessionThread::obey(Requests::Command command) {
         return;
     }
     if (command == Command::Stop) film_.reference.giveUp(); // the picture before comes back
-    if (command != Command::Render || isEnded) film_.beginAnew();
+    if (command == Command::GoOn && !film_.isStale() && film_.isFinished()) return;
+    if (command != Command::GoOn && (command != Command::Render || isEnded)) film_.beginAnew();
     setActivity(Activity::Rendering);
 }
 
@@ -184,19 +188,12 @@ void SessionThread::startReference(std::uint32_t spp) {
 void SessionThread::readReferenceFile(const std::string& file) {
     try {
         if (film_.isStale()) throw InputError(file + ": nothing to compare with yet");
-        setReference(readReference(file, film_.run()->settings().width, film_.run()->settings().height), file);
+        film_.reference.set(readReference(file, film_.run()->settings().width, film_.run()->settings().height));
+        film_.publishReference(file);
         showFilm();
     } catch (...) {
         state_.fail(std::current_exception());
     }
-}
-
-void SessionThread::setReference(image::Image image, const std::string& name) {
-    film_.reference.set(std::move(image));
-    state_.update([&](SessionState& state) {
-        state.reference = name;
-        state.referenceFits = film_.reference.fits();
-    });
 }
 
 void SessionThread::findFocus(std::uint32_t x, std::uint32_t y) {
@@ -248,7 +245,9 @@ void SessionThread::finish(StopReason reason) {
     film_.show();
     const std::uint64_t spp = engine_->film().samplesPerPixel();
     if (film_.reference.renderedSpp()) {
-        setReference(engine_->film().resolve(), "rendered, " + std::to_string(spp) + " spp");
+        const image::Film& film = engine_->film();
+        setup_.references.save(film_.reference.film(), film);
+        film_.setReference(film, "rendered");
         film_.reference.giveUp();
         film_.beginAnew();
         return;
@@ -304,6 +303,7 @@ std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, S
     Options options = setup_.options;
     options.oneSidedLights = request_.oneSidedLights;
     options.timeLimit = request_.timeLimit;
+    options.targetError = request_.targetError;
     options.policy = choice_.policy;
     return writeFilm(request, options, loaded_, *film_.run(), film_.reference, reason, state_);
 }

@@ -28,7 +28,6 @@ class SessionThread {
     void switchPreview(bool on);
     void startReference(std::uint32_t spp);
     void readReferenceFile(const std::string& file);
-    void setReference(image::Image image, const std::string& name);
     void findFocus(std::uint32_t x, std::uint32_t y);
     void setActivity(Activity activity);
 

@@ -70,6 +70,7 @@ struct Options {
     bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
 
     bool quiet = false;
+    std::optional<double> progressEvery; // seconds between two lines of it, where they are no terminal's; none: 10
     bool verbose = false;
     std::string logFile;
 
