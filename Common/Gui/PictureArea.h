@@ -14,8 +14,12 @@ class PictureArea {
   public:
     explicit PictureArea(Gui& gui) : gui_(gui) {}
 
-    void place(const Rect& area) { area_ = area; } // in the window's units
-    const Rect& rect() const { return area_; }
+    // In the window's units; a picture that fits lies in `inner`.
+    void place(const Rect& area, const Rect& inner) {
+        area_ = area;
+        inner_ = inner;
+    }
+    Rect imageRect() const; // the whole picture's
     // Looks, orbits, pans, zooms, picks and inspects; within a frame of ImGui, after the panels.
     void handlePointer();
     PresentConstants constants() const;
@@ -31,7 +35,7 @@ class PictureArea {
     void turnWheel();
 
     Gui& gui_;
-    Rect area_;
+    Rect area_, inner_;
     bool dragging_ = false; // a drag that began in the picture goes on outside of it
 };
 

@@ -51,6 +51,7 @@ RT_FN float agxCurve(float value) {
     const float kPivot = kBelow / (kBelow + kAbove), kSlope = 2.0f, kToe = 3.0f, kShoulder = 3.25f;
     const float stops = log2(max(value, 1.0e-10f) / kMiddleGrey);
     const float x = clamp((stops + kBelow) / (kBelow + kAbove), 0.0f, 1.0f);
+    if (x <= 0.0f || x >= 1.0f) return x; // exactly black and white
     if (x < kPivot) return 0.5f - 0.5f * agxSide((kPivot - x) / kPivot, 2.0f * kSlope * kPivot, kToe);
     return 0.5f + 0.5f * agxSide((x - kPivot) / (1.0f - kPivot), 2.0f * kSlope * (1.0f - kPivot), kShoulder);
 }

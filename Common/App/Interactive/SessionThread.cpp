@@ -99,7 +99,7 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
             state.canPreview = engine_->canPreview();
         });
     } catch (...) {
-        state_.fail(std::current_exception(), !engine_);
+        state_.fail(std::current_exception(), ErrorSource::Engine, !engine_);
         state_.update([](SessionState& state) { ++state.engineFailures; });
     }
     state_.setStage("");
@@ -113,7 +113,7 @@ void SessionThread::adopt(LoadedScene loaded) {
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
-        state_.fail(failure, fatal);
+        state_.fail(failure, ErrorSource::Scene, fatal);
     };
     if (loaded.failure) {
         const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
@@ -175,7 +175,8 @@ void SessionThread::switchPreview(bool on) {
 
 void SessionThread::startReference(std::uint32_t spp) {
     if (isPreviewing())
-        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")));
+        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")),
+                           ErrorSource::Reference);
     film_.reference.render(spp);
     film_.beginAnew();
     setActivity(Activity::Rendering);
@@ -187,7 +188,7 @@ void SessionThread::readReferenceFile(const std::string& file) {
         setReference(readReference(file, film_.run()->settings().width, film_.run()->settings().height), file);
         showFilm();
     } catch (...) {
-        state_.fail(std::current_exception());
+        state_.fail(std::current_exception(), ErrorSource::Reference);
     }
 }
 
@@ -292,11 +293,12 @@ void SessionThread::writeWaiting() {
 void SessionThread::write(const SaveRequest& request) {
     if (isPreviewing()) return writePreview(request, film_.publisher.preview(), state_);
     if (!film_.hasSamples()) {
-        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")));
+        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),
+                    ErrorSource::Save);
         return;
     }
     for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
-        state_.fail(std::make_exception_ptr(RenderError(failure)));
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 // Of the film; returns what cannot be written, one line each.
@@ -315,7 +317,7 @@ void SessionThread::writeEnd(StopReason reason) {
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
     endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
                                : std::vector<std::string>{"nothing was rendered that could be written"};
-    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
+    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 } // namespace rt::app
