@@ -1,5 +1,5 @@
-// The picture in its window: exposure, tone curve, sRGB. Pixels that are enlarged are squares or run into each other; where
-// they are reduced, averages are shown.
+// The picture in its window: exposure, tone curve, sRGB. Pixels that are enlarged are squares or run into each other;
+// where they are reduced, averages are shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Common/Shared/Tonemap.h"
@@ -34,8 +34,8 @@ vec3 shown(ivec2 at, bool isHeld) {
     return (flags & (isHeld ? 2u : 1u)) != 0u ? clamp(value, 0.0, 1.0) : tonemap(value, exposure, curve);
 }
 
-// Between the middles of four pixels. Averages, here and below, are taken of what is shown, so that a small bright light
-// does not bleed into its surroundings.
+// Between the middles of four pixels. Averages, here and below, are taken of what is shown, so that a small bright
+// light does not bleed into its surroundings.
 vec3 smoothed(vec2 at, bool isHeld) {
     const ivec2 low = ivec2(floor(at - 0.5));
     const vec2 part = at - 0.5 - vec2(low);

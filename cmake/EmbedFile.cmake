@@ -1,4 +1,5 @@
-# Writes the bytes of RT_FILE as the header RT_HEADER with the array RT_SYMBOL; where RT_FILE is empty, an array of one zero.
+# Writes the bytes of RT_FILE as the header RT_HEADER with the array RT_SYMBOL; where RT_FILE is empty, an array of
+# one zero.
 set(bytes "0,")
 if(RT_FILE)
     file(READ ${RT_FILE} digits HEX)

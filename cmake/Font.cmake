@@ -1,5 +1,5 @@
-# The font of the interface is a file of a system package that becomes an array of a C++ header: the program looks for none
-# when it runs. Without the file the window takes what the machine that it runs on has.
+# The font of the interface is a file of a system package that becomes an array of a C++ header: the program looks for
+# none when it runs. Without the file the window takes what the machine that it runs on has.
 find_file(RT_UI_FONT DejaVuSans.ttf
           PATHS /usr/share/fonts/truetype/dejavu /usr/share/fonts/TTF /usr/share/fonts/dejavu-sans-fonts
                 /usr/local/share/fonts /opt/homebrew/share/fonts

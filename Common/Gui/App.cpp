@@ -201,7 +201,8 @@ void App::save() {
     if (!file.empty()) {
         request.files = {file};
         request.aovs.clear();
-    } else if (request.files.empty()) request.files = savePaths(settings_.saveFolder, gui_.state);
+    } else if (request.files.empty())
+        request.files = savePaths(settings_.saveFolder, gui_.state);
     session_.save(std::move(request));
 }
 
@@ -246,10 +247,11 @@ void App::drawInterface() {
     }
     panels.front().focus = std::exchange(gui_.focusPanels, false);
     const float scale = imgui_.scale();
-    const Rect area = layOut(panels, scale,
-                             {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); },
-                              [this] { drawStatusLine(gui_); }});
+    const Rect area =
+        layOut(panels, scale,
+               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }});
     picture_.place(area, innerArea(gui_, area, scale));
+    gui_.previewWidth = picture_.previewWidth(device_.isSoftware());
     picture_.handlePointer();
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);

@@ -114,10 +114,11 @@ std::optional<FileBrowser::Path> FileBrowser::accept() {
     if (selected_ >= 0 && selected_ < static_cast<int>(indices.size()))
         return acceptFile(folder_ / list_.entries[indices[static_cast<std::size_t>(selected_)]].name);
     if (name_.empty()) return std::nullopt;
-    const Path typed = name_.front() == '~' ? homeFolder() / name_.substr(std::min<std::size_t>(2, name_.size()))
-                                            : Path(name_);
+    const Path typed =
+        name_.front() == '~' ? homeFolder() / name_.substr(std::min<std::size_t>(2, name_.size())) : Path(name_);
     std::error_code none;
-    if (request_.isToSave || typed.is_absolute() || fs::exists(folder_ / typed, none)) return acceptFile(folder_ / typed);
+    if (request_.isToSave || typed.is_absolute() || fs::exists(folder_ / typed, none))
+        return acceptFile(folder_ / typed);
     // The one that is left of the list; what is none of them is for the caller to judge.
     if (indices.size() == 1) return acceptFile(folder_ / list_.entries[indices.front()].name);
     return finish(typed);

@@ -13,11 +13,12 @@ class FileBrowser {
   public:
     struct Request {
         std::string title;
-        std::string action;                  // of the button: "Open"
-        std::vector<std::string> extensions; // that are shown, in small letters; to save: the first is added to a name without
-        std::filesystem::path folder;        // to begin with; empty: the one before, else the user's
-        std::string name;                    // to begin with
-        bool isToSave = false;               // the file need not exist
+        std::string action; // of the button: "Open"
+        std::vector<std::string>
+            extensions;               // that are shown, in small letters; to save: the first is added to a name without
+        std::filesystem::path folder; // to begin with; empty: the one before, else the user's
+        std::string name;             // to begin with
+        bool isToSave = false;        // the file need not exist
     };
     void open(Request request);
     void close() { isOpen_ = false; }
@@ -27,8 +28,8 @@ class FileBrowser {
     enum class Key { Up, Down, PageUp, PageDown, Parent };
     void press(Key key);
 
-    // Within a frame of ImGui, while it is open. `recent` files stand at the side. Returns what was chosen, which closes it:
-    // an absolute path, or a text that is none of the folder's files.
+    // Within a frame of ImGui, while it is open. `recent` files stand at the side. Returns what was chosen, which
+    // closes it: an absolute path, or a text that is none of the folder's files.
     std::optional<std::filesystem::path> draw(const std::vector<std::string>& recent);
 
   private:

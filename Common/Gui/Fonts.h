@@ -12,8 +12,8 @@ struct FontFile {
     std::filesystem::path file;           // empty: one of the program's own
     std::span<const unsigned char> bytes; // of a TrueType file in the program; empty, too: ImGui's own, of fixed size
 };
-// First the program's own, proportional but for its figures, so that numbers stand still while they change; then those of
-// this machine; last ImGui's.
+// First the program's own, proportional but for its figures, so that numbers stand still while they change; then
+// those of this machine; last ImGui's.
 const std::vector<FontFile>& availableFonts();
 
 } // namespace rt::gui

@@ -101,8 +101,12 @@ void Gui::browse(BrowseFor what) {
             break;
         case BrowseFor::Picture:
             if (!state.scene) return;
-            request = {"Save the picture", "Save", {".png", ".exr", ".hdr", ".pfm"}, saveFolder(settings.saveFolder),
-                       fs::path(savePaths(settings.saveFolder, state).front()).filename().string(), true};
+            request = {"Save the picture",
+                       "Save",
+                       {".png", ".exr", ".hdr", ".pfm"},
+                       saveFolder(settings.saveFolder),
+                       fs::path(savePaths(settings.saveFolder, state).front()).filename().string(),
+                       true};
             break;
     }
     browser.open(std::move(request));

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Interactive/ErrorList.h"
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/InteractiveSession.h"
-#include "Common/Gui/ErrorList.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/Thumbnails.h"
@@ -46,11 +46,12 @@ struct Gui {
     app::SessionState state; // of this frame
     PictureView view;
     app::ViewRequest viewRequest;
+    std::uint32_t previewWidth = 0; // pixels of a row that suit the window; 0: the picture's own
     std::shared_ptr<const image::Image> held, heldRadiance; // for comparison with the picture
     std::string heldTitle;                                  // what it is
     bool heldIsDisplay = false;
-    float split = 0.5f;     // share of the picture's part that shows the held image
-    bool pickFocus = false; // the next click in the picture tells what is to be sharp
+    float split = 0.5f;                  // share of the picture's part that shows the held image
+    bool pickFocus = false;              // the next click in the picture tells what is to be sharp
     std::vector<InspectedRow> inspected; // what the pixel under the pointer holds
     std::uint32_t referenceSpp = 1024;
     std::string referencePath;
@@ -65,7 +66,7 @@ struct Gui {
     std::string saveAs;  // a file that was chosen to save to; empty: none
     std::string message; // shown for a while
     double messageTime = -1e9;
-    ErrorList errors; // shown until they are read
+    app::ErrorList errors; // shown until they are read
     bool showErrors = false, showScenes = false, showFirstSteps = false;
     std::string sceneSearch;
     FileBrowser browser;
@@ -75,15 +76,15 @@ struct Gui {
     void openScene(const std::string& source);
     void stepScene(int step); // through the built-in ones, round and round
     std::string pictureTitle() const;
-    void hold();              // the picture, for comparison; or lets it go
-    void copyPose();          // of the camera, to the clipboard
+    void hold();     // the picture, for comparison; or lets it go
+    void copyPose(); // of the camera, to the clipboard
     void pastePose();
     void toggleHeatMap();
     void toggleStatistics();
     void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);
     void browse(BrowseFor what);
-    void take(const std::filesystem::path& file); // that was chosen in the browser
+    void take(const std::filesystem::path& file);            // that was chosen in the browser
     void say(const std::string& text, bool isError = false); // what has been done, or went wrong
     void fail(const std::string& text, app::ErrorSource source);
     // Stops, of what is shown and saved.

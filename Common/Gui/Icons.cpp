@@ -141,9 +141,7 @@ bool iconButton(const char* id, Icon icon, const char* tip, bool isEnabled, bool
 bool primaryButton(const char* id, Icon icon, const char* text, const char* tip, bool isEnabled, float width,
                    const ImVec4& color, const ImVec4& textColor) {
     const float side = ImGui::GetFrameHeight(), size = kIconShare * side;
-    const auto shaded = [&](float share) {
-        return ImVec4{share * color.x, share * color.y, share * color.z, 1};
-    };
+    const auto shaded = [&](float share) { return ImVec4{share * color.x, share * color.y, share * color.z, 1}; };
     ImGui::PushID(id);
     ImGui::PushStyleColor(ImGuiCol_Button, color);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shaded(0.88f));
@@ -161,9 +159,9 @@ bool primaryButton(const char* id, Icon icon, const char* text, const char* tip,
     if (hasText) {
         const ImVec2 extent = ImGui::CalcTextSize(text);
         const float from = left + size + margin; // the text is in the middle of what remains
-        list.AddText({corner.x + from + 0.5f * (width - from - 1.5f * margin - extent.x),
-                      corner.y + 0.5f * (side - extent.y)},
-                     ink, text);
+        list.AddText(
+            {corner.x + from + 0.5f * (width - from - 1.5f * margin - extent.x), corner.y + 0.5f * (side - extent.y)},
+            ink, text);
     }
     return pressed;
 }

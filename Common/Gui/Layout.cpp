@@ -23,9 +23,9 @@ bool hasSide(std::span<const Panel> panels) {
 // The toolbar over the whole width; returns its height, which leaves `room` to what is below.
 float drawToolbar(const Edges& edges, float scale, float room) {
     const ImGuiViewport* viewport = ImGui::GetMainViewport();
-    constexpr ImGuiWindowFlags kFlags =
-        ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-        ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                        ImGuiWindowFlags_NoScrollWithMouse;
     const float padding = std::floor(kToolbarPadding * scale);
     const float height = std::min(ImGui::GetFrameHeight() + 2 * padding, std::max(1.0f, viewport->Size.y - room));
     ImGui::SetNextWindowPos(viewport->Pos);

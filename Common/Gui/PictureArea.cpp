@@ -25,6 +25,24 @@ float PictureArea::fitScale() const {
                                     inner_.height / static_cast<float>(image->height)));
 }
 
+// Pixels of the film for one of the picture: a preview may have more.
+float PictureArea::filmPixels() const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr || image->width == 0 || !gui_.state.picture.isPreview) return 1;
+    return static_cast<float>(gui_.state.settings.width) / static_cast<float>(image->width);
+}
+
+std::uint32_t PictureArea::previewWidth(bool isSoftware) const {
+    constexpr float kMostPixels = 4e6f;
+    const float width = static_cast<float>(gui_.state.settings.width);
+    const float height = static_cast<float>(gui_.state.settings.height);
+    if (gui_.view.zoom > 0 || !(width > 0 && height > 0)) return 0;
+    const float fit = std::min(inner_.width / width, inner_.height / height);
+    const float shown = std::max(1.0f, fit * width * ImGui::GetIO().DisplayFramebufferScale.x);
+    const bool isFine = !isSoftware && 4 * shown * shown * height / width < kMostPixels;
+    return static_cast<std::uint32_t>(std::lround(isFine ? 2 * shown : shown));
+}
+
 Rect PictureArea::imageRect() const {
     const image::Image* image = gui_.state.picture.image.get();
     if (image == nullptr) return inner_;
@@ -129,11 +147,11 @@ void PictureArea::handlePointer() {
 void PictureArea::drag() {
     const ImGuiIO& io = ImGui::GetIO();
     const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
-    const float height = static_cast<float>(gui_.state.settings.height) * scale();
+    const float height = imageRect().height;
     if (io.MouseDown[1] && io.KeyCtrl) {
         gui_.view.panX += io.MouseDelta.x;
         gui_.view.panY += io.MouseDelta.y;
-        gui_.view.zoom = scale();
+        gui_.view.zoom = scale() / filmPixels();
     } else if (io.MouseDown[1]) {
         gui_.camera.look(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
     } else if (io.MouseDown[0] && (io.KeyAlt || (!gui_.held && ImGui::IsMouseDragging(0)))) {
@@ -153,7 +171,7 @@ void PictureArea::turnWheel() {
         const float y = io.MousePos.y - inner_.y - 0.5f * inner_.height;
         gui_.view.panX = x - (x - gui_.view.panX) * after / before;
         gui_.view.panY = y - (y - gui_.view.panY) * after / before;
-        gui_.view.zoom = after;
+        gui_.view.zoom = after / filmPixels();
     } else if (io.KeyShift) {
         gui_.camera.dolly(io.MouseWheel);
     } else {

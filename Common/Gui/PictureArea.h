@@ -23,12 +23,16 @@ class PictureArea {
     // Looks, orbits, pans, zooms, picks and inspects; within a frame of ImGui, after the panels.
     void handlePointer();
     PresentConstants constants() const;
+    // Pixels of a row of the preview that suit the window: two by two for one of it, whose mean is shown, where that
+    // is not too many and no software draws.
+    std::uint32_t previewWidth(bool isSoftware) const;
 
   private:
     using Pixel = std::array<std::uint32_t, 2>;
 
     float fitScale() const;
-    float scale() const { return gui_.view.zoom > 0 ? gui_.view.zoom : fitScale(); }
+    float filmPixels() const;
+    float scale() const { return gui_.view.zoom > 0 ? gui_.view.zoom * filmPixels() : fitScale(); } // of the picture's
     std::optional<Pixel> pixelUnderPointer() const;
     void inspect(const std::optional<Pixel>& pixel);
     void drag();

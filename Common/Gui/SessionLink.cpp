@@ -120,11 +120,16 @@ void SessionLink::send() {
         sentRayTracing_ = gui_.settings.rayTracing;
         gui_.session.preview(!sentRayTracing_);
     }
+    if (!sentRayTracing_ && gui_.previewWidth != sentPreviewWidth_) {
+        sentPreviewWidth_ = gui_.previewWidth;
+        gui_.session.previewWidth(sentPreviewWidth_);
+    }
     if (gui_.viewRequest != sentView_) {
         sentView_ = gui_.viewRequest;
         gui_.session.view(sentView_);
     }
-    if (const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap); sentEnd_ && end != *sentEnd_) {
+    if (const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap);
+        sentEnd_ && end != *sentEnd_) {
         sentEnd_ = end;
         gui_.session.writeAtEnd(end);
     }

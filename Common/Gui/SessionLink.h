@@ -46,6 +46,7 @@ class SessionLink {
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
     bool sentRayTracing_;
+    std::uint32_t sentPreviewWidth_ = 0;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
     const image::Image* shownHeld_ = nullptr;

@@ -32,8 +32,7 @@ float autoExposure(const Image& radiance) {
     std::vector<float> stops;
     for (std::size_t i = 0; i < pixels; i += step) {
         const float* rgb = &radiance.data[i * radiance.channels];
-        const float luminance =
-            radiance.channels == 3 ? shared::displayLuminance({rgb[0], rgb[1], rgb[2]}) : rgb[0];
+        const float luminance = radiance.channels == 3 ? shared::displayLuminance({rgb[0], rgb[1], rgb[2]}) : rgb[0];
         if (luminance > 0 && std::isfinite(luminance)) stops.push_back(std::log2(luminance));
     }
     if (stops.empty()) return 0;
@@ -41,8 +40,7 @@ float autoExposure(const Image& radiance) {
     const auto count = static_cast<double>(stops.size());
     const auto from = static_cast<std::ptrdiff_t>(kDarkest * count);
     const auto to = std::max(from + 1, static_cast<std::ptrdiff_t>((1 - kBrightest) * count));
-    const double mean =
-        std::accumulate(stops.begin() + from, stops.begin() + to, 0.0) / static_cast<double>(to - from);
+    const double mean = std::accumulate(stops.begin() + from, stops.begin() + to, 0.0) / static_cast<double>(to - from);
     return static_cast<float>(std::clamp(std::log2(kMiddleGrey) - mean, -kMostStops, kMostStops));
 }
 

@@ -37,8 +37,8 @@ RT_FN vec3 tonemapAces(vec3 color) {
     return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
 
-// A side of AgX's curve, for distances from the pivot that are relative to those of its ends: `slope` at 0, 1 at 1, by a
-// hyperbola of that power in between.
+// A side of AgX's curve, for distances from the pivot that are relative to those of its ends: `slope` at 0, 1 at 1,
+// by a hyperbola of that power in between.
 RT_FN float agxSide(float x, float slope, float power) {
     const float scale = slope * pow(pow(slope, power) - 1.0f, -1.0f / power);
     const float t = slope * x / scale;
@@ -56,9 +56,9 @@ RT_FN float agxCurve(float value) {
     return 0.5f + 0.5f * agxSide((x - kPivot) / (1.0f - kPivot), 2.0f * kSlope * (1.0f - kPivot), kShoulder);
 }
 
-// Sobotka 2022, "AgX": the curve on channels that a matrix has moved towards grey, so that a bright light fades to white
-// and keeps its hue on the way; the matrix is undone afterwards. For Rec. 709 primaries, as in Wrensch 2023, "Minimal AgX
-// Implementation". What comes out is for a display of power 2.2.
+// Sobotka 2022, "AgX": the curve on channels that a matrix has moved towards grey, so that a bright light fades to
+// white and keeps its hue on the way; the matrix is undone afterwards. For Rec. 709 primaries, as in Wrensch 2023,
+// "Minimal AgX Implementation". What comes out is for a display of power 2.2.
 RT_FN vec3 tonemapAgx(vec3 color) {
     const vec3 inset = vec3(0.842479062f, 0.042328242f, 0.042375655f) * color.x +
                        vec3(0.078433600f, 0.878468636f, 0.078433600f) * color.y +

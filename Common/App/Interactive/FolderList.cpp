@@ -18,13 +18,15 @@ FolderList listFolder(const std::filesystem::path& folder, const std::vector<std
     namespace fs = std::filesystem;
     FolderList list;
     std::error_code failure;
-    for (fs::directory_iterator at(folder, failure); !failure && at != fs::directory_iterator(); at.increment(failure)) {
+    for (fs::directory_iterator at(folder, failure); !failure && at != fs::directory_iterator();
+         at.increment(failure)) {
         const std::string name = at->path().filename().string();
         if (name.front() == '.') continue;
         std::error_code none; // of what cannot be looked at: it is left out
         const bool isFolder = at->is_directory(none);
-        const bool isWanted = extensions.empty() || std::find(extensions.begin(), extensions.end(),
-                                                              lower(at->path().extension().string())) != extensions.end();
+        const bool isWanted =
+            extensions.empty() ||
+            std::find(extensions.begin(), extensions.end(), lower(at->path().extension().string())) != extensions.end();
         if (!isFolder && !(isWanted && at->is_regular_file(none))) continue;
         if ((list.isCut = list.entries.size() == FolderList::kMost)) break;
         list.entries.push_back({name, isFolder});

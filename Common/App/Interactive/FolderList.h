@@ -19,8 +19,8 @@ struct FolderList {
     std::string failure; // why the folder cannot be read; empty: it can
 };
 
-// Folders, and files that have one of the extensions (".json", in small letters; none: all files). What is hidden is left
-// out. Does not throw.
+// Folders, and files that have one of the extensions (".json", in small letters; none: all files). What is hidden is
+// left out. Does not throw.
 FolderList listFolder(const std::filesystem::path& folder, const std::vector<std::string>& extensions);
 
 } // namespace rt::app

@@ -64,6 +64,7 @@ void SessionThread::apply(Requests requests) {
         camera_ = requests.camera->second;
         film_.change();
     }
+    if (requests.previewWidth) previewWidth_ = *requests.previewWidth;
     if (requests.changeWhatIsSeen()) previewIsStale_ = true;
     if (requests.preview) switchPreview(*requests.preview);
     std::move(requests.saves.begin(), requests.saves.end(), std::back_inserter(waiting_));
@@ -238,7 +239,7 @@ void SessionThread::renderPreview() {
             state.status = {};
         });
     }
-    film_.publisher.showPreview(*engine_, camera_, settings);
+    film_.publisher.showPreview(*engine_, camera_, settings, previewWidth_ > 0 ? previewWidth_ : settings.width);
     state_.update([](SessionState& state) { state.stage.clear(); });
     writeWaiting();
 }
@@ -291,7 +292,12 @@ void SessionThread::writeWaiting() {
 }
 
 void SessionThread::write(const SaveRequest& request) {
-    if (isPreviewing()) return writePreview(request, film_.publisher.preview(), state_);
+    if (isPreviewing()) {
+        const RenderSettings size = sizedSettings(request_, *loaded_.scene);
+        const Preview& shown = film_.publisher.preview();
+        const bool isOfThatSize = shown.picture.width == size.width && shown.picture.height == size.height;
+        return writePreview(request, isOfThatSize ? shown : drawPreview(*engine_, camera_, size, size.width), state_);
+    }
     if (!film_.hasSamples()) {
         state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),
                     ErrorSource::Save);
@@ -317,7 +323,8 @@ void SessionThread::writeEnd(StopReason reason) {
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
     endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
                                : std::vector<std::string>{"nothing was rendered that could be written"};
-    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
+    for (const std::string& failure : endFailures_)
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 } // namespace rt::app

@@ -44,7 +44,7 @@ void drawCameraPanel(Gui& gui) {
     bool moved = editVector("Position", "Where the camera is", camera.lookFrom);
     moved |= editVector("Target", "What it looks at", camera.lookAt);
     if (changed || moved) gui.camera.set(camera);
-    if (moved && gui.camera.camera() != camera) 
+    if (moved && gui.camera.camera() != camera)
         gui.fail("No camera can look from this position at this target", app::ErrorSource::Camera);
     drawErrorOf(gui, app::ErrorSource::Camera);
     double speed = gui.camera.speed();

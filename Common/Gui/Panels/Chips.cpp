@@ -11,9 +11,9 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kHeight = 1.5f;  // of a chip, in heights of the font
-constexpr float kPadding = 0.5f; // likewise, at its left and right
-constexpr float kBorder = 10;    // around the picture, at scale 1
+constexpr float kHeight = 1.5f;      // of a chip, in heights of the font
+constexpr float kPadding = 0.5f;     // likewise, at its left and right
+constexpr float kBorder = 10;        // around the picture, at scale 1
 constexpr float kLeastShare = 0.55f; // of the window's part that remains for the picture, or it gets all of it
 
 float chipWidth(const std::string& text, bool hasDot) {

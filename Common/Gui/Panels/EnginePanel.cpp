@@ -36,7 +36,8 @@ void drawKind(EngineChoice& engine, const app::SessionState& state, const Device
         "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
         "same");
     std::string shown = app::titleOf(app::kGpuEngines, engine.kind);
-    if (engine.kind == GpuEngineKind::Auto && state.engine == engine) shown += " (" + state.report.engine + ")";
+    const bool isKnown = state.engine == engine && !state.report.engine.empty();
+    if (engine.kind == GpuEngineKind::Auto && isKnown) shown += " (" + state.report.engine + ")";
     if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
     for (const auto& row : app::kGpuEngines) {
         if (row.value == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;

@@ -62,7 +62,7 @@ void drawColumn(const char* id, const Shortcut (&shortcuts)[N]) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         if (shortcut.keys == nullptr) {
-            ImGui::TextDisabled("%s", shortcut.effect);
+            ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", shortcut.effect);
             continue;
         }
         ImGui::TextUnformatted(shortcut.keys);

@@ -30,7 +30,7 @@ void drawBox(const char* name, const Rect& area, float y, float pivot, const std
 
 // Stays until the user has read it.
 void drawError(Gui& gui, const Rect& area, float y) {
-    const ErrorEntry* error = gui.errors.unread();
+    const app::ErrorEntry* error = gui.errors.unread();
     if (error == nullptr) return;
     beginBox("##error", area, y, 1, ImGuiWindowFlags_None);
     const std::string times = error->count > 1 ? " (" + std::to_string(error->count) + " times)" : "";
@@ -101,8 +101,8 @@ void drawErrors(Gui& gui) {
         if (gui.errors.all().empty()) note("Nothing so far");
         for (auto entry = gui.errors.all().rbegin(); entry != gui.errors.all().rend(); ++entry) {
             const std::string times = entry->count > 1 ? " (" + std::to_string(entry->count) + " times)" : "";
-            wrapped(entry->text + times, entry->isRead ? ImGui::GetStyleColorVec4(ImGuiCol_Text)
-                                                       : errorColor(gui.settings.colorMode));
+            wrapped(entry->text + times,
+                    entry->isRead ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : errorColor(gui.settings.colorMode));
             ImGui::Separator();
         }
         ImGui::EndChild();
@@ -111,7 +111,7 @@ void drawErrors(Gui& gui) {
 }
 
 void drawErrorOf(Gui& gui, app::ErrorSource source) {
-    const ErrorEntry* error = gui.errors.unread(source);
+    const app::ErrorEntry* error = gui.errors.unread(source);
     if (error == nullptr) return;
     ImGui::PushID(static_cast<int>(source));
     if (iconButton("dismiss", Icon::Close, "Dismiss")) {

@@ -75,11 +75,12 @@ void drawProgress(Gui& gui) {
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
         last = "Render time " + shortDuration(run.seconds.render) + " (" + std::to_string(run.spp) + " spp)";
-        parts = "The last render that ended, wall time of sampling alone, as in the statistics of a render without a "
-                "window.\nLoad " +
-                shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
-                " (the scene's tree " + shortDuration(run.accelBuild) + ", pipelines of shaders " +
-                shortDuration(run.pipeline) + "), render " + shortDuration(run.seconds.render);
+        parts =
+            "The last render that ended, wall time of sampling alone, as in the statistics of a render without a "
+            "window.\nLoad " +
+            shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
+            " (the scene's tree " + shortDuration(run.accelBuild) + ", pipelines of shaders " +
+            shortDuration(run.pipeline) + "), render " + shortDuration(run.seconds.render);
     }
     ImGui::TextUnformatted(elided(last, room).c_str());
     if (!parts.empty()) tooltip(parts.c_str());

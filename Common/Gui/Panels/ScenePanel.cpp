@@ -34,9 +34,10 @@ void drawSceneButton(Gui& gui, const scene::BuiltinScene* builtin) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText({left, corner.y + inner}, ImGui::GetColorU32(ImGuiCol_Text), elided(title, width).c_str());
     const std::string description(builtin != nullptr ? builtin->description : gui.state.source);
-    list.PushClipRect({left, corner.y}, {end.x - inner, end.y - 1}, true);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {left, corner.y + inner + 1.15f * ImGui::GetFontSize()},
-                 ImGui::GetColorU32(ImGuiCol_TextDisabled), description.c_str(), nullptr, width);
+    const float top = corner.y + inner + 1.15f * ImGui::GetFontSize();
+    list.PushClipRect({left, top}, {end.x - inner, top + 2 * ImGui::GetFontSize()}, true); // two whole lines
+    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {left, top}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                 description.c_str(), nullptr, width);
     list.PopClipRect();
 }
 

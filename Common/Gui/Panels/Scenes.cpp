@@ -15,7 +15,7 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kCell = 8.2f;   // the width of a scene's place, in heights of the font
+constexpr float kCell = 8.2f;    // the width of a scene's place, in heights of the font
 constexpr float kMargin = 0.35f; // likewise, around what is in it
 
 // Scenes of a book are titled "Book: Scene".
@@ -116,8 +116,8 @@ void drawScenes(Gui& gui) {
         }
         const bool entered = inputText("##search", "search", gui.sceneSearch);
         const auto scenes = scene::builtinScenes();
-        const auto first =
-            std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return matches(scene, gui.sceneSearch); });
+        const auto first = std::find_if(scenes.begin(), scenes.end(),
+                                        [&](const auto& scene) { return matches(scene, gui.sceneSearch); });
         if (entered && first != scenes.end() && !gui.sceneSearch.empty()) {
             gui.openScene(std::string(first->id));
             gui.showScenes = false;

@@ -52,9 +52,10 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
     const float icon = ImGui::GetFrameHeight();
     const float width = isNarrow ? icon : icon + ImGui::CalcTextSize("Resume").x + 2 * gap();
     const char* text = rendering ? "Pause" : paused ? "Resume" : "Start";
-    if (primaryButton("render", rendering ? Icon::Pause : Icon::Start, text,
-                      rendering ? "Pauses the render (Space)" : "Starts the render, or resumes it after a pause (Space)",
-                      true, width, accentColor(colors), accentTextColor(colors))) {
+    if (primaryButton(
+            "render", rendering ? Icon::Pause : Icon::Start, text,
+            rendering ? "Pauses the render (Space)" : "Starts the render, or resumes it after a pause (Space)", true,
+            width, accentColor(colors), accentTextColor(colors))) {
         if (rendering) {
             gui.session.pause();
         } else if (isPreview) {
@@ -67,7 +68,8 @@ void drawRenderButtons(Gui& gui, bool isNarrow) {
     if (iconButton("stop", Icon::Stop, "Ends the render; what there is of it stays", rendering || paused))
         gui.session.stop();
     beside();
-    if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)", !isPreview))
+    if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)",
+                   !isPreview))
         gui.session.reset();
 }
 

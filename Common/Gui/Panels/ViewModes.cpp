@@ -14,7 +14,8 @@ constexpr ViewModeRow kModes[] = {
     {"Normal", ViewMode::Normal, "Direction of the first surface, as red, green, blue", ""},
     {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright", ""},
     {"Noise", ViewMode::Noise, "Standard error of each pixel relative to its value, after 16 samples", ""},
-    {"Error", ViewMode::Error, "Difference from the reference relative to it", "It needs a reference: see Comparison (F3)"},
+    {"Error", ViewMode::Error, "Difference from the reference relative to it",
+     "It needs a reference: see Comparison (F3)"},
     {"Heat map", ViewMode::Heat, "What each pixel costs, in rays or time, on a logarithmic scale (H)",
      "This engine does not know what a pixel costs"},
 };
@@ -26,7 +27,8 @@ std::span<const ViewModeRow> viewModes() {
 }
 
 const ViewModeRow& rowOf(ViewMode mode) {
-    return *std::find_if(std::begin(kModes), std::end(kModes), [mode](const ViewModeRow& row) { return row.mode == mode; });
+    return *std::find_if(std::begin(kModes), std::end(kModes),
+                         [mode](const ViewModeRow& row) { return row.mode == mode; });
 }
 
 bool isAvailable(const Gui& gui, ViewMode mode) {

@@ -20,19 +20,22 @@ void drawViewOptions(Gui& gui) {
     const Disabled rest(gui.state.picture.isPreview);
     {
         const Disabled none(view.mode != ViewMode::Heat || !gui.state.canShowTime);
-        combo("Cost", "Of the heat map. Rays: camera, scattered and shadow. Time: by the clock of the processor or the "
-                      "device's shaders",
+        combo("Cost",
+              "Of the heat map. Rays: camera, scattered and shadow. Time: by the clock of the processor or the "
+              "device's shaders",
               kCostNames, view.cost);
     }
     {
         const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error &&
                             view.mode != ViewMode::Heat);
-        sliderReal("Scale", "Of noise, error and heat map: divides the value of the brightest colour, which the legend "
-                            "tells",
+        sliderReal("Scale",
+                   "Of noise, error and heat map: divides the value of the brightest colour, which the legend "
+                   "tells",
                    view.scale, 0.1, 100, "%.2f", true);
     }
-    checkbox("Inspect pixels", "Shows what the pixel under the pointer holds; beside a pinned picture of both, and their "
-                               "difference",
+    checkbox("Inspect pixels",
+             "Shows what the pixel under the pointer holds; beside a pinned picture of both, and their "
+             "difference",
              view.inspect);
 }
 

@@ -8,7 +8,7 @@
 
 RT_SHARED_BEGIN
 
-// Latitude-longitude coordinates of a unit direction as seen from inside: u to the right, around -y from -x by way of -z,
+// Latitude-longitude coordinates of a unit direction as seen from inside: u to the right, from -x by way of -z,
 // with +x in the middle; v = 0 at the zenith. On a sphere's outside u runs the other way.
 RT_FN vec2 skyUv(vec3 direction) {
     return vec2(1.0f, 1.0f) - sphereUv(direction);

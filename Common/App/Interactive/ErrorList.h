@@ -7,20 +7,20 @@
 
 #include "Common/App/Interactive/InteractiveState.h"
 
-namespace rt::gui {
+namespace rt::app {
 
 struct ErrorEntry {
     std::string text;
-    app::ErrorSource source = app::ErrorSource::Other; // the field that it stands at
-    std::uint32_t count = 1;                           // how often it came in a row
-    bool isRead = false;                               // dismissed: it is in the list only
+    ErrorSource source = ErrorSource::Other; // the field that it stands at
+    std::uint32_t count = 1;                 // how often it came in a row
+    bool isRead = false;                     // dismissed: it is in the list only
 };
 
 class ErrorList {
   public:
     static constexpr std::size_t kMost = 50;
 
-    void add(const std::string& text, app::ErrorSource source) {
+    void add(const std::string& text, ErrorSource source) {
         if (!entries_.empty() && entries_.back().text == text) {
             ++entries_.back().count;
             entries_.back().isRead = false;
@@ -33,7 +33,7 @@ class ErrorList {
     const ErrorEntry* unread() const {
         return findUnread([](const ErrorEntry&) { return true; });
     }
-    const ErrorEntry* unread(app::ErrorSource source) const {
+    const ErrorEntry* unread(ErrorSource source) const {
         return findUnread([source](const ErrorEntry& entry) { return entry.source == source; });
     }
     std::size_t unreadCount() const {
@@ -44,7 +44,7 @@ class ErrorList {
         for (ErrorEntry& entry : entries_)
             if (&entry == &one) entry.isRead = true;
     }
-    void dismiss(app::ErrorSource source) { // which has become right
+    void dismiss(ErrorSource source) { // which has become right
         for (ErrorEntry& entry : entries_)
             if (entry.source == source) entry.isRead = true;
     }
@@ -65,4 +65,4 @@ class ErrorList {
     std::deque<ErrorEntry> entries_;
 };
 
-} // namespace rt::gui
+} // namespace rt::app
