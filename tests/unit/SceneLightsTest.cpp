@@ -141,7 +141,7 @@ TEST(SceneLights, SkyImagesAreSampledByBrightness) {
     EXPECT_NE(errorOf(scene, options).find("none.hdr: no such file"), std::string::npos);
 }
 
-// Four columns, red, green, blue and white from the left: what other tools show of them to someone who turns to the right.
+// Four columns, red, green, blue and white from the left, as other tools show them to someone who turns to the right.
 TEST(SceneLights, SkyImagesRunToTheRightAsSeenFromInside) {
     constexpr std::uint32_t width = 4, height = 2;
     CompileOptions options;
