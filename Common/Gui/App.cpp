@@ -178,6 +178,7 @@ void App::turn() {
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     // A table with new rows finds the width of its columns in the frame after.
     if (std::exchange(historySerial_, gui_.state.historySerial) != gui_.state.historySerial) isNews_ = true;
+    if (gui_.browser.isSettling()) isNews_ = true;
     link_.send();
     if (gui_.saveRequested || !gui_.saveAs.empty()) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {
@@ -201,8 +202,9 @@ void App::save() {
     if (!file.empty()) {
         request.files = {file};
         request.aovs.clear();
-    } else if (request.files.empty())
+    } else if (request.files.empty()) {
         request.files = savePaths(settings_.saveFolder, gui_.state);
+    }
     session_.save(std::move(request));
 }
 

@@ -17,7 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kPage = 10; // entries
+constexpr int kPage = 10;    // entries
+constexpr int kSettling = 4; // frames that ImGui takes to move the keyboard, and one more
 
 fs::path homeFolder() {
     for (const char* variable : {"HOME", "USERPROFILE"})
@@ -49,7 +50,8 @@ bool drawItem(Icon icon, const std::string& name, bool isSelected) {
 
 void FileBrowser::open(Request request) {
     request_ = std::move(request);
-    isOpen_ = isNew_ = true;
+    isOpen_ = true;
+    settling_ = kSettling;
     std::error_code none;
     const bool isThere = fs::is_directory(request_.folder, none);
     enter(isThere ? request_.folder : !folder_.empty() ? folder_ : homeFolder());
@@ -96,7 +98,7 @@ std::optional<FileBrowser::Path> FileBrowser::acceptFile(const Path& file) {
     std::error_code none;
     if (fs::is_directory(file, none)) {
         enter(file);
-        isNew_ = true;
+        settling_ = kSettling;
         return std::nullopt;
     }
     if (!request_.isToSave) return finish(file);
@@ -178,7 +180,7 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
     ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(50 * em, 0.92f * all.x), std::min(34 * em, 0.88f * all.y)}, ImGuiCond_Appearing);
     ImGui::SetNextWindowSizeConstraints({0, 0}, all);
-    if (isNew_) ImGui::SetNextWindowFocus();
+    if (settling_ == kSettling) ImGui::SetNextWindowFocus();
     if (ImGui::Begin((request_.title + "###file-browser").c_str(), &isOpen_,
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
         const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -190,7 +192,8 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
         // The field; what is typed there narrows the list, unless it is a name to be.
         const float action = buttonWidth("Replace"), cancel = buttonWidth("Cancel");
         ImGui::SetNextItemWidth(-(action + cancel + 2 * gap));
-        if (std::exchange(isNew_, false)) ImGui::SetKeyboardFocusHere();
+        if (settling_ == kSettling) ImGui::SetKeyboardFocusHere();
+        settling_ = std::max(0, settling_ - 1);
         const bool entered = inputText("##name", request_.isToSave ? "name" : "name or path; arrows choose", name_);
         if (name_ != listed_) {
             listed_ = name_;

@@ -23,6 +23,8 @@ class FileBrowser {
     void open(Request request);
     void close() { isOpen_ = false; }
     bool isOpen() const { return isOpen_; }
+    // Its field gets the keyboard in one of the next frames, which should not be long in coming.
+    bool isSettling() const { return isOpen_ && settling_ > 0; }
 
     // Keys that it takes before ImGui's fields do.
     enum class Key { Up, Down, PageUp, PageDown, Parent };
@@ -45,7 +47,7 @@ class FileBrowser {
     std::optional<Path> finish(const Path& path);
 
     bool isOpen_ = false;
-    bool isNew_ = false; // the keyboard is to go to the field
+    int settling_ = 0; // frames until the field has the keyboard
     Request request_;
     Path folder_;
     app::FolderList list_;

@@ -33,7 +33,6 @@ void SessionLink::take() {
         sceneSerial_ = state.sceneSerial;
         gui_.camera.setHome(state.scene->camera);
         sentCamera_ = state.scene->camera;
-        gui_.window.setTitle(state.scene->title + " - " + options_.program);
     }
     rememberScene();
     if (gui_.settings.reloadScenes) followFile();
@@ -80,6 +79,7 @@ void SessionLink::rememberScene() {
     }
     if (state.sceneLoads == sceneLoads_) return;
     sceneLoads_ = state.sceneLoads;
+    gui_.window.setTitle(state.scene->title + " - " + options_.program);
     gui_.errors.dismiss(app::ErrorSource::Scene);
     settings.scene = state.source;
     std::error_code none;

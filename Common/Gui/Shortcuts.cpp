@@ -119,20 +119,23 @@ bool browseBy(FileBrowser& browser, const Window::KeyPress& press) {
 } // namespace
 
 void obeyKey(Gui& gui, const Window::KeyPress& press) {
-    if (gui.browser.isOpen() && browseBy(gui.browser, press)) return;
+    const bool isBrowsing = gui.browser.isOpen(); // what is typed is for its field
+    if (isBrowsing && browseBy(gui.browser, press)) return;
     for (const Shortcut& shortcut : kShortcuts) {
         if (shortcut.key != press.key || !applies(shortcut, press)) continue;
+        if (isBrowsing && shortcut.when == When::Plain) return;
         shortcut.act(gui);
         return;
     }
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
-    if (control || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9) return;
+    if (control || isBrowsing || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9)
+        return;
     const auto index = static_cast<std::size_t>(press.key - GLFW_KEY_1);
     if (index < scene::builtinScenes().size()) gui.openScene(std::string(scene::builtinScenes()[index].id));
 }
 
 bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds) {
-    if (ImGui::GetIO().WantTextInput || !gui.state.scene) return false;
+    if (ImGui::GetIO().WantTextInput || gui.browser.isOpen() || !gui.state.scene) return false;
     const Window& window = gui.window;
     const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
     const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);

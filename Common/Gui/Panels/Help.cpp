@@ -94,7 +94,7 @@ void drawHelp(Gui& gui) {
 }
 
 void drawFirstSteps(Gui& gui, const Rect& area) {
-    if (!gui.showFirstSteps) return;
+    if (!gui.showFirstSteps || gui.errors.unread() != nullptr) return;
     const float em = ImGui::GetFontSize();
     ImGui::SetNextWindowPos({area.x + em, area.y + area.height - em}, ImGuiCond_Always, {0, 1});
     constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
