@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kPage = 10;    // entries
-constexpr int kSettling = 4; // frames that ImGui takes to move the keyboard, and one more
+constexpr int kSettling = 8; // frames: the window gets the keyboard, then its field; asked for until it has it
 
 fs::path homeFolder() {
     for (const char* variable : {"HOME", "USERPROFILE"})
@@ -192,9 +192,10 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
         // The field; what is typed there narrows the list, unless it is a name to be.
         const float action = buttonWidth("Replace"), cancel = buttonWidth("Cancel");
         ImGui::SetNextItemWidth(-(action + cancel + 2 * gap));
-        if (settling_ == kSettling) ImGui::SetKeyboardFocusHere();
         settling_ = std::max(0, settling_ - 1);
+        if (settling_ % 2 == 1) ImGui::SetKeyboardFocusHere(); // the frame after tells whether it has come to that
         const bool entered = inputText("##name", request_.isToSave ? "name" : "name or path; arrows choose", name_);
+        if (ImGui::IsItemActive()) settling_ = 0;
         if (name_ != listed_) {
             listed_ = name_;
             selected_ = -1;

@@ -26,6 +26,7 @@ void drawChip(ImVec2 corner, const std::string& text, const ImVec4* dot) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList(); // below all windows
     list.AddRectFilled(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_WindowBg, 0.92f),
                        0.5f * height);
+    list.AddRect(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_Border), 0.5f * height);
     float left = corner.x + kPadding * em;
     if (dot != nullptr) {
         list.AddCircleFilled({left + 0.3f * em, corner.y + 0.5f * height}, 0.3f * em,
