@@ -57,6 +57,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
+    setup.references = app::ReferenceCache::ofUser();
     setup.onChange = [&isNews] { isNews = true; };
     return setup;
 }
@@ -69,11 +70,11 @@ class App {
           window_(options.program, placeOf(settings_)),
           device_(window_, options.validation, options.device),
           presenter_(device_, window_),
-          imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options.program)),
-          history_(app::RunHistory::userFile()),
+          imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options)),
+          history_(historyFile(options)),
           session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
-               program.devices} {
+               program.devices, other_, options.assetsBelow} {
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
@@ -103,6 +104,7 @@ class App {
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
+    app::OtherEngine other_{history_, [this] { isNews_ = true; }};
     Gui gui_;
     PictureArea picture_{gui_};
     SessionLink link_{options_, gui_, presenter_};
@@ -175,6 +177,7 @@ void App::turn() {
         window_.waitEvents(kIdleSeconds);
         return;
     }
+    gui_.followOther();
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     // A table with new rows finds the width of its columns in the frame after.
     if (std::exchange(historySerial_, gui_.state.historySerial) != gui_.state.historySerial) isNews_ = true;
@@ -269,6 +272,7 @@ void App::drawInterface() {
 void App::rescue() {
     std::cerr << options_.program << ": the window system has taken the window away" << std::endl;
     kept_.store();
+    other_.close();
     session_.close();
 }
 

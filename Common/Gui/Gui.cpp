@@ -8,6 +8,7 @@
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
@@ -35,6 +36,50 @@ void Gui::hold() {
     heldIsDisplay = state.picture.isDisplay;
     heldTitle = pictureTitle();
     split = 0.5f;
+}
+
+std::string Gui::whyNotOther() const {
+    if (!state.scene) return "There is no scene yet";
+    if (state.picture.isPreview) return "Ray tracing is off here";
+    if (!settings.request.accumulate) return "Frames of their own are no render to compare with";
+    if (settings.request.settings.features) return "The features are forced by --features, which is for one program";
+    return {};
+}
+
+void Gui::followOther() {
+    using app::Activity;
+    const bool rests = state.activity == Activity::Finished || state.activity == Activity::Stopped;
+    if (otherIsWanted && rests && state.stage.empty() && whyNotOther().empty()) {
+        otherIsWanted = false;
+        app::OtherJob job;
+        job.program = isGpu ? app::kCpuProgram : app::kGpuProgram;
+        job.scene = {state.source, settings.request.oneSidedLights, "", assetsBelow};
+        job.compiled = state.scene;
+        job.camera = camera.camera();
+        job.settings = state.settings;
+        // As many as this film has, where it ended before all that were asked for.
+        if (state.picture.spp > 0 && !state.status.finished)
+            job.settings.spp = static_cast<std::uint32_t>(state.picture.spp);
+        job.settings.replicates = std::min(job.settings.replicates, job.settings.spp);
+        if (state.referenceFits) {
+            job.reference = state.referenceImage;
+            job.referenceError = state.referenceError;
+        }
+        other.start(job);
+    }
+    const app::OtherState done = other.state();
+    if (done.serial == otherSerial) return;
+    otherSerial = done.serial;
+    held = heldRadiance = done.image;
+    heldIsDisplay = false;
+    heldTitle = (isGpu ? "CPU, " : "GPU, ") + std::to_string(done.record.spp) + " spp";
+    split = 0.5f;
+    say(heldTitle + " in " + shortDuration(done.record.renderSeconds));
+}
+
+void Gui::cancelOther() {
+    otherIsWanted = false;
+    other.cancel();
 }
 
 void Gui::copyPose() {

@@ -10,8 +10,10 @@
 #include "Common/App/Interactive/ErrorList.h"
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Interactive/OtherEngine.h"
 #include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/Layout.h"
+#include "Common/Gui/RunBoard.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"
@@ -42,6 +44,8 @@ struct Gui {
     Thumbnails& thumbnails;
     const bool isGpu;
     const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
+    app::OtherEngine& other;
+    const std::string assetsBelow; // as --assets-below says
 
     app::SessionState state; // of this frame
     PictureView view;
@@ -56,6 +60,10 @@ struct Gui {
     std::uint32_t referenceSpp = 1024;
     std::string referencePath;
     bool onlyThisScene = true;
+    RunBoard runs;
+    std::vector<app::RunRecord> runsToDelete; // before the next frame draws any
+    bool otherIsWanted = false;               // as soon as this render has ended
+    std::uint64_t otherSerial = 0;            // of the picture of the other program that was pinned
     Rect chart;                  // of the comparison, in the window's units
     bool chartRequested = false; // as a file
     UiFigures figures;
@@ -76,6 +84,9 @@ struct Gui {
     void openScene(const std::string& source);
     void stepScene(int step); // through the built-in ones, round and round
     std::string pictureTitle() const;
+    std::string whyNotOther() const; // the other program cannot do the same; empty: it can
+    void followOther();              // starts it when it is its turn, and pins what it has rendered
+    void cancelOther();
     void hold();     // the picture, for comparison; or lets it go
     void copyPose(); // of the camera, to the clipboard
     void pastePose();

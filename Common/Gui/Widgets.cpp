@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace rt::gui {
 namespace {
@@ -43,7 +44,13 @@ void editReal(double& value, const char* pattern) {
                        ImGuiInputTextFlags_CharsScientific);
 }
 
+bool isNextRowMarked = false;
+
 } // namespace
+
+void markNextRow(bool isChanged) {
+    isNextRowMarked = isChanged;
+}
 
 void tooltip(const char* text) {
     if (text == nullptr || !ImGui::IsItemHovered()) return;
@@ -58,6 +65,12 @@ void row(const char* label, const char* tip) {
     ImGui::AlignTextToFramePadding();
     const float end = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::TextUnformatted(label);
+    if (std::exchange(isNextRowMarked, false)) {
+        const float radius = 0.16f * ImGui::GetFontSize();
+        const ImVec2 corner = ImGui::GetItemRectMin(), far = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddCircleFilled({far.x + 1.5f * radius, corner.y + radius}, radius,
+                                                    ImGui::GetColorU32(ImGuiCol_CheckMark));
+    }
     tooltip(tip);
     // A long label moves its control to the right rather than lie under it.
     const float column = ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x;

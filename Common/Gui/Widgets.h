@@ -11,6 +11,8 @@ namespace rt::gui {
 
 // What follows is the control of this row. `tip` may be null.
 void row(const char* label, const char* tip);
+// The next row's setting is not at its default: its label says so.
+void markNextRow(bool isChanged);
 void tooltip(const char* text);     // of the item before
 void note(const std::string& text); // dimmed and wrapped
 void wrapped(const std::string& text, const ImVec4& color);

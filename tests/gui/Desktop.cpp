@@ -98,7 +98,7 @@ void Desktop::TearDown() {
 
 void Desktop::launch(const std::string& program, const std::vector<std::string>& arguments) {
     std::vector<std::string> all = {
-        std::string(RT_PROGRAM_DIR) + "/" + program, "--no-config", "--validation", "--width", "48", "--spp", "4"};
+        std::string(RT_PROGRAM_DIR) + "/" + program, "--validation", "--width", "48", "--spp", "4"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<std::pair<std::string, std::string>> environment = {
         {"DISPLAY", display_},

@@ -139,7 +139,7 @@ std::uint64_t progressIn(const std::string& messages) {
     return spp;
 }
 
-OtherEngine::~OtherEngine() {
+void OtherEngine::close() {
     cancel();
     if (thread_.joinable()) thread_.join();
 }

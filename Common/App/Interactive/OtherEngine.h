@@ -52,12 +52,13 @@ class OtherEngine {
     // `onChange` is called on that thread when the state has changed; the history gets what is done.
     OtherEngine(RunHistory& history, std::function<void()> onChange)
         : history_(history), onChange_(std::move(onChange)) {}
-    ~OtherEngine();
+    ~OtherEngine() { close(); }
     OtherEngine(const OtherEngine&) = delete;
     OtherEngine& operator=(const OtherEngine&) = delete;
 
     void start(const OtherJob& job); // does nothing while one runs
-    void cancel() { cancel_ = true; }
+    void cancel() { cancel_ = true; } // ends the program soon
+    void close();                     // and waits for that
     OtherState state() const;
     bool isRunning() const { return state().phase == OtherState::Phase::Running; }
 

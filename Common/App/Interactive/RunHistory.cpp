@@ -229,6 +229,7 @@ void RunHistory::append(const RunRecord& record) {
 
 void RunHistory::remove(std::vector<RunRecord> records) {
     if (file_.empty()) {
+        ++serial_;
         std::erase_if(records_, [&](const RunRecord& r) { return std::count(records.begin(), records.end(), r) > 0; });
         return;
     }
@@ -247,6 +248,7 @@ void RunHistory::remove(std::vector<RunRecord> records) {
 const std::vector<RunRecord>& RunHistory::records() {
     if (file_.empty()) {
         const std::scoped_lock lock(mutex_);
+        if (!unfiled_.empty()) ++serial_;
         records_.insert(records_.end(), unfiled_.begin(), unfiled_.end());
         unfiled_.clear();
         return records_;
@@ -255,11 +257,13 @@ const std::vector<RunRecord>& RunHistory::records() {
     const auto time = fs::last_write_time(file_, none);
     const std::uintmax_t size = none ? 0 : fs::file_size(file_, none);
     if (none) {
+        if (!records_.empty()) ++serial_;
         records_.clear();
         wasRead_ = false;
         return records_;
     }
     if (wasRead_ && time == readTime_ && size == readSize_) return records_;
+    ++serial_;
     records_.clear();
     for (const std::string& line : readLines(file_))
         if (std::optional<RunRecord> record = toRecord(line)) records_.push_back(std::move(*record));

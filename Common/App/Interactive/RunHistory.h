@@ -52,6 +52,9 @@ class RunHistory {
     // On one thread. The records of the file, oldest first; read again only when the file has changed.
     const std::vector<RunRecord>& records();
 
+    // Grows with each change of what records() returned last.
+    std::uint64_t serial() const { return serial_; }
+
     static std::filesystem::path userFile(); // empty where there is no place for it
 
   private:
@@ -65,6 +68,7 @@ class RunHistory {
     std::filesystem::file_time_type readTime_{};
     std::uintmax_t readSize_ = 0;
     bool wasRead_ = false;
+    std::uint64_t serial_ = 0;
 };
 
 // The names of what a record does not tell of its work, with commas; empty: it tells all.

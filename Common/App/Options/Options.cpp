@@ -312,6 +312,7 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
     addProgram(flags, parsed);
     if (!flags.parse(std::move(arguments), out)) return std::nullopt;
 
+    parsed.options.keepsUserFiles = !flags.given("--no-config");
     settleCommand(flags, parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);

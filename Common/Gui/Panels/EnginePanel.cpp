@@ -25,12 +25,15 @@ bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
 }
 
 void drawProcessor(EngineChoice& engine) {
+    markNextRow(engine.policy != EngineChoice().policy);
     combo("Engine", "std::execution policy that the workers run under", app::kPolicies, engine.policy);
     const Disabled rest(engine.policy == app::Policy::Seq);
+    markNextRow(engine.threads != EngineChoice().threads);
     inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
 }
 
 void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
+    markNextRow(engine.kind != EngineChoice().kind);
     row("Engine",
         "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
         "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
@@ -48,6 +51,7 @@ void drawKind(EngineChoice& engine, const app::SessionState& state, const Device
 }
 
 void drawDevice(EngineChoice& engine, const Devices& devices) {
+    markNextRow(!engine.device.empty());
     row("Device", "Vulkan devices that can render");
     const auto current = find(devices, engine.device);
     const std::string shown = engine.device.empty()      ? "Best suitable"
