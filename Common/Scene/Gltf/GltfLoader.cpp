@@ -23,7 +23,9 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kUnlitBackground = 0.8;
+// What shows a model that brings no light: neutral, so that colours are right, and uneven, as white things vanish before
+// a constant.
+const GradientBackground kStudio{glm::dvec3(0.3), glm::dvec3(1)};
 
 // Primitives may share arrays, each having its own copy here: files whose corners exceed this many, and this many for
 // each byte, could fill any memory.
@@ -283,8 +285,8 @@ class Importer {
     // Assets come without any light, or with small parts that glow: a bright surrounding shows them.
     void addBackground() {
         if (materials_.emitsAsLight()) return;
-        scene_.background = ConstantBackground{glm::dvec3(kUnlitBackground)};
-        scene_.notices.push_back("there is no light in the file: the background is a constant grey-white");
+        scene_.background = kStudio;
+        scene_.notices.push_back("there is no light in the file: the background is a gradient of grey");
     }
 
     void addNotices() {
@@ -296,7 +298,6 @@ class Importer {
         if (isMorphed_) notices.push_back("morph targets are left out");
         if (!file_.model.animations.empty()) notices.push_back("animations are left out: nodes are at rest");
         if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
-        for (std::string& notice : notices) notice = scene_.id + ": " + notice;
     }
 
     const GltfFile file_;
