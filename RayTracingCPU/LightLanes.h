@@ -178,7 +178,9 @@ RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
         const LightSample sampled = get(lanes.lightSamples, i);
         const Vertex v = vertexIn<kFeatures>(lanes, i);
-        set(lanes.direct, i, weighSample(kFeatures, params, probability, sampled, v, get(lanes.throughput, i)));
+        const bool isPunctualSample = isPunctual(kFeatures, get(lanes.lights, i));
+        set(lanes.direct, i,
+            weighSample(kFeatures, params, probability, isPunctualSample, sampled, v, get(lanes.throughput, i)));
     }
 }
 

@@ -86,7 +86,7 @@ constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatu
                                         kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
 
 constexpr std::uint32_t kBookFeatures =
-    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFreeFeatures);
+    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeaturePunctualLights | kFreeFeatures);
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {

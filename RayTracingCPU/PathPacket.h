@@ -119,7 +119,7 @@ class PathPacket {
             set(lanes_.throughput, i, path.throughput);
             lanes_.time.at[i] = path.ray.time;
         });
-        if (usesMis(params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
+        if (samplesLights(kFeatures, params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
     }
 
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
@@ -129,10 +129,11 @@ class PathPacket {
         PathState& path = slot.path;
         const Vertex v = vertexIn<kFeatures>(lanes_, i);
         const VertexSamples u = get(lanes_.u, i);
-        const DirectLight direct = isLit && usesMis(params_) ? get(lanes_.direct, i) : noDirectLight();
+        const bool isSampled = isLit && samplesLights(kFeatures, params_);
+        const DirectLight direct = isSampled ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);
         BsdfSample b = sampleScattering<kFeatures>(lanes_, i, v);
-        if (has(kFeatures, kFeatureMixture) && isLit && !usesMis(params_)) {
+        if (isLit && usesMixture(kFeatures, params_, scene_.globals, v)) {
             const LightChoice choice = get(lanes_.choices, i);
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
         }

@@ -17,9 +17,10 @@ namespace {
 
 constexpr uint kSide = 40;
 
-// A built-in scene as the engine prepares it.
+// A scene as the engine prepares it.
 struct TracedScene {
-    explicit TracedScene(const char* id) : compiled(scene::compileScene(scene::findBuiltinScene(id))) {
+    explicit TracedScene(const char* id) : TracedScene(scene::findBuiltinScene(id)) {}
+    explicit TracedScene(const scene::SceneDesc& desc) : compiled(scene::compileScene(desc)) {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
@@ -100,18 +101,37 @@ app::RenderSettings smallImage() {
     return settings;
 }
 
+void compareEstimators(const TracedScene& scene) {
+    for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
+        SCOPED_TRACE("estimator " + std::to_string(estimator));
+        app::RenderSettings settings = smallImage();
+        settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
+        comparePaths(scene, settings);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
 // Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
                            "one-weekend-final", "many-lights", "veach-mis"}) {
         const TracedScene scene(id);
-        for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
-            SCOPED_TRACE(std::string(id) + ", estimator " + std::to_string(estimator));
-            app::RenderSettings settings = smallImage();
-            settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
-            comparePaths(scene, settings);
-            if (HasFatalFailure()) return;
-        }
+        SCOPED_TRACE(id);
+        compareEstimators(scene);
+        if (HasFatalFailure()) return;
+    }
+}
+
+// Beside a lamp, and in a medium.
+TEST(PathPacket, WithPunctualLights) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke"}) {
+        scene::SceneDesc desc = scene::findBuiltinScene(id);
+        desc.objects.push_back({scene::PointLightDesc{{200, 300, 100}, glm::dvec3(3e4)}});
+        desc.objects.push_back({scene::SpotLightDesc{{300, 500, 300}, {0.1, -1, 0}, glm::dvec3(2e5), 10, 40}});
+        desc.objects.push_back({scene::DirectionalLightDesc{{0.1, -0.5, 1}, glm::dvec3(0.5)}});
+        SCOPED_TRACE(id);
+        compareEstimators(TracedScene(desc));
+        if (HasFatalFailure()) return;
     }
 }
 

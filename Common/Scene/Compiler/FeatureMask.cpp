@@ -43,6 +43,10 @@ std::uint32_t ofLight(const shared::Light& light) {
             return shared::kFeatureTriangleLights;
         case shared::kLightEllipsoid:
             return shared::kFeatureEllipsoidLights;
+        case shared::kLightPoint:
+        case shared::kLightSpot:
+        case shared::kLightDirectional:
+            return shared::kFeaturePunctualLights;
         default:
             return 0;
     }
