@@ -7,7 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
                 libtinyobjloader-dev libtinygltf-dev libstb-dev libpng-dev libtbb-dev libvulkan-dev glslang-tools spirv-tools
                 libglfw3-dev libimgui-dev fonts-dejavu-core)
-test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev)
+test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
+               assimp-testmodels)
 bench_packages=(libbenchmark-dev libembree-dev)
 cluster_packages=(libopenmpi-dev openmpi-bin)
 

@@ -92,7 +92,8 @@ TEST_F(Gltf, SparseAccessorsChangeWhatLiesBelow) {
                          {"indices", {{"bufferView", indices}, {"componentType", 5123}}},
                          {"values", {{"bufferView", values}}}};
     gltf.json["accessors"][primitive["attributes"]["POSITION"].get<int>()]["sparse"] = sparse;
-    const int zeros = gltf.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 3}, {"sparse", sparse}});
+    const int zeros =
+        gltf.add("accessors", {{"componentType", 5126}, {"type", "VEC3"}, {"count", 3}, {"sparse", sparse}});
     primitive["attributes"]["NORMAL"] = zeros;
     gltf.addNode({{"mesh", gltf.addMesh(primitive)}});
     const MeshData& mesh = loadMesh();
@@ -133,8 +134,7 @@ TEST_F(Gltf, PrimitivesKeepOnlyTheVerticesTheyUse) {
     const MeshData& mesh = loadMesh();
     ASSERT_EQ(mesh.positions.size(), 3u);
     const std::size_t vertices[] = {999, 3, 700};
-    for (int c = 0; c < 3; ++c)
-        EXPECT_EQ(mesh.positions[mesh.triangles[0][c]].y, positions[3 * vertices[c] + 1]);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(mesh.positions[mesh.triangles[0][c]].y, positions[3 * vertices[c] + 1]);
 }
 
 TEST_F(Gltf, TangentsFollowTheTextureAndSplitWhereItIsMirrored) {
@@ -195,10 +195,11 @@ TEST_F(Gltf, GpuInstancing) {
     const int translations = gltf.addAccessor(std::vector<float>{0, 0, 0, 1, 0, 0, 2, 0, 0}, "VEC3");
     const int scales = gltf.addAccessor(std::vector<float>{1, 1, 1, 2, 2, 2, 3, 3, 3}, "VEC3");
     gltf.json["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
-    gltf.addNode({{"mesh", mesh},
-                  {"scale", {10, 10, 10}},
-                  {"extensions",
-                   {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translations}, {"SCALE", scales}}}}}}}});
+    gltf.addNode(
+        {{"mesh", mesh},
+         {"scale", {10, 10, 10}},
+         {"extensions",
+          {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translations}, {"SCALE", scales}}}}}}}});
     scene = load();
     ASSERT_EQ(scene.objects.size(), 3u);
     const auto& rows = std::get<Matrix>(std::get<InstanceDesc>(scene.objects[2].shape).transform.at(0)).rows;
@@ -208,9 +209,11 @@ TEST_F(Gltf, GpuInstancing) {
 
 TEST_F(Gltf, CamerasByNameAndTheFirstIsTheView) {
     placeTriangle();
-    const json lens = {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"aspectRatio", 1.5}}}};
+    const json lens = {
+        {"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"aspectRatio", 1.5}}}};
     gltf.add("cameras", lens);
-    gltf.add("cameras", {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}});
+    gltf.add("cameras",
+             {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}});
     gltf.addNode({{"camera", 0}, {"translation", {0, 0, 4}}});
     gltf.addNode({{"camera", 0}, {"rotation", {0, 1, 0, 0}}, {"translation", {0, 0, -4}}});
     gltf.addNode({{"camera", 1}});
@@ -224,6 +227,32 @@ TEST_F(Gltf, CamerasByNameAndTheFirstIsTheView) {
     const CameraDesc& back = scene.cameras.at("eye (2)");
     EXPECT_GT(back.lookAt.z, back.lookFrom.z);
     EXPECT_NE(scene.notices.front().find("orthographic"), std::string::npos);
+}
+
+TEST_F(Gltf, PunctualLights) {
+    placeTriangle();
+    gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 4}, {"color", {1, 0.5, 0}}},
+        {{"type", "directional"}},
+        {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", glm::pi<double>() / 2}}}}};
+    const double half = std::sqrt(0.5);
+    for (int i = 0; i < 3; ++i)
+        gltf.addNode({{"translation", {1, 2, 3}},
+                      {"rotation", {-half, 0, 0, half}}, // what looked along -z looks down
+                      {"scale", {2, 2, 2}},
+                      {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    scene = load();
+    ASSERT_EQ(scene.objects.size(), 4u);
+    EXPECT_EQ(std::get<PointLightDesc>(scene.objects[1].shape), (PointLightDesc{{1, 2, 3}, {4, 2, 0}}));
+    const auto& sun = std::get<DirectionalLightDesc>(scene.objects[2].shape);
+    EXPECT_LT(glm::distance(sun.direction, glm::dvec3(0, -1, 0)), 1e-12);
+    EXPECT_EQ(sun.irradiance, glm::dvec3(1));
+    const auto& spot = std::get<SpotLightDesc>(scene.objects[3].shape);
+    EXPECT_EQ(spot.outerAngle, 90);
+    EXPECT_NEAR(spot.innerAngle, 18 / glm::pi<double>(), 1e-12);
+    EXPECT_EQ(scene.background, Background(ConstantBackground{}));
+    gltf.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 3}}}}}});
+    EXPECT_THROW(load(), InputError);
 }
 
 TEST_F(Gltf, WithoutACameraAllIsInSight) {
@@ -240,12 +269,15 @@ TEST_F(Gltf, WithoutACameraAllIsInSight) {
 TEST_F(Gltf, BuffersMayLieBesideOrInTheText) {
     placeTriangle();
     scene = load();
-    SceneDesc beside = loadGltfScene(gltf.saveWithBuffer(folder / "b.gltf", "the%20buffer.bin", folder / "the buffer.bin"));
+    SceneDesc beside =
+        loadGltfScene(gltf.saveWithBuffer(folder / "b.gltf", "the%20buffer.bin", folder / "the buffer.bin"));
     EXPECT_EQ(beside.objects, scene.objects);
     GltfBuilder text;
     text.json = gltf.json;
-    text.json["buffers"] = {{{"byteLength", 36}, {"uri", "data:application/octet-stream;base64,"
-                                                         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}};
+    text.json["buffers"] = {{{"byteLength", 36},
+                             {"uri",
+                              "data:application/octet-stream;base64,"
+                              "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}};
     text.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}}};
     text.json["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 3}}};
     text.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};

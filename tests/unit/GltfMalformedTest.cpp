@@ -1,6 +1,10 @@
 // Files of glTF that are wrong end in one line that names file and place, and in no more memory than they deserve.
-#include <functional>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <random>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -21,7 +25,8 @@ GltfBuilder sample() {
     json primitive = gltf.triangle();
     primitive["indices"] = gltf.addAccessor(std::vector<std::uint16_t>{0, 1, 2}, "SCALAR");
     primitive["material"] = 0;
-    gltf.add("images", {{"bufferView", gltf.addView(std::vector<unsigned char>{0x89, 'P', 'N', 'G'})}, {"mimeType", "image/png"}});
+    gltf.add("images", {{"bufferView", gltf.addView(std::vector<unsigned char>{0x89, 'P', 'N', 'G'})},
+                        {"mimeType", "image/png"}});
     gltf.add("samplers", json::object());
     gltf.add("textures", {{"source", 0}, {"sampler", 0}});
     gltf.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
@@ -81,7 +86,6 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord", 5, "/materials/0: texCoord"},
         {"/images/0", {{"uri", "https://example.org/a.png"}}, "must be the relative path of a file"},
         {"/images/0", {{"uri", "/etc/a.png"}}, "must be the relative path of a file"},
-        {"/buffers", {{{"byteLength", 4}, {"uri", "missing.bin"}}}, "/bufferViews/0: ends at byte"},
     };
     for (const Mistake& mistake : mistakes) {
         SCOPED_TRACE(mistake.pointer + std::string(" = ") + mistake.value.dump());
@@ -128,8 +132,9 @@ TEST(GltfMalformed, SmallFilesDoNotFillTheMemory) {
 
 TEST(GltfMalformed, TextThatIsNoJson) {
     const test::TempFolder folder;
-    for (const std::string& text : {std::string(), std::string("{"), std::string("[]"), std::string("glTF"),
-                                    std::string(100'000, '['), std::string(R"({"asset":{"version":"2.0"},"scene":1e999})")}) {
+    for (const std::string& text :
+         {std::string(), std::string("{"), std::string("[]"), std::string("glTF"), std::string(100'000, '['),
+          std::string(R"({"asset":{"version":"2.0"},"scene":1e999})")}) {
         GltfBuilder::write(folder / "a.gltf", text);
         EXPECT_THROW(loadGltfScene(folder / "a.gltf"), InputError) << text.substr(0, 40);
     }
@@ -150,10 +155,11 @@ TEST(GltfMalformed, DamagedAnywhere) {
     const std::string whole = sample().binary();
     std::mt19937 random(20);
     int refused = 0;
-    for (int i = 0; i < 3000; ++i) {
+    for (int i = 0; i < 1000; ++i) {
         std::string damaged = whole;
         for (unsigned n = 1 + random() % 3; n-- > 0;)
-            damaged[random() % damaged.size()] = random() % 2 == 0 ? static_cast<char>(random()) : "0123456789-\"[]{}"[random() % 16];
+            damaged[random() % damaged.size()] =
+                random() % 2 == 0 ? static_cast<char>(random()) : "0123456789-\"[]{}"[random() % 16];
         GltfBuilder::write(folder / "a.glb", damaged);
         try {
             loadGltfScene(folder / "a.glb");
@@ -163,8 +169,33 @@ TEST(GltfMalformed, DamagedAnywhere) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
     }
-    EXPECT_GT(refused, 1000);
-    EXPECT_LT(refused, 3000);
+    EXPECT_GT(refused, 300);
+    EXPECT_LT(refused, 1000);
+}
+
+// Files nobody here wrote, from Debian's package assimp-testmodels: what is good is read, what is bad refused.
+TEST(GltfMalformed, ModelsOfOthers) {
+    const std::filesystem::path models = "/usr/share/assimp/models/glTF2";
+    if (!std::filesystem::exists(models)) GTEST_SKIP() << "assimp-testmodels is not installed";
+    const std::set<std::string> bad = {"BoxWithInfinites.glb", "AllIndicesOutOfRange.gltf", "IndexOutOfRange.gltf",
+                                       "RecursiveNodes.gltf",  "sceneWrongType.gltf",       "badArray.gltf"};
+    const std::set<std::string> good = {"2CylinderEngine.glb", "ClearCoatTest.gltf", "TextureTransformTest.gltf",
+                                        "Cameras.gltf", "simple_skin.gltf"};
+    int read = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(models)) {
+        const std::filesystem::path extension = entry.path().extension();
+        if (extension != ".gltf" && extension != ".glb") continue;
+        const std::string name = entry.path().filename().string();
+        try {
+            EXPECT_FALSE(loadGltfScene(entry.path()).objects.empty());
+            EXPECT_EQ(bad.count(name), 0u) << name << " was read";
+            ++read;
+        } catch (const InputError& error) {
+            EXPECT_EQ(good.count(name), 0u) << error.what();
+            EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_GE(read, 20);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // Materials, textures and images of glTF as they become those of a scene, and what is exported of them.
-#include <array>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -42,9 +42,7 @@ class GltfMaterials : public testing::Test {
     MaterialDesc extended(const char* extension, const json& values) {
         return material({{"extensions", {{extension, values}}}});
     }
-    const ImageTexture& image(const std::string& name) const {
-        return std::get<ImageTexture>(scene.textures.at(name));
-    }
+    const ImageTexture& image(const std::string& name) const { return std::get<ImageTexture>(scene.textures.at(name)); }
     static GltfBuilder images() {
         GltfBuilder gltf;
         gltf.add("images", {{"bufferView", gltf.addView(kPng)}, {"mimeType", "image/png"}, {"name", "paint"}});
@@ -117,7 +115,9 @@ TEST_F(GltfMaterials, AlphaModes) {
 
 TEST_F(GltfMaterials, Extensions) {
     EXPECT_EQ(extended("KHR_materials_ior", {{"ior", 1.33}}).principled.ior, 1.33);
-    PrincipledDesc p = extended("KHR_materials_transmission", {{"transmissionFactor", 0.9}, {"transmissionTexture", {{"index", 1}}}}).principled;
+    PrincipledDesc p =
+        extended("KHR_materials_transmission", {{"transmissionFactor", 0.9}, {"transmissionTexture", {{"index", 1}}}})
+            .principled;
     EXPECT_EQ(p.transmission.factor, 0.9);
     EXPECT_EQ(p.transmission.channel, Channel::Red);
     EXPECT_TRUE(p.isThin);
@@ -129,20 +129,26 @@ TEST_F(GltfMaterials, Extensions) {
     EXPECT_FALSE(p.isThin);
     EXPECT_EQ(p.attenuationDistance, 2);
     EXPECT_EQ(p.attenuationColor, glm::dvec3(0.1, 0.5, 1));
-    p = extended("KHR_materials_specular", {{"specularFactor", 0.2}, {"specularColorFactor", {1, 0.5, 0}}, {"specularTexture", {{"index", 0}}}}).principled;
+    p = extended("KHR_materials_specular",
+                 {{"specularFactor", 0.2}, {"specularColorFactor", {1, 0.5, 0}}, {"specularTexture", {{"index", 0}}}})
+            .principled;
     EXPECT_EQ(p.specular.factor, 0.2);
     EXPECT_EQ(p.specular.channel, Channel::Alpha);
     EXPECT_EQ(std::get<glm::dvec3>(p.specularColor), glm::dvec3(1, 0.5, 0));
     p = extended("KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatRoughnessFactor", 0.3}}).principled;
     EXPECT_EQ(p.clearcoat.factor, 0.8);
     EXPECT_EQ(p.clearcoatRoughness.factor, 0.3);
-    p = extended("KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.4, 0.3}}, {"sheenRoughnessFactor", 0.6}}).principled;
+    p = extended("KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.4, 0.3}}, {"sheenRoughnessFactor", 0.6}})
+            .principled;
     EXPECT_EQ(std::get<glm::dvec3>(p.sheenColor), glm::dvec3(0.5, 0.4, 0.3));
     EXPECT_EQ(p.sheenRoughness.factor, 0.6);
-    const MaterialDesc glow = material({{"emissiveFactor", {1, 1, 0}}, {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});
+    const MaterialDesc glow =
+        material({{"emissiveFactor", {1, 1, 0}},
+                  {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});
     EXPECT_EQ(glow.emission, glm::dvec3(7, 7, 0));
     EXPECT_EQ(scene.background, Background(ConstantBackground{})); // it is a light
-    const MaterialDesc unlit = material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.3, 0.4, 1}}}}, {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+    const MaterialDesc unlit = material({{"pbrMetallicRoughness", {{"baseColorFactor", {0.2, 0.3, 0.4, 1}}}},
+                                         {"extensions", {{"KHR_materials_unlit", json::object()}}}});
     EXPECT_EQ(unlit.emission, glm::dvec3(0.2, 0.3, 0.4));
     EXPECT_EQ(std::get<glm::dvec3>(unlit.albedo), glm::dvec3(0));
     EXPECT_FALSE(std::get<MeshDesc>(scene.objects.at(0).shape).light);
@@ -152,7 +158,9 @@ TEST_F(GltfMaterials, Extensions) {
 TEST_F(GltfMaterials, TextureTransform) {
     const double angle = 0.3;
     const json transform = {{"offset", {0.1, 0.2}}, {"rotation", angle}, {"scale", {2, 3}}, {"texCoord", 1}};
-    const MaterialDesc m = material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
+    const MaterialDesc m =
+        material({{"pbrMetallicRoughness",
+                   {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}});
     const ImageTexture& texture = image(std::get<std::string>(m.albedo));
     EXPECT_EQ(texture.uvSet, 1u);
     const double u = 0.7, v = 0.4;
@@ -195,8 +203,12 @@ TEST_F(GltfMaterials, ImagesInsideTheFileAreDecodedWithTheirOpacity) {
 
 TEST_F(GltfMaterials, ExportedScenesAreTheSameToTheBit) {
     scene = load({{"alphaMode", "BLEND"},
-                  {"pbrMetallicRoughness", {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"baseColorTexture", {{"index", 1}}}, {"roughnessFactor", 0.123}}},
-                  {"extensions", {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatTexture", {{"index", 0}}}}}}}});
+                  {"pbrMetallicRoughness",
+                   {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
+                    {"baseColorTexture", {{"index", 1}}},
+                    {"roughnessFactor", 0.123}}},
+                  {"extensions",
+                   {{"KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatTexture", {{"index", 0}}}}}}}});
     const SceneDesc again = parseScene(toJson(scene), "a.json", folder.path());
     EXPECT_EQ(again.materials, scene.materials);
     EXPECT_EQ(again.textures, scene.textures);

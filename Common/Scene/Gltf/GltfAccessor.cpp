@@ -96,8 +96,8 @@ void forEachSparse(const GltfFile& file, int index, const Function& put) {
     const auto view = static_cast<std::size_t>(accessor.sparse.values.bufferView);
     const std::size_t stated = file.model.bufferViews[view].byteStride;
     const std::size_t stride = stated == 0 ? N * sizeof(T) : stated;
-    const std::byte* from =
-        file.view(accessor.sparse.values.bufferView).data() + static_cast<std::size_t>(accessor.sparse.values.byteOffset);
+    const std::byte* from = file.view(accessor.sparse.values.bufferView).data() +
+                            static_cast<std::size_t>(accessor.sparse.values.byteOffset);
     for (std::size_t i = 0; i < changed.size(); ++i)
         for (int c = 0; c < N; ++c)
             put(changed[i], c, load<T>(from + i * stride + static_cast<std::size_t>(c) * sizeof(T)));
@@ -141,9 +141,8 @@ std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int index,
                     values[i][c] =
                         decoded(load<T>(from + static_cast<std::size_t>(c) * sizeof(T)), accessor.normalized);
             }
-        forEachSparse<N, T>(file, index, [&](std::uint32_t i, int c, T value) {
-            values[i][c] = decoded(value, accessor.normalized);
-        });
+        forEachSparse<N, T>(
+            file, index, [&](std::uint32_t i, int c, T value) { values[i][c] = decoded(value, accessor.normalized); });
     });
     checkFinite<N>(file, index, values);
     return values;

@@ -12,19 +12,11 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::array kSupported = {"KHR_lights_punctual",
-                                   "KHR_materials_clearcoat",
-                                   "KHR_materials_emissive_strength",
-                                   "KHR_materials_ior",
-                                   "KHR_materials_sheen",
-                                   "KHR_materials_specular",
-                                   "KHR_materials_transmission",
-                                   "KHR_materials_unlit",
-                                   "KHR_materials_variants",
-                                   "KHR_materials_volume",
-                                   "KHR_mesh_quantization",
-                                   "KHR_texture_transform",
-                                   "EXT_mesh_gpu_instancing"};
+constexpr std::array kSupported = {
+    "KHR_lights_punctual",    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_sheen",    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_materials_variants", "KHR_materials_volume",    "KHR_mesh_quantization",           "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing"};
 
 // Without a buffer view the values of an accessor are zeros, which cost a file nothing.
 constexpr std::uint64_t kMostImplicit = 1'000'000;
@@ -63,7 +55,8 @@ class Checker {
     std::vector<std::string> extensions() const {
         if (const auto required = root_.find("extensionsRequired"))
             required->forEachElement([](const JsonNode& name) {
-                if (!isSupported(name.string())) name.fail("extension " + printable(name.string()) + " is not supported");
+                if (!isSupported(name.string()))
+                    name.fail("extension " + printable(name.string()) + " is not supported");
             });
         std::vector<std::string> notices;
         if (const auto used = root_.find("extensionsUsed"))
@@ -188,7 +181,9 @@ class Checker {
                     instancing->at("attributes").forEachMember([this](const std::string&, const JsonNode& index) {
                         reference(index, "accessors");
                     });
-                if (const auto light = extensions->find("KHR_lights_punctual")) light->at("light").unsignedInteger();
+                if (const auto light = extensions->find("KHR_lights_punctual"))
+                    if (const JsonNode index = light->at("light"); whole(index) >= lightCount())
+                        index.failValue("an index into lights, of which there are " + std::to_string(lightCount()));
             }
         });
         forEach("skins", [this](const JsonNode& skin) {
@@ -212,12 +207,19 @@ class Checker {
         forEach("materials", [this](const JsonNode& material) { textureReferences(material); });
     }
 
+    std::size_t lightCount() const {
+        const auto extensions = root_.find("extensions");
+        const auto punctual = extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
+        return punctual ? punctual->at("lights").arraySize() : 0;
+    }
+
     // Every member whose name ends with "Texture" names one by its index, wherever extensions put it.
     void textureReferences(const JsonNode& object) const {
         constexpr std::string_view kEnd = "exture";
         object.forEachMember([&](const std::string& key, const JsonNode& member) {
             if (!member.value().is_object() || key == "extras") return;
-            const bool isTexture = key.size() > kEnd.size() && key.compare(key.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
+            const bool isTexture =
+                key.size() > kEnd.size() && key.compare(key.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
             if (isTexture) reference(member.at("index"), "textures");
             textureReferences(member);
         });

@@ -170,11 +170,10 @@ GltfFile readGltf(const fs::path& path) {
     bool isRead = false;
     try {
         const auto* bytes = reinterpret_cast<const unsigned char*>(content.data());
-        isRead = isBinary(content)
-                     ? parser.LoadBinaryFromMemory(&file.model, &errors, &warnings, bytes,
-                                                   static_cast<unsigned>(content.size()), folder)
-                     : parser.LoadASCIIFromString(&file.model, &errors, &warnings, text.data(),
-                                                  static_cast<unsigned>(text.size()), folder);
+        isRead = isBinary(content) ? parser.LoadBinaryFromMemory(&file.model, &errors, &warnings, bytes,
+                                                                 static_cast<unsigned>(content.size()), folder)
+                                   : parser.LoadASCIIFromString(&file.model, &errors, &warnings, text.data(),
+                                                                static_cast<unsigned>(text.size()), folder);
     } catch (const std::exception& error) { // of its containers, at what it does not check
         throw InputError(name + ": not a valid file of glTF: " + firstLine(error.what()));
     }

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
@@ -70,6 +74,7 @@ class Importer {
         checkSize();
         flatten();
         addMeshes();
+        addLights();
         addCameras();
         addBackground();
         addNotices();
@@ -230,7 +235,8 @@ class Importer {
             if (surfaces.empty()) continue;
             for (const Affine& toWorld : where) bounds_.add(bounds, toWorld);
             if (where.size() == 1) {
-                if (!isIdentity(where.front())) surfaces = {{GroupDesc{toTransform(where.front()), std::move(surfaces)}}};
+                if (!isIdentity(where.front()))
+                    surfaces = {{GroupDesc{toTransform(where.front()), std::move(surfaces)}}};
                 std::move(surfaces.begin(), surfaces.end(), std::back_inserter(scene_.objects));
                 continue;
             }
@@ -282,9 +288,42 @@ class Importer {
         }
     }
 
+    void addLights() {
+        for (const Placed& placed : placed_) {
+            const tinygltf::Node& node = file_.model.nodes[placed.node];
+            const auto extension = node.extensions.find("KHR_lights_punctual");
+            if (extension == node.extensions.end()) continue;
+            const int index = extension->second.Get("light").GetNumberAsInt();
+            const std::string place = "/extensions/KHR_lights_punctual/lights/" + std::to_string(index);
+            const tinygltf::Light& source = file_.model.lights[static_cast<std::size_t>(index)];
+            glm::dvec3 power(source.intensity);
+            if (source.color.size() == 3) power *= glm::dvec3(source.color[0], source.color[1], source.color[2]);
+            for (int c = 0; c < 3; ++c)
+                if (!(power[c] >= 0 && power[c] <= kLargest)) file_.fail(place, "its intensity must be from 0 to 1e9");
+            const glm::dvec3 position = placed.toWorld.offset, forward = placed.toWorld.vector({0, 0, -1});
+            if (source.type != "point" && !(glm::length(forward) > 0))
+                file_.fail(placeOf(placed.node), "its transform leaves the light no direction");
+            hasLights_ = true;
+            if (source.type == "point") {
+                scene_.objects.push_back({PointLightDesc{position, power}});
+            } else if (source.type == "directional") {
+                scene_.objects.push_back({DirectionalLightDesc{glm::normalize(forward), power}});
+            } else if (source.type == "spot") {
+                const double inner = glm::degrees(source.spot.innerConeAngle);
+                const double outer = glm::degrees(source.spot.outerConeAngle);
+                if (!(inner >= 0 && inner < outer && outer <= 90 + 1e-6)) // a rounded quarter turn
+                    file_.fail(place, "spot: its angles must be 0 <= innerConeAngle < outerConeAngle <= pi / 2");
+                scene_.objects.push_back(
+                    {SpotLightDesc{position, glm::normalize(forward), power, inner, std::min(outer, 90.0)}});
+            } else {
+                file_.fail(place, "type: must be point, spot or directional");
+            }
+        }
+    }
+
     // Assets come without any light, or with small parts that glow: a bright surrounding shows them.
     void addBackground() {
-        if (materials_.emitsAsLight()) return;
+        if (hasLights_ || materials_.emitsAsLight()) return;
         scene_.background = kStudio;
         scene_.notices.push_back("there is no light in the file: the background is a gradient of grey");
     }
@@ -293,7 +332,8 @@ class Importer {
         std::vector<std::string>& notices = scene_.notices;
         notices.insert(notices.end(), file_.notices.begin(), file_.notices.end());
         if (withoutTriangles_ > 0)
-            notices.push_back(std::to_string(withoutTriangles_) + " primitives of points, lines or no triangle are left out");
+            notices.push_back(std::to_string(withoutTriangles_) +
+                              " primitives of points, lines or no triangle are left out");
         if (isSkinned_) notices.push_back("skins are left out: meshes are where their nodes are");
         if (isMorphed_) notices.push_back("morph targets are left out");
         if (!file_.model.animations.empty()) notices.push_back("animations are left out: nodes are at rest");
@@ -306,6 +346,7 @@ class Importer {
     std::vector<Placed> placed_;
     Bounds bounds_; // of everything, in world space
     std::size_t withoutTriangles_ = 0;
+    bool hasLights_ = false;
     bool isSkinned_ = false;
     bool isMorphed_ = false;
 };

@@ -124,8 +124,8 @@ struct GltfMaterials::Slot {
 GltfMaterials::GltfMaterials(const GltfFile& file, SceneDesc& scene) : file_(file), scene_(scene) {
     for (std::size_t i = 0; i < file.model.materials.size(); ++i) add(i);
     for (const auto& [what, count] : leftOut_)
-        scene.notices.push_back(what + " of " + std::to_string(count) + (count == 1 ? " material is" : " materials are") +
-                                " left out");
+        scene.notices.push_back(what + " of " + std::to_string(count) +
+                                (count == 1 ? " material is" : " materials are") + " left out");
 }
 
 void GltfMaterials::leaveOut(const std::string& what) {
@@ -161,7 +161,8 @@ std::string GltfMaterials::texture(const Slot& slot, ColorSpace space, const glm
     texture.uvSet = static_cast<std::uint32_t>(slot.set);
     if (slot.transform) texture.uvTransform = uvRows(*slot.transform);
     for (const double entry : texture.uvTransform)
-        if (!(std::abs(entry) <= kLargest)) file_.fail(place, "KHR_texture_transform: must be numbers from -1e9 to 1e9");
+        if (!(std::abs(entry) <= kLargest))
+            file_.fail(place, "KHR_texture_transform: must be numbers from -1e9 to 1e9");
     for (const auto& [name, known] : scene_.textures)
         if (known == TextureDesc(texture)) return name;
     const std::string usual = image.name.empty() ? source.name : image.name;
@@ -171,7 +172,8 @@ std::string GltfMaterials::texture(const Slot& slot, ColorSpace space, const glm
 }
 
 NumberOrTexture GltfMaterials::number(double factor, const Slot& slot, Channel channel, const std::string& place) {
-    return {share(factor), texture(slot, ColorSpace::Linear, glm::dvec3(1), place), channel};
+    const std::string name = texture(slot, ColorSpace::Linear, glm::dvec3(1), place);
+    return {share(factor), name, name.empty() ? Channel::Red : channel};
 }
 
 ColorOrTexture GltfMaterials::color(const glm::dvec3& factor, const Slot& slot, const std::string& place) {
@@ -205,14 +207,15 @@ void GltfMaterials::add(std::size_t index) {
     const bool isOpaque = source.alphaMode != "MASK" && source.alphaMode != "BLEND";
     if (!isOpaque) {
         p.opacity.factor = share(pbr.baseColorFactor.size() > 3 ? pbr.baseColorFactor[3] : 1);
-        if (const auto* name = std::get_if<std::string>(&material.albedo)) p.opacity.texture = *name;
-        p.opacity.channel = Channel::Alpha;
+        if (const auto* name = std::get_if<std::string>(&material.albedo)) {
+            p.opacity.texture = *name;
+            p.opacity.channel = Channel::Alpha;
+        }
         if (source.alphaMode == "MASK") p.alphaCutoff = share(source.alphaCutoff);
     }
     material.emission = colorOf(source.emissiveFactor, 0);
     if (const auto* strength = extension(source.extensions, "KHR_materials_emissive_strength"))
-        material.emission =
-            glm::clamp(material.emission * numberOf(*strength, "emissiveStrength", 1), 0.0, kLargest);
+        material.emission = glm::clamp(material.emission * numberOf(*strength, "emissiveStrength", 1), 0.0, kLargest);
     if (material.emission != glm::dvec3(0))
         material.emissionTexture = texture(Slot(source.emissiveTexture), ColorSpace::Srgb, glm::dvec3(1), place);
     emitsAsLight_ = emitsAsLight_ || glm::any(glm::greaterThan(material.emission, glm::dvec3(1)));
@@ -243,8 +246,10 @@ void GltfMaterials::addExtensions(const tinygltf::Material& source, const std::s
     if (const auto* ior = extension(extensions, "KHR_materials_ior")) {
         constexpr double kLargestIor = 10;
         const double stated = numberOf(*ior, "ior", 1.5);
-        if (stated < 1 || stated > kLargestIor) leaveOut("an index of refraction outside 1 to 10");
-        else p.ior = stated;
+        if (stated < 1 || stated > kLargestIor)
+            leaveOut("an index of refraction outside 1 to 10");
+        else
+            p.ior = stated;
     }
     if (const auto* transmission = extension(extensions, "KHR_materials_transmission")) {
         p.transmission = number(numberOf(*transmission, "transmissionFactor", 0),
@@ -261,23 +266,23 @@ void GltfMaterials::addExtensions(const tinygltf::Material& source, const std::s
         }
     }
     if (const auto* specular = extension(extensions, "KHR_materials_specular")) {
-        p.specular = number(numberOf(*specular, "specularFactor", 1), Slot(*specular, "specularTexture"),
-                            Channel::Alpha, place);
+        p.specular =
+            number(numberOf(*specular, "specularFactor", 1), Slot(*specular, "specularTexture"), Channel::Alpha, place);
         const glm::dvec3 tint = vectorOf(*specular, "specularColorFactor", 1);
         if (glm::any(glm::greaterThan(tint, glm::dvec3(1)))) leaveOut("what exceeds 1 in the specular colour");
         p.specularColor = color(tint, Slot(*specular, "specularColorTexture"), place);
     }
     if (const auto* coat = extension(extensions, "KHR_materials_clearcoat")) {
-        p.clearcoat = number(numberOf(*coat, "clearcoatFactor", 0), Slot(*coat, "clearcoatTexture"),
-                             Channel::Red, place);
+        p.clearcoat =
+            number(numberOf(*coat, "clearcoatFactor", 0), Slot(*coat, "clearcoatTexture"), Channel::Red, place);
         p.clearcoatRoughness = number(numberOf(*coat, "clearcoatRoughnessFactor", 0),
                                       Slot(*coat, "clearcoatRoughnessTexture"), Channel::Green, place);
         if (member(*coat, "clearcoatNormalTexture")) leaveOut("the normal map of the clearcoat");
     }
     if (const auto* sheen = extension(extensions, "KHR_materials_sheen")) {
         p.sheenColor = color(vectorOf(*sheen, "sheenColorFactor", 0), Slot(*sheen, "sheenColorTexture"), place);
-        p.sheenRoughness = number(numberOf(*sheen, "sheenRoughnessFactor", 0),
-                                  Slot(*sheen, "sheenRoughnessTexture"), Channel::Alpha, place);
+        p.sheenRoughness = number(numberOf(*sheen, "sheenRoughnessFactor", 0), Slot(*sheen, "sheenRoughnessTexture"),
+                                  Channel::Alpha, place);
     }
 }
 

@@ -27,7 +27,8 @@ std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* n
 }
 
 bool isTriangles(int mode) {
-    return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP || mode == TINYGLTF_MODE_TRIANGLE_FAN;
+    return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+           mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
 // ---- connectivity --------------------------------------------------------------------------------------------------
@@ -44,8 +45,8 @@ std::vector<glm::uvec3> trianglesOf(const std::vector<std::uint32_t>& v, int mod
     const bool isStrip = mode == TINYGLTF_MODE_TRIANGLE_STRIP;
     triangles.reserve(v.size() - 2);
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
-        const glm::uvec3 t = isStrip ? glm::uvec3(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2])
-                                     : glm::uvec3(v[i + 1], v[i + 2], v[0]);
+        const glm::uvec3 t =
+            isStrip ? glm::uvec3(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]) : glm::uvec3(v[i + 1], v[i + 2], v[0]);
         if (t.x != t.y && t.y != t.z && t.z != t.x) triangles.push_back(t); // strips are joined by those without area
     }
     return triangles;
@@ -78,8 +79,7 @@ void separateCorners(MeshData& mesh) {
     separate(mesh.uvs);
     separate(mesh.uvs2);
     separate(mesh.colors);
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-        mesh.triangles[i] = glm::uvec3(3 * i, 3 * i + 1, 3 * i + 2);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) mesh.triangles[i] = glm::uvec3(3 * i, 3 * i + 1, 3 * i + 2);
 }
 
 // Appends a copy of a vertex.
@@ -146,8 +146,7 @@ void addTangents(MeshData& mesh, std::uint32_t set) {
             const glm::dvec3 normal = mesh.normals.empty() ? face : unit(mesh.normals[vertex]);
             const glm::dvec3 a = across(normal, p[(c + 1) % 3] - p[c]), b = across(normal, p[(c + 2) % 3] - p[c]);
             const double angle = std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
-            mesh.tangents[vertex] =
-                glm::dvec4(glm::dvec3(mesh.tangents[vertex]) + angle * across(normal, along), sign);
+            mesh.tangents[vertex] = glm::dvec4(glm::dvec3(mesh.tangents[vertex]) + angle * across(normal, along), sign);
         }
         t = renamed;
     }
@@ -183,8 +182,8 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
         corners = readIndices(file, primitive.indices);
         for (const std::uint32_t corner : corners)
             if (corner >= count)
-                file.fail(place + "/indices", "index " + std::to_string(corner) + ": there are " +
-                                                  std::to_string(count) + " vertices");
+                file.fail(place + "/indices",
+                          "index " + std::to_string(corner) + ": there are " + std::to_string(count) + " vertices");
     } else {
         corners.resize(count);
         std::iota(corners.begin(), corners.end(), 0u);

@@ -4,6 +4,7 @@
 #pragma GCC system_header
 #endif
 #include <fstream> // which it leaves out without file access, though its writers use it
+
 #include <nlohmann/json.hpp>
 
 #define TINYGLTF_NO_STB_IMAGE
