@@ -52,6 +52,15 @@ TEST_F(Ranks, MakeTheBitsOfOneProcess) {
     EXPECT_TRUE(picture(2, region) == pixels(region));
 }
 
+TEST_F(Ranks, MakeTheBitsOfOneProcessWithAdaptiveSamples) {
+    const Arguments odd = {"--width", "150", "--height", "101", "--spp", "37", "--adaptive", "on"};
+    const std::string one = pixels(odd);
+    for (const int ranks : {2, 3, 5}) EXPECT_TRUE(picture(ranks, odd) == one) << ranks;
+    const Arguments rounds = {"--width",      "64", "--height",     "64",  "--spp",      "150",
+                              "--replicates", "4",  "--time-limit", "600", "--adaptive", "on"};
+    EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
+}
+
 TEST_F(Ranks, StatisticsNameThem) {
     ASSERT_EQ(mpirun(3, {"--width", "64", "--height", "64", "--spp", "64", "--stats", "s.json"}).exitCode, 0);
     const auto stats = jsonOf("s.json");
@@ -83,27 +92,56 @@ TEST_F(Ranks, MustHaveOneScene) {
 
 #ifndef _WIN32
 
-TEST_F(Ranks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
-    const std::string program = programPath("ray-tracing-cpu");
-    const Arguments common = {"-q", "--headless", "--width", "24", "--height", "24", "--threads", "1"};
-    Arguments endless = common;
-    endless.insert(endless.end(), {"--spp", "2147483647", "--checkpoint", "c.rtc", "--save-every", "0.05"});
-    Arguments all = {"-n", "2", program};
-    all.insert(all.end(), endless.begin(), endless.end());
-    all.insert(all.end(), {":", "-n", "1", "sh", "-c",
-                           "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; kill -9 $!; exit 9", program});
-    all.insert(all.end(), endless.begin(), endless.end());
-    EXPECT_NE(run(RT_MPIEXEC, all, launcher()).exitCode, 0);
+// Rank 1 of two, which dies, or stops, when there is a checkpoint.
+class EndedRanks : public Ranks {
+  protected:
+    Outcome runUntil(const std::string& end, Arguments arguments) const {
+        const std::string program = programPath("ray-tracing-cpu");
+        arguments.insert(arguments.begin(), {"-q", "--headless", "--width", "24", "--height", "24", "--threads", "1",
+                                             "--checkpoint", "c.rtc", "--save-every", "0.05"});
+        Arguments all = {"-n", "1", program};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        all.insert(all.end(), {":", "-n", "1", "sh", "-c",
+                               "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; " + end, program});
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run(RT_MPIEXEC, all, launcher());
+    }
+    Arguments size(const std::string& spp) const {
+        return {"--width", "24", "--height", "24", "--threads", "1", "--spp", spp};
+    }
+};
 
+TEST_F(EndedRanks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
+    EXPECT_NE(runUntil("kill -9 $!; exit 9", {"--spp", "2147483647"}).exitCode, 0);
     const image::Film film = image::readCheckpoint(path("c.rtc")).film;
     std::uint64_t most = 0;
     for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
     EXPECT_GT(most, 0u);
-    Arguments rest = common;
-    rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
+    const Arguments rest = size(std::to_string(most + 5));
     Arguments resumed = rest;
     resumed.insert(resumed.end(), {"--resume", "c.rtc"});
-    EXPECT_TRUE(picture(2, resumed) == pixels(rest));
+    EXPECT_TRUE(picture(3, resumed) == pixels(rest));
+}
+
+// In the pilot, which alone is too long for the test, and once the plan was made.
+TEST_F(EndedRanks, AdaptiveSamplesGoOnToo) {
+    Arguments rest = size("4000");
+    rest.insert(rest.end(), {"--adaptive", "on"});
+    const std::string one = pixels(rest);
+    EXPECT_NE(runUntil("kill -9 $!; exit 9", {"--spp", "4000", "--adaptive", "on"}).exitCode, 0);
+    rest.insert(rest.end(), {"--resume", "c.rtc"});
+    EXPECT_TRUE(picture(3, rest) == one);
+    EXPECT_TRUE(pixels(rest) == one);
+}
+
+// The files are written, all end by themselves, and the exit code says so.
+TEST_F(EndedRanks, OneThatStopsForEverHoldsNobodyUp) {
+    const Outcome outcome =
+        runUntil("kill -STOP $!; wait", {"--spp", "3000", "-o", "stopped.pfm", "--stats", "s.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("rank 1 does not answer"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(bytesOf("stopped.pfm") == pixels(size("3000")));
+    EXPECT_EQ(jsonOf("s.json")["spp_done"], 3000);
 }
 
 #endif
