@@ -177,7 +177,7 @@ RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
         const LightSample sampled = get(lanes.lightSamples, i);
-        const Vertex v = get(lanes.vertices, i);
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
         set(lanes.direct, i, weighSample(kFeatures, params, probability, sampled, v, get(lanes.throughput, i)));
     }
 }

@@ -57,11 +57,11 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
         for (; smp.index < task.count; ++smp.index) {
             const uvec2 pixel(x, task.y);
             const Ray ray = cameraRay(kFeatures, context.params, context.camera, pixel, cameraSamples(kFeatures, smp));
-            const Hit hit = traceRay(scene, ray);
+            const Hit hit = traceRay<kFeatures>(scene, smp, 0u, ray);
             if (hit.t < 0.0f) continue;
             const Surface surface = makeSurface(kFeatures, scene, ray, hit);
             const Material material = loadMaterial(scene, surface.material);
-            albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+            albedo += surfaceAlbedo(kFeatures, scene, material, surface);
             normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
             depth += hit.t;
             ++hits;
@@ -76,7 +76,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
     }
 }
 
-// What the kernels cover, from the leanest; the last covers everything.
+// What the kernels cover, from the leanest; the last covers everything, the one before all but what the books lack.
 constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
                                        kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
                                        kFeatureQuadLights | kFeatureTargets;
@@ -84,6 +84,9 @@ constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian 
                                            kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
                                         kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
+
+constexpr std::uint32_t kBookFeatures =
+    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFreeFeatures);
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {
@@ -95,6 +98,7 @@ constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
+    makeKernel<kBookFeatures>("books"),
     makeKernel<kFeatureAll>("all"),
 };
 

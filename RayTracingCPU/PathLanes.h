@@ -27,16 +27,23 @@ struct FieldsOf<VertexSamples>
 template <>
 struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
 
-// Omitted: what is read at arrival only, to find out how the vertex emits and which albedo it has.
 template <>
-struct FieldsOf<Material> : Fields<FieldList<&Material::kind, &Material::parameter>,
-                                   FieldList<&Material::albedo, &Material::texture, &Material::emission,
-                                             &Material::emissionTexture, &Material::emissionSides>> {};
+struct FieldsOf<PrincipledLobes>
+    : Fields<FieldList<&PrincipledLobes::diffuse, &PrincipledLobes::f0, &PrincipledLobes::f90, &PrincipledLobes::sheen,
+                       &PrincipledLobes::sheenExponent, &PrincipledLobes::alpha, &PrincipledLobes::glass,
+                       &PrincipledLobes::eta, &PrincipledLobes::thin, &PrincipledLobes::coat,
+                       &PrincipledLobes::coatAlpha, &PrincipledLobes::diffuseShare, &PrincipledLobes::specularShare,
+                       &PrincipledLobes::coatShare, &PrincipledLobes::glassShare>> {};
+
+// Omitted: what only kernels with principled materials keep, in PathLanes::lobes.
+template <>
+struct FieldsOf<Bsdf>
+    : Fields<FieldList<&Bsdf::kind, &Bsdf::albedo, &Bsdf::parameter>, FieldList<&Bsdf::lobes>> {};
 
 template <>
-struct FieldsOf<Vertex> : Fields<FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::material,
-                                           &Vertex::normal, &Vertex::shading, &Vertex::wo, &Vertex::albedo,
-                                           &Vertex::position, &Vertex::error, &Vertex::origin>> {};
+struct FieldsOf<Vertex>
+    : Fields<FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::bsdf, &Vertex::normal,
+                       &Vertex::shading, &Vertex::wo, &Vertex::position, &Vertex::error, &Vertex::origin>> {};
 
 template <>
 struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoice::probability, &LightChoice::u>> {};
@@ -62,6 +69,7 @@ struct PathLanes {
     RecordLanes<Sampler> samplers;
     RecordLanes<Hit> hits; // of the paths' rays
     RecordLanes<Vertex> vertices;
+    RecordLanes<PrincipledLobes> lobes; // of their bsdfs
     RecordLanes<VertexSamples> u;
     Vec3Lanes throughput;
     FloatLanes time;
@@ -76,6 +84,20 @@ struct PathLanes {
     Vec3Lanes diffuse; // directions of sampleLambertian(), and their densities
     FloatLanes diffusePdf;
 };
+
+// The vertex in a lane, with all of its bsdf.
+template <uint kFeatures>
+RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
+    Vertex v = get(lanes.vertices, i);
+    if (has(kFeatures, kFeaturePrincipled)) v.bsdf.lobes = get(lanes.lobes, i);
+    return v;
+}
+
+template <uint kFeatures>
+RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
+    set(lanes.vertices, i, v);
+    if (has(kFeatures, kFeaturePrincipled)) set(lanes.lobes, i, v.bsdf.lobes);
+}
 
 // Calls work(i) for each lane of `set`, a bit a lane.
 template <class Work>

@@ -27,7 +27,7 @@ struct ActiveSlots {
 RT_CALL void sampleDiffuse(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = get(lanes.vertices, i);
-        const BsdfSample b = sampleLambertian(v.albedo, v.shading, get(lanes.u, i).bsdf);
+        const BsdfSample b = sampleLambertian(v.bsdf.albedo, v.shading, get(lanes.u, i).bsdf);
         set(lanes.diffuse, i, b.wi);
         lanes.diffusePdf.at[i] = b.pdf;
     }
@@ -36,10 +36,10 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
 template <uint kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
-    if (inMedium || !isLambertian(kFeatures, v.material)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
+    if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
     BsdfSample b = absorbed();
     b.wi = get(lanes.diffuse, i);
-    b.weight = v.albedo;
+    b.weight = v.bsdf.albedo;
     b.pdf = lanes.diffusePdf.at[i];
     return b;
 }
@@ -83,7 +83,7 @@ class PathPacket {
                 end(slot);
             }
             if (slot.sample == kNone) continue;
-            set(lanes_.vertices, i, v);
+            keepVertex<kFeatures>(lanes_, i, v);
             active.arrived |= 1u << i;
             active.lit |= uint(choosesLight(v)) << i;
         }
@@ -127,7 +127,7 @@ class PathPacket {
     void goOnFrom(uint i, bool isLit) {
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;
-        const Vertex v = get(lanes_.vertices, i);
+        const Vertex v = vertexIn<kFeatures>(lanes_, i);
         const VertexSamples u = get(lanes_.u, i);
         const DirectLight direct = isLit && usesMis(params_) ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);
@@ -137,25 +137,36 @@ class PathPacket {
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
         }
         if (goOn(params_, v, b, u.roulette.x, path)) {
-            set(lanes_.hits, i, traceOn(direct, path));
+            set(lanes_.hits, i, traceOn(i, direct, path));
         } else {
-            traceShadow(direct, path);
+            traceShadow(i, direct, path);
             end(slot);
         }
     }
 
     // Adds what the shadow ray of a path that has ended lets through.
-    void traceShadow(const DirectLight& direct, PathState& path) {
+    void traceShadow(uint i, const DirectLight& direct, PathState& path) {
         if (!(direct.distance > 0.0f)) return;
         ++counters_.shadow;
-        if (!isOccluded(scene_, shadowRay(path, direct), direct.distance)) {
-            addDirectLight(kFeatures, scene_, direct, path);
+        const Ray ray = shadowRay(path, direct);
+        bool isFree;
+        if (has(kFeatures, kFeatureOpacity)) {
+            const Sampler smp = get(lanes_.samplers, i);
+            isFree = traceRay<kFeatures>(scene_, smp, 2u * path.vertex + 1u, ray, direct.distance).t < 0.0f;
+        } else {
+            isFree = !isOccluded(scene_, ray, direct.distance);
         }
+        if (isFree) addDirectLight(kFeatures, scene_, direct, path);
     }
 
     // What the next ray hits; adds what the shadow ray, if there is one, lets through.
-    Hit traceOn(const DirectLight& direct, PathState& path) {
-        if (!(direct.distance > 0.0f)) return traceRay(scene_, path.ray);
+    Hit traceOn(uint i, const DirectLight& direct, PathState& path) {
+        // What is transmitted starts on the other side of the surface than the shadow ray.
+        const bool startsElsewhere = has(kFeatures, kFeaturePrincipled) && path.ray.origin != path.last.position;
+        if (has(kFeatures, kFeatureOpacity) || startsElsewhere || !(direct.distance > 0.0f)) {
+            traceShadow(i, direct, path);
+            return traceRay<kFeatures>(scene_, get(lanes_.samplers, i), 2u * path.vertex, path.ray);
+        }
         ++counters_.shadow;
         bool isOccluded;
         const Hit hit = scene_.tracer.both(scene_.accel, path.ray, direct.direction, direct.distance, isOccluded);

@@ -2,6 +2,7 @@
 // use. Everything here has internal linkage.
 #pragma once
 #include "Common/Accel/Simd/Prefetch.h"
+#include "Common/Shared/Path/Opacity.h"
 #include "RayTracingCPU/KernelArgs.h"
 
 RT_SHARED_BEGIN
@@ -22,6 +23,20 @@ RT_FN Hit traceRay(const cpu::CpuScene& scene, const Ray& ray) {
 
 RT_FN bool isOccluded(const cpu::CpuScene& scene, const Ray& ray, float tMax) {
     return scene.tracer.occluded(scene.accel, ray, tMax);
+}
+
+// What a ray of the path of a sample hits, but for layers that it goes through; `number` as for goesThrough(). Its
+// distance is from ray.origin.
+template <uint kFeatures>
+RT_FN Hit traceRay(const cpu::CpuScene& scene, const Sampler& smp, uint number, const Ray& ray, float tMax = kInfinity) {
+    Hit hit = scene.tracer.closest(scene.accel, ray, tMax);
+    if (!has(kFeatures, kFeatureOpacity)) return hit;
+    LayeredRay r = beforeLayers(ray);
+    while (goesThrough(kFeatures, scene, smp, number, hit, r)) {
+        hit = scene.tracer.closest(scene.accel, r.ray, tMax - r.from);
+    }
+    if (hit.t >= 0.0f) hit.t += r.from;
+    return hit;
 }
 
 RT_SHARED_END

@@ -26,7 +26,7 @@ class TileSamples {
         const uint i = next_ % kLanes;
         if (i == 0u) {
             generateRays<kFeatures>();
-            traceRays();
+            traceRays<kFeatures>();
         }
         set(lanes.samplers, lane, get(samplers_, i));
         set(lanes.hits, lane, get(hits_, i));
@@ -63,9 +63,12 @@ class TileSamples {
     }
 
     // One after the other: they are alike, and do not wait for each other.
+    template <uint kFeatures>
     void traceRays() {
         const uint count = min(kLanes, count_ - next_);
-        for (uint i = 0u; i < count; ++i) set(hits_, i, traceRay(*context_.scene, get(rays_, i)));
+        for (uint i = 0u; i < count; ++i) {
+            set(hits_, i, traceRay<kFeatures>(*context_.scene, get(samplers_, i), 0u, get(rays_, i)));
+        }
     }
 
     void nextPixel() {

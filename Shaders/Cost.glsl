@@ -15,7 +15,7 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
     bool goesOn = true;
     while (goesOn || direct.distance > 0.0f) {
         bool checking = direct.distance > 0.0f;
-        Hit hit = traceStep(path, direct, checking, nonfinite);
+        Hit hit = traceStep(samples.smp, path, direct, checking, nonfinite);
         rays++;
         if (checking) {
             direct.distance = 0.0f;

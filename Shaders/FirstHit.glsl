@@ -1,5 +1,6 @@
 // First-hit features of a pixel, averaged over its first samples. The includer provides traceRay().
 #include "PixelPass.glsl"
+#include "TraceStep.glsl"
 
 // What the invocation of one pixel of a launch does.
 void writeFeatures(uint invocation) {
@@ -14,11 +15,11 @@ void writeFeatures(uint invocation) {
     uint hits = 0u;
     for (; samples.smp.index < launch.samples; samples.smp.index++) {
         Ray ray = beginPath(params, samples).ray;
-        Hit hit = traceRay(ray, false, kInfinity);
+        Hit hit = traceLayers(samples.smp, 0u, ray, false, kInfinity);
         if (hit.t < 0.0f) continue;
         Surface surface = makeSurface(kFeatures, scene, ray, hit);
         Material material = loadMaterial(scene, surface.material);
-        albedo += texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+        albedo += surfaceAlbedo(kFeatures, scene, material, surface);
         normal += dot(ray.direction, surface.normal) < 0.0f ? surface.shading : -surface.shading;
         depth += hit.t;
         hits++;

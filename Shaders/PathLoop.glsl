@@ -136,17 +136,17 @@ void tracePaths(uint invocation) {
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.slotCount != 0u) break;
         if (tracesApart()) {
-            Hit hit = traceStep(path, direct, false, nonfinite);
+            Hit hit = traceStep(work.smp, path, direct, false, nonfinite);
             goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
             if (direct.distance > 0.0f) {
-                hit = traceStep(path, direct, true, nonfinite);
+                hit = traceStep(work.smp, path, direct, true, nonfinite);
                 endShadowRay(scene, hit, path, direct, shadow);
             }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {
                 bool checking = direct.distance > 0.0f;
                 if (i > 0u && !checking) break;
-                Hit hit = traceStep(path, direct, checking, nonfinite);
+                Hit hit = traceStep(work.smp, path, direct, checking, nonfinite);
                 if (checking) {
                     endShadowRay(scene, hit, path, direct, shadow);
                 } else {

@@ -26,7 +26,7 @@ void main() {
         float part = medium.extinction * lengthWithin(inside, far);
         if (!(part > 0.0f)) continue;
         vec3 middle = ray.origin + ray.direction * (0.5f * (max(inside.x, 0.0f) + min(inside.y, far)));
-        vec3 albedo = texturedAlbedo(kFeatures, scene, medium.albedo, medium.texture, middle, vec2(0.0f));
+        vec3 albedo = texturedAlbedo(kFeatures, scene, medium.albedo, medium.texture, middle);
         scattered += part * albedo * incidentLight(scene, middle, vec3(0.0f), -ray.direction);
         depth += part;
     }

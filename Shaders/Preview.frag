@@ -27,15 +27,21 @@ vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     vec3 normal = isFront ? surface.shading : -surface.shading;
     vec3 radiance = vec3(0.0f);
     if (has(kFeatures, kFeatureEmissive) && (isFront || material.emissionSides == kSidesBoth)) {
-        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv);
+        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv, surface.uv2);
     }
     if (material.kind == kMaterialEmitter) return radiance;
-    vec3 albedo = texturedAlbedo(kFeatures, scene, material.albedo, material.texture, surface.position, surface.uv);
+    vec3 albedo = surfaceAlbedo(kFeatures, scene, material, surface);
     vec3 incident = incidentLight(scene, surface.position, normal, wo);
     if (material.kind != kMaterialLambertian) {
         incident = 0.5f * (incident + skyRadiance(kFeatures, scene, reflect(-wo, normal)));
     }
     return radiance + albedo * incident;
+}
+
+// Of what is partly there the preview draws what is mostly there.
+bool isClear(SceneRef scene, Surface surface) {
+    if (!isPrincipled(kFeatures, loadMaterial(scene, surface.material))) return false;
+    return surfaceOpacity(kFeatures, scene, loadPrincipled(scene, surface.material), surface) < 0.5f;
 }
 
 void main() {
@@ -54,6 +60,7 @@ void main() {
         if (hit.t < 0.0f) discard;
     }
     Surface surface = makeSurface(kFeatures, scene, ray, hit);
+    if (has(kFeatures, kFeatureOpacity) && isClear(scene, surface)) discard;
     float t = kShape == kSphere ? hit.t : dot(surface.position - ray.origin, ray.direction);
     gl_FragDepth = launch.near / dot(launch.clipW, vec4(ray.origin + t * ray.direction, 1.0f));
     color = vec4(surfaceRadiance(scene, surface, -ray.direction), t);

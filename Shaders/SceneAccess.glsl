@@ -37,10 +37,14 @@ LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     return c;
 }
 
-vec3 loadTexel(SceneRef scene, Image image, uint x, uint y) {
+vec4 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint texel = y * image.width + x;
-    if (image.format == kTexelSrgb8) return decodeSrgb8(constants.arrays.texels.at[image.firstTexel + texel]);
+    if (image.format != kTexelLinearF32) {
+        uint word = constants.arrays.texels.at[image.firstTexel + texel];
+        vec4 linear = decodeLinear8(word);
+        return image.format == kTexelSrgb8 ? vec4(decodeSrgb8(word), linear.w) : linear;
+    }
     uint first = image.firstTexel + 3u * texel;
-    return vec3(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
-                uintBitsToFloat(constants.arrays.texels.at[first + 2u]));
+    return vec4(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
+                uintBitsToFloat(constants.arrays.texels.at[first + 2u]), 1.0f);
 }

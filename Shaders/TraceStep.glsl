@@ -1,4 +1,5 @@
 // One ray of a path. The includer provides traceRay() and Common/Shared/Path/PathStep.h.
+#include "Common/Shared/Path/Opacity.h"
 
 // Vulkan leaves undefined what becomes of rays that are not finite or that end before they begin; a device may never
 // return.
@@ -7,9 +8,23 @@ bool isTraceable(Ray ray, float tMax) {
     return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
 }
 
+// As traceRay(), but for layers that the ray goes through; `number` as for goesThrough().
+Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
+    if (!has(kFeatures, kFeatureOpacity)) return traceRay(ray, anyHit, tMax);
+    SceneRef scene;
+    scene.unused = 0u;
+    LayeredRay r = beforeLayers(ray);
+    Hit hit;
+    do {
+        hit = traceRay(r.ray, false, tMax - r.from);
+    } while (goesThrough(kFeatures, scene, smp, number, hit, r));
+    if (hit.t >= 0.0f) hit.t += r.from;
+    return hit;
+}
+
 // What the path's next ray hits; when `checking`, whether the shadow ray of the vertex before hits anything. A ray that
 // cannot be traced is counted; it ends the path, or lets no light through.
-Hit traceStep(PathState path, DirectLight direct, bool checking, inout uint nonfinite) {
+Hit traceStep(Sampler smp, PathState path, DirectLight direct, bool checking, inout uint nonfinite) {
     Ray ray = path.ray;
     float tMax = kInfinity;
     if (checking) {
@@ -24,7 +39,7 @@ Hit traceStep(PathState path, DirectLight direct, bool checking, inout uint nonf
         ray.direction = vec3(0.0f, 0.0f, 1.0f);
         tMax = 1.0f;
     }
-    Hit hit = traceRay(ray, checking, tMax);
+    Hit hit = traceLayers(smp, 2u * path.vertex + (checking ? 1u : 0u), ray, checking, tMax);
     if (!traceable) hit.t = checking ? 0.0f : -1.0f;
     return hit;
 }

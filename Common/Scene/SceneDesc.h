@@ -12,8 +12,10 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "Common/Shared/Material/Materials.h"
+#include "Common/Shared/Material/PrincipledParameters.h"
 
 namespace rt::scene {
 
@@ -78,10 +80,19 @@ struct NoiseTexture {
     std::uint32_t seed = 0; // textures of one seed share their tables
     bool operator==(const NoiseTexture&) const = default;
 };
+enum class Wrap { Clamp, Repeat, Mirror }; // what lies beyond the edges of an image
+enum class ColorSpace { Srgb, Linear };    // how the numbers of an image with 8 or 16 bits are encoded
 struct ImageTexture {
-    std::string file;
-    std::string standIn; // name of a generated map that takes over where the file is missing; empty: that is an error
+    std::string file;        // with an image number: a file of glTF that contains it
+    std::string standIn;     // name of a generated map that takes over where the file is missing; empty: that is an error
     glm::dvec3 tint{1, 1, 1};
+    std::optional<std::uint32_t> image = std::nullopt; // its number among the images of a glTF file
+    ColorSpace colorSpace = ColorSpace::Srgb;
+    Wrap wrapU = Wrap::Clamp;
+    Wrap wrapV = Wrap::Clamp;
+    std::uint32_t uvSet = 0; // which texture coordinates of a mesh: MeshData::uvs or uvs2
+    // Two rows of three: the place in the image is rows . (u, v, 1), before wrapping.
+    std::array<double, 6> uvTransform{1, 0, 0, 0, 1, 0};
     bool operator==(const ImageTexture&) const = default;
 };
 using TextureDesc = std::variant<SolidTexture, CheckerTexture, NoiseTexture, ImageTexture>;
@@ -96,6 +107,33 @@ enum class MaterialKind : std::uint32_t {
 };
 enum class Sides { Front, Both };
 
+// A number, or a number times a channel of an image texture.
+enum class Channel { Red, Green, Blue, Alpha };
+struct NumberOrTexture {
+    double factor = 1;
+    std::string texture; // empty: none
+    Channel channel = Channel::Red;
+    bool operator==(const NumberOrTexture&) const = default;
+};
+
+// What a principled material has beyond MaterialDesc, whose albedo is its base colour: Principled.h explains.
+struct PrincipledDesc {
+#define RT_NUMBER(member, usual) NumberOrTexture member{usual, {}, Channel::Red};
+#define RT_COLOR(member, usual) ColorOrTexture member{glm::dvec3(usual)};
+    RT_PRINCIPLED_NUMBERS(RT_NUMBER)
+    RT_PRINCIPLED_COLORS(RT_COLOR)
+#undef RT_NUMBER
+#undef RT_COLOR
+    double ior = 1.5;                        // index of refraction inside over outside, >= 1
+    bool isThin = false;                     // transmits without bending, as a sheet does
+    glm::dvec3 attenuationColor{1, 1, 1};    // what is left of white after attenuationDistance inside
+    std::optional<double> attenuationDistance; // unset: nothing is absorbed inside
+    std::string normalTexture;               // tangent-space normals, 2 rgb - 1; empty: none
+    double normalScale = 1;                  // of their x and y
+    std::optional<double> alphaCutoff;       // opacity below it is 0, else 1; unset: opacity is a probability
+    bool operator==(const PrincipledDesc&) const = default;
+};
+
 struct MaterialDesc {
     MaterialKind kind = MaterialKind::Lambertian;
     ColorOrTexture albedo{glm::dvec3(1)}; // the colour parameter of the kind, if it has one; components in [0,1]
@@ -103,6 +141,7 @@ struct MaterialDesc {
     glm::dvec3 emission{0, 0, 0};                                              // radiance; any kind may emit
     std::string emissionTexture;                                               // multiplies emission; empty: none
     std::optional<Sides> sides; // which emit; unset: as CompileOptions::oneSidedLights says
+    PrincipledDesc principled;  // of MaterialKind::Principled
     bool operator==(const MaterialDesc&) const = default;
 };
 
@@ -167,6 +206,9 @@ struct MeshData {
     std::vector<glm::dvec3> positions;
     std::vector<glm::dvec3> normals;   // one per position, or none: flat
     std::vector<glm::dvec2> uvs;       // one per position, or none
+    std::vector<glm::dvec2> uvs2;      // a second set, one per position, or none
+    std::vector<glm::dvec4> colors;    // linear rgb and opacity, which multiply a principled material's; likewise
+    std::vector<glm::dvec4> tangents;  // direction of u, and the sign of the bitangent cross(normal, tangent); likewise
     std::vector<glm::uvec3> triangles; // indices into positions, counter-clockwise seen from the front
     bool operator==(const MeshData&) const = default;
 };
@@ -230,6 +272,7 @@ struct SceneDesc {
     std::string id; // of a built-in scene, or the name of the file; not part of a scene file
     std::string title;
     CameraDesc camera;
+    std::map<std::string, CameraDesc> cameras; // others that it can be seen with, by name
     Background background;
     std::map<std::string, TextureDesc> textures;
     std::map<std::string, MaterialDesc> materials;

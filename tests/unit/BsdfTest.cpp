@@ -17,20 +17,23 @@ using test::Uniforms;
 constexpr double kPiD = test::kPi;
 const vec3 kUp(0, 0, 1);
 
-Material lambertian() {
-    Material m{};
+Bsdf lambertian(const vec3& albedo = vec3(1)) {
+    Bsdf m{};
     m.kind = kMaterialLambertian;
+    m.albedo = albedo;
     return m;
 }
-Material metal(float fuzz) {
-    Material m{};
+Bsdf metal(float fuzz, const vec3& albedo = vec3(1)) {
+    Bsdf m{};
     m.kind = kMaterialMetal;
+    m.albedo = albedo;
     m.parameter[kMetalFuzz] = fuzz;
     return m;
 }
-Material glass(float ior) {
-    Material m{};
+Bsdf glass(float ior, const vec3& albedo = vec3(1)) {
+    Bsdf m{};
     m.kind = kMaterialDielectric;
+    m.albedo = albedo;
     m.parameter[kDielectricIor] = ior;
     return m;
 }
@@ -47,14 +50,14 @@ TEST(Lambertian, SampleAndEvaluationAgree) {
     const vec3 albedo(0.2f, 0.5f, 0.9f);
     const vec3 n = normalize(vec3(0.3f, -0.8f, -0.4f));
     for (int i = 0; i < 1000; ++i) {
-        const BsdfSample s = sampleBsdf(kFeatureAll, lambertian(), albedo, n, 1, n, uniform.pair(), 0);
-        const vec4 f = evalBsdf(kFeatureAll, lambertian(), albedo, n, n, s.wi);
+        const BsdfSample s = sampleBsdf(kFeatureAll, lambertian(albedo), n, 1, n, uniform.pair(), 0);
+        const vec4 f = evalBsdf(kFeatureAll, lambertian(albedo), n, n, s.wi);
         EXPECT_EQ(s.weight, albedo);
         EXPECT_NEAR(f.w, s.pdf, 1e-6f);
         EXPECT_NEAR(f.y / f.w, 0.5f, 1e-6f);
         EXPECT_EQ(s.delta | s.transmitted, 0u);
     }
-    EXPECT_EQ(evalBsdf(kFeatureAll, lambertian(), albedo, n, n, -n), vec4(0));
+    EXPECT_EQ(evalBsdf(kFeatureAll, lambertian(albedo), n, n, -n), vec4(0));
     EXPECT_FALSE(isDelta(kFeatureAll, lambertian()));
 }
 
@@ -83,7 +86,7 @@ TEST_P(MetalFuzz, LobeHasTheExactDistribution) {
         for (int j = 0; j < sectors; ++j)
             weights[k * sectors + j] = fuzzCdf(fuzz, edge(k + 1)) - fuzzCdf(fuzz, edge(k));
     for (int i = 0; i < 1 << 19; ++i) {
-        const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), vec3(1), kUp, 1, wo, uniform.pair(), 0);
+        const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), kUp, 1, wo, uniform.pair(), 0);
         const double r2 = (double(s.wi.x) * s.wi.x + double(s.wi.y) * s.wi.y) / (fuzz * fuzz);
         const int sector = static_cast<int>((std::atan2(s.wi.y, s.wi.x) / (2 * kPiD) + 1) * sectors) % sectors;
         ++counts[std::clamp(static_cast<int>(r2 * rings), 0, rings - 1) * sectors + sector];
@@ -117,7 +120,7 @@ TEST_P(MetalFuzz, LosesExactlyWhatPointsIntoTheSurface) {
         Mean reflected;
         for (int i = 0; i < 1 << 16; ++i) {
             const BsdfSample s =
-                sampleBsdf(kFeatureAll, metal(float(fuzz)), vec3(1), kUp, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
+                sampleBsdf(kFeatureAll, metal(float(fuzz)), kUp, 1, vec3(inPlane(cosine)), uniform.pair(), 0);
             reflected.add(s.weight.x);
             ASSERT_TRUE(s.weight.x == 0 || s.wi.z > 0);
         }
@@ -131,8 +134,8 @@ TEST_P(MetalFuzz, SampleAndEvaluationAgree) {
     const vec3 albedo(0.9f, 0.5f, 0.1f);
     const vec3 wo = normalize(vec3(0.5f, 0.2f, 0.6f));
     for (int i = 0; i < 4096; ++i) {
-        const BsdfSample s = sampleBsdf(kFeatureAll, metal(fuzz), albedo, kUp, 1, wo, uniform.pair(), 0);
-        const vec4 f = evalBsdf(kFeatureAll, metal(fuzz), albedo, kUp, wo, s.wi);
+        const BsdfSample s = sampleBsdf(kFeatureAll, metal(fuzz, albedo), kUp, 1, wo, uniform.pair(), 0);
+        const vec4 f = evalBsdf(kFeatureAll, metal(fuzz, albedo), kUp, wo, s.wi);
         ASSERT_EQ(s.delta, 0u);
         ASSERT_GT(s.pdf, 0.0f);
         ASSERT_EQ(f.w, s.pdf);
@@ -158,11 +161,11 @@ TEST(Metal, WithoutFuzzIsAMirror) {
         const vec3 n = sampleSphere(uniform.pair());
         vec3 wo = sampleSphere(uniform.pair());
         if (dot(wo, n) < 0) wo = -wo;
-        const BsdfSample s = sampleBsdf(kFeatureAll, metal(0), vec3(0.5f), n, 1, wo, uniform.pair(), 0);
+        const BsdfSample s = sampleBsdf(kFeatureAll, metal(0, vec3(0.5f)), n, 1, wo, uniform.pair(), 0);
         EXPECT_EQ(s.delta, 1u);
         EXPECT_EQ(s.pdf, 0.0f);
         EXPECT_LE(length(s.wi + wo - n * (2 * dot(n, wo))), 1e-6f);
-        EXPECT_EQ(evalBsdf(kFeatureAll, metal(0), vec3(0.5f), n, wo, s.wi), vec4(0));
+        EXPECT_EQ(evalBsdf(kFeatureAll, metal(0, vec3(0.5f)), n, wo, s.wi), vec4(0));
     }
     EXPECT_TRUE(isDelta(kFeatureAll, metal(0)));
     EXPECT_TRUE(isDelta(kFeatureAll & ~kFeatureFuzz, metal(0)));
@@ -236,14 +239,14 @@ TEST(Dielectric, SnellAndTheWayBack) {
         double c = uniform();
         if (front == 0 && i % 10 == 0) c = std::sqrt(1 - 1 / (eta * eta)) * (1 + uniform.between(0, 1e-6));
         const vec3 wo = normalize(toWorld(frame, vec3(inPlane(std::max(c, 1e-3)))));
-        const BsdfSample s = sampleBsdf(kFeatureAll, glass(ior), vec3(1), n, front, wo, vec2(0), 0.999999f);
+        const BsdfSample s = sampleBsdf(kFeatureAll, glass(ior), n, front, wo, vec2(0), 0.999999f);
         if (s.transmitted == 0) continue;
         ASSERT_LT(dot(s.wi, n), 0.0f);
         const double sineHere = glm::length(glm::cross(dvec3(wo), dvec3(n))),
                      sineThere = glm::length(glm::cross(dvec3(s.wi), dvec3(n)));
         worstSnell = std::max(worstSnell, std::abs(eta * sineHere - sineThere));
         // From the other side, where the other face is the front.
-        const BsdfSample back = sampleBsdf(kFeatureAll, glass(ior), vec3(1), -n, 1u - front, s.wi, vec2(0), 0.999999f);
+        const BsdfSample back = sampleBsdf(kFeatureAll, glass(ior), -n, 1u - front, s.wi, vec2(0), 0.999999f);
         if (back.transmitted == 0) continue;
         const double steep =
             std::max(std::abs(double(dot(s.wi, n))), 1e-3) * std::max(std::abs(double(dot(wo, n))), 1e-3);
@@ -261,7 +264,7 @@ TEST(Dielectric, ChoosesByTheReflectance) {
             const vec3 wo(inPlane(cosine));
             Mean reflected;
             for (int i = 0; i < 1 << 15; ++i) {
-                const BsdfSample s = sampleBsdf(kFeatureAll, glass(1.5f), tint, kUp, front, wo, vec2(0), uniform());
+                const BsdfSample s = sampleBsdf(kFeatureAll, glass(1.5f, tint), kUp, front, wo, vec2(0), uniform());
                 reflected.add(1 - double(s.transmitted));
                 ASSERT_EQ(s.delta, 1u);
                 ASSERT_EQ(s.weight, tint);
@@ -272,7 +275,7 @@ TEST(Dielectric, ChoosesByTheReflectance) {
         }
     }
     EXPECT_TRUE(isDelta(kFeatureAll, glass(1.5f)));
-    EXPECT_EQ(evalBsdf(kFeatureAll, glass(1.5f), tint, kUp, kUp, kUp), vec4(0));
+    EXPECT_EQ(evalBsdf(kFeatureAll, glass(1.5f, tint), kUp, kUp, kUp), vec4(0));
 }
 
 // A plane-parallel slab leaves a direction as it is.
@@ -280,9 +283,9 @@ TEST(Dielectric, SlabIsParallel) {
     Uniforms uniform(11);
     for (int i = 0; i < 10000; ++i) {
         const vec3 d = -vec3(inPlane(0.02 + 0.98 * double(uniform()), double(uniform()) * 6));
-        const BsdfSample in = sampleBsdf(kFeatureAll, glass(1.5f), vec3(1), kUp, 1, -d, vec2(0), 0.999999f);
+        const BsdfSample in = sampleBsdf(kFeatureAll, glass(1.5f), kUp, 1, -d, vec2(0), 0.999999f);
         if (in.transmitted == 0) continue;
-        const BsdfSample out = sampleBsdf(kFeatureAll, glass(1.5f), vec3(1), kUp, 0, -in.wi, vec2(0), 0.999999f);
+        const BsdfSample out = sampleBsdf(kFeatureAll, glass(1.5f), kUp, 0, -in.wi, vec2(0), 0.999999f);
         if (out.transmitted == 0) continue;
         ASSERT_LE(length(out.wi - d) * std::abs(d.z), 2e-6f);
     }
@@ -291,18 +294,18 @@ TEST(Dielectric, SlabIsParallel) {
 // ---- others --------------------------------------------------------------------------------------------------------
 
 TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
-    Material emitter{};
+    Bsdf emitter{};
     emitter.kind = kMaterialEmitter;
-    const BsdfSample s = sampleBsdf(kFeatureAll, emitter, vec3(1), kUp, 1, kUp, vec2(0.5f), 0.5f);
+    const BsdfSample s = sampleBsdf(kFeatureAll, emitter, kUp, 1, kUp, vec2(0.5f), 0.5f);
     EXPECT_EQ(s.weight, vec3(0));
-    EXPECT_EQ(evalBsdf(kFeatureAll, emitter, vec3(1), kUp, kUp, kUp), vec4(0));
+    EXPECT_EQ(evalBsdf(kFeatureAll, emitter, kUp, kUp, kUp), vec4(0));
     EXPECT_FALSE(isDelta(kFeatureAll, emitter));
 }
 
 // A feature mask that is exactly what a material needs gives the same bits as the largest.
 TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
     Uniforms uniform(12);
-    const std::pair<Material, uint> materials[] = {{lambertian(), kFeatureLambertian},
+    const std::pair<Bsdf, uint> materials[] = {{lambertian(), kFeatureLambertian},
                                                    {metal(0), kFeatureMetal},
                                                    {metal(0.3f), kFeatureMetal | kFeatureFuzz},
                                                    {glass(1.5f), kFeatureDielectric}};
@@ -310,12 +313,12 @@ TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
         for (int i = 0; i < 100; ++i) {
             const vec2 u = uniform.pair();
             const vec3 wo(inPlane(0.1 + 0.9 * double(uniform())));
-            const BsdfSample a = sampleBsdf(features, material, vec3(1), kUp, 1, wo, u, u.x);
-            const BsdfSample b = sampleBsdf(kFeatureAll, material, vec3(1), kUp, 1, wo, u, u.x);
+            const BsdfSample a = sampleBsdf(features, material, kUp, 1, wo, u, u.x);
+            const BsdfSample b = sampleBsdf(kFeatureAll, material, kUp, 1, wo, u, u.x);
             ASSERT_EQ(a.wi, b.wi);
             ASSERT_EQ(a.pdf, b.pdf);
-            ASSERT_EQ(evalBsdf(features, material, vec3(1), kUp, wo, a.wi),
-                      evalBsdf(kFeatureAll, material, vec3(1), kUp, wo, a.wi));
+            ASSERT_EQ(evalBsdf(features, material, kUp, wo, a.wi),
+                      evalBsdf(kFeatureAll, material, kUp, wo, a.wi));
         }
     }
 }

@@ -92,14 +92,13 @@ LitScene randomScene(Uniforms& uniform, uint count) {
 
 Vertex randomVertex(Uniforms& uniform) {
     Vertex v{};
-    v.material = blackMaterial();
-    v.material.kind = uniform.word() % 4 == 0 ? kMaterialMetal : kMaterialLambertian;
-    v.material.parameter[kMetalFuzz] = 0.3f;
+    v.bsdf.kind = uniform.word() % 4 == 0 ? kMaterialMetal : kMaterialLambertian;
+    v.bsdf.parameter[kMetalFuzz] = 0.3f;
     v.position = pointWithin(uniform, 3);
     v.normal = normalize(pointWithin(uniform, 1));
     v.shading = normalize(v.normal + pointWithin(uniform, 0.2));
     v.wo = normalize(v.normal + pointWithin(uniform, 0.5));
-    v.albedo = vec3(0.2f, 0.4f, 0.8f);
+    v.bsdf.albedo = vec3(0.2f, 0.4f, 0.8f);
     v.error = vec3(1.0e-6f);
     v.origin = offsetOrigin(v.position, v.error, v.normal, v.normal);
     v.index = uniform.word() % 3;
@@ -223,9 +222,8 @@ TEST(Lanes, RecordsComeBackAsTheyWere) {
     for (uint i = 0; i < kLanes; ++i) {
         const Vertex v = get(lanes, i);
         EXPECT_EQ(v.index, vertices[i].index);
-        EXPECT_EQ(v.material.kind, vertices[i].material.kind);
-        EXPECT_EQ(v.material.parameter[kMetalFuzz], vertices[i].material.parameter[kMetalFuzz]);
-        EXPECT_EQ(v.material.texture, 0u);
+        EXPECT_EQ(v.bsdf.kind, vertices[i].bsdf.kind);
+        EXPECT_EQ(v.bsdf.parameter[kMetalFuzz], vertices[i].bsdf.parameter[kMetalFuzz]);
         EXPECT_TRUE(isSame(v.wo, vertices[i].wo));
         EXPECT_TRUE(isSame(v.origin, vertices[i].origin));
         EXPECT_TRUE(isSame(get(lanesOf<&Vertex::origin>(lanes), i), v.origin));

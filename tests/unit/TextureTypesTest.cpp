@@ -7,64 +7,22 @@
 
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/TextureTypes.h"
+#include "tests/unit/SceneParameters.h"
 
 namespace rt::scene {
 namespace {
 
 using Json = nlohmann::json;
-
-const Json kColor = {{"$ref", "#/definitions/color"}};
-
-// ---- a value that no parameter has by default, and the schema of each kind of parameter ---------------------------
-
-Json sample(const TextureParameter& p, const std::string&) {
-    return p.choices ? p.choices().back() : "none.jpg";
-}
-Json sample(const TextureParameter&, const glm::dvec3&) {
-    return {0.125, 0.25, 0.5};
-}
-Json sample(const TextureParameter&, const ColorOrTexture&) {
-    return "other";
-}
-Json sample(const TextureParameter& p, NoiseKind) {
-    return p.choices().back();
-}
-Json sample(const TextureParameter& p, double) {
-    EXPECT_GE(2.5, p.least);
-    EXPECT_LE(2.5, p.most);
-    return 2.5;
-}
-Json sample(const TextureParameter&, std::uint32_t) {
-    return 7u;
-}
-
-Json schemaOf(const TextureParameter& p, const std::string&) {
-    return p.choices ? Json{{"enum", p.choices()}} : Json{{"type", "string"}};
-}
-Json schemaOf(const TextureParameter&, const glm::dvec3&) {
-    return kColor;
-}
-Json schemaOf(const TextureParameter&, const ColorOrTexture&) {
-    return {{"$ref", "#/definitions/color_or_texture"}};
-}
-Json schemaOf(const TextureParameter& p, NoiseKind) {
-    return {{"enum", p.choices()}};
-}
-Json schemaOf(const TextureParameter& p, double usual) {
-    Json schema = {{"type", "number"}, {"minimum", p.least}, {"maximum", p.most}};
-    if (!p.isRequired) schema["default"] = usual;
-    return schema;
-}
-Json schemaOf(const TextureParameter&, std::uint32_t usual) {
-    return {{"type", "integer"}, {"minimum", 0}, {"maximum", 4294967295u}, {"default", usual}};
-}
+using test::described;
+using test::sample;
+using test::schemaOf;
 
 // ---- what holds ----------------------------------------------------------------------------------------------------
 
 template <typename Texture>
 void expectRoundTrip(bool onlyRequired) {
     Json texture = {{"type", TextureType<Texture>::name}};
-    TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
+    TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto member) {
         const bool replacesFile = std::string(p.name) == "stand_in"; // there is no such file
         if (p.isRequired || replacesFile || !onlyRequired) texture[p.name] = sample(p, Texture().*member);
     });
@@ -91,9 +49,8 @@ TEST(TextureTypes, AreTheSchemas) {
     forEachTextureType([&]<typename Texture>(const Texture& usual) {
         Json properties = {{"type", {{"const", TextureType<Texture>::name}}}};
         Json required = {"type"};
-        TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
-            properties[p.name] = schemaOf(p, usual.*member);
-            if (*p.help) properties[p.name]["description"] = p.help;
+        TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto member) {
+            properties[p.name] = described(p, schemaOf(p, usual.*member));
             if (p.isRequired) required.push_back(p.name);
         });
         expected.push_back({{"description", TextureType<Texture>::help},

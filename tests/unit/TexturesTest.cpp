@@ -20,6 +20,10 @@ struct TextureScene : SceneArraysOf<std::vector> {
     operator SceneView() const { return viewOf(*this, {}); }
 };
 
+Texture makeTexture(uint kind, const vec3& color, float scale, float frequency, uint first, uint second) {
+    return {kind, color, scale, frequency, first, second, kWrapClamp, kWrapClamp, 0, vec3(1, 0, 0), vec3(0, 1, 0)};
+}
+
 // In floats from the start: the oracle must see the very same point.
 vec3 pointWithin(Uniforms& uniform, float extent) {
     return (vec3(uniform(), uniform(), uniform()) * 2.0f - 1.0f) * extent;
@@ -69,7 +73,7 @@ double exactTurbulence(const TextureScene& scene, uint table, dvec3 p) {
 }
 
 vec3 evaluate(const TextureScene& scene, uint texture, const vec3& point, const vec2& uv = vec2(0)) {
-    return evalTexture(kFeatureAll, scene, texture, point, uv);
+    return vec3(evalTexture(kFeatureAll, scene, texture, point, uv, uv));
 }
 
 // ---- coordinates ---------------------------------------------------------------------------------------------------
@@ -96,11 +100,11 @@ TEST(Textures, SphereCoordinates) {
 TextureScene checkerScene() {
     TextureScene scene;
     scene.textures.resize(5);
-    scene.textures[0] = {kTextureChecker, vec3(1), 0.32f, 0, 1, 2};
-    scene.textures[1] = {kTextureSolid, vec3(1, 0, 0), 1, 0, 0, 0};
-    scene.textures[2] = {kTextureSolid, vec3(0, 1, 0), 1, 0, 0, 0};
-    scene.textures[3] = {kTextureChecker, vec3(1), 1, 0, 0, 4}; // even cells hold another checker
-    scene.textures[4] = {kTextureSolid, vec3(0, 0, 1), 1, 0, 0, 0};
+    scene.textures[0] = makeTexture(kTextureChecker, vec3(1), 0.32f, 0, 1, 2);
+    scene.textures[1] = makeTexture(kTextureSolid, vec3(1, 0, 0), 1, 0, 0, 0);
+    scene.textures[2] = makeTexture(kTextureSolid, vec3(0, 1, 0), 1, 0, 0, 0);
+    scene.textures[3] = makeTexture(kTextureChecker, vec3(1), 1, 0, 0, 4); // even cells hold another checker
+    scene.textures[4] = makeTexture(kTextureSolid, vec3(0, 0, 1), 1, 0, 0, 0);
     return scene;
 }
 
@@ -129,19 +133,19 @@ TEST(Textures, CheckersNestWithoutRecursion) {
     EXPECT_EQ(evaluate(scene, 3, vec3(1.1f, 0.1f, 0.1f)), vec3(0, 0, 1));
     // A checker that refers to itself ends, with some colour.
     TextureScene cyclic;
-    cyclic.textures.push_back({kTextureChecker, vec3(0.5f), 1, 0, 0, 0});
-    EXPECT_TRUE(isFinite(evalTexture(kFeatureChecker, cyclic, 0, vec3(0), vec2(0))));
+    cyclic.textures.push_back(makeTexture(kTextureChecker, vec3(0.5f), 1, 0, 0, 0));
+    EXPECT_TRUE(isFinite(vec3(evalTexture(kFeatureChecker, cyclic, 0, vec3(0), vec2(0), vec2(0)))));
 }
 
 // What the compiler refuses must not make a kernel read beyond a table: `first` of a checker is no Perlin table.
 TEST(Textures, CheckersNestedTooDeepAreNotTakenForNoise) {
     TextureScene scene;
     for (uint i = 0; i <= kMaxCheckerDepth; ++i)
-        scene.textures.push_back({kTextureChecker, vec3(0.25f), 1, 0, i + 1, i + 1});
-    scene.textures.push_back({kTextureSolid, vec3(1), 1, 0, 0, 0});
+        scene.textures.push_back(makeTexture(kTextureChecker, vec3(0.25f), 1, 0, i + 1, i + 1));
+    scene.textures.push_back(makeTexture(kTextureSolid, vec3(1), 1, 0, 0, 0));
     const uint features = kFeatureChecker | kFeatureNoise | kFeatureImages;
-    EXPECT_EQ(evalTexture(features, scene, 1, vec3(0.5f), vec2(0)), vec3(1)) << "as deep as is allowed";
-    EXPECT_EQ(evalTexture(features, scene, 0, vec3(0.5f), vec2(0)), vec3(0.25f)) << "one too deep";
+    EXPECT_EQ(vec3(evalTexture(features, scene, 1, vec3(0.5f), vec2(0), vec2(0))), vec3(1)) << "as deep as is allowed";
+    EXPECT_EQ(vec3(evalTexture(features, scene, 0, vec3(0.5f), vec2(0), vec2(0))), vec3(0.25f)) << "one too deep";
 }
 
 // ---- noise ---------------------------------------------------------------------------------------------------------
@@ -179,9 +183,9 @@ TEST(Textures, NoiseMatchesTheBook) {
 TEST(Textures, NoiseKinds) {
     TextureScene scene = perlinScene(1);
     const vec3 tint(0.5f, 1, 2);
-    scene.textures.push_back({kTextureMarble, tint, 4, 4, 0, 0});
-    scene.textures.push_back({kTextureTurbulence, tint, 4, 0, 0, 0});
-    scene.textures.push_back({kTextureNoise, tint, 4, 0, 0, 0});
+    scene.textures.push_back(makeTexture(kTextureMarble, tint, 4, 4, 0, 0));
+    scene.textures.push_back(makeTexture(kTextureTurbulence, tint, 4, 0, 0, 0));
+    scene.textures.push_back(makeTexture(kTextureNoise, tint, 4, 0, 0, 0));
     Uniforms uniform(5);
     for (int i = 0; i < 2000; ++i) {
         const vec3 p = pointWithin(uniform, 5);
@@ -204,7 +208,7 @@ TextureScene imageScene() {
     for (uint y = 0; y < 3; ++y)
         for (uint x = 0; x < 4; ++x)
             for (const float channel : {float(x), float(y), 1.0f}) scene.texels.push_back(floatBitsToUint(channel));
-    scene.textures.push_back({kTextureImage, vec3(1, 1, 0.5f), 1, 0, 0, 0});
+    scene.textures.push_back(makeTexture(kTextureImage, vec3(1, 1, 0.5f), 1, 0, 0, 0));
     return scene;
 }
 
@@ -232,9 +236,61 @@ TEST(Textures, ImageIsBilinearBetweenTexelCentres) {
     EXPECT_EQ(at(0.5f, -1e30f).y, 2.0f);
 }
 
+TEST(Textures, ImagesWrap) {
+    TextureScene scene = imageScene();
+    Texture& t = scene.textures[0];
+    const auto at = [&](float u, float v) { return vec2(evaluate(scene, 0, vec3(0), vec2(u, v))); };
+    Uniforms uniform(7);
+    for (int i = 0; i < 200; ++i) {
+        const float u = uniform(), v = uniform();
+        t.wrapU = t.wrapV = kWrapRepeat;
+        const vec2 inside = at(u, v);
+        EXPECT_NEAR(at(u + 3, v - 2).x, inside.x, 1e-4f);
+        EXPECT_NEAR(at(u - 5, v + 7).y, inside.y, 1e-4f);
+        t.wrapU = t.wrapV = kWrapMirror;
+        const vec2 mirrored = at(u, v);
+        EXPECT_NEAR(at(-u, v).x, mirrored.x, 1e-4f);
+        EXPECT_NEAR(at(2 - u, 2 + v).x, mirrored.x, 1e-4f);
+        EXPECT_NEAR(at(4 + u, -v).y, mirrored.y, 1e-4f);
+    }
+    // Across the seam the last column mixes with the first, and not with itself.
+    t.wrapU = t.wrapV = kWrapRepeat;
+    EXPECT_NEAR(at(0, 0.5f).x, 1.5f, 1e-6f);
+    t.wrapU = kWrapMirror;
+    EXPECT_NEAR(at(0, 0.5f).x, 0.0f, 1e-6f);
+    for (const float far : {1e30f, -1e30f, 3e38f}) EXPECT_TRUE(isFinite(at(far, far).x));
+}
+
+TEST(Textures, CoordinatesOfImagesAreTransformed) {
+    TextureScene scene = imageScene();
+    Texture& t = scene.textures[0];
+    t.uRow = vec3(0, 0.5f, 0.25f); // a quarter turn, to half the size
+    t.vRow = vec3(-0.5f, 0, 0.75f);
+    const vec2 turned = vec2(evaluate(scene, 0, vec3(0), vec2(0.3f, 0.6f)));
+    t.uRow = vec3(1, 0, 0);
+    t.vRow = vec3(0, 1, 0);
+    EXPECT_NEAR(turned.x, evaluate(scene, 0, vec3(0), vec2(0.55f, 0.6f)).x, 1e-5f);
+    EXPECT_NEAR(turned.y, evaluate(scene, 0, vec3(0), vec2(0.55f, 0.6f)).y, 1e-5f);
+    t.uvSet = 1;
+    EXPECT_EQ(evalTexture(kFeatureAll, scene, 0, vec3(0), vec2(0), vec2(0.55f, 0.6f)),
+              evalTexture(kFeatureAll, scene, 0, vec3(0), vec2(9), vec2(0.55f, 0.6f)));
+}
+
+TEST(Textures, EightBitsMayBeLinearAndHaveOpacity) {
+    TextureScene scene;
+    scene.images.push_back({0, 1, 1, kTexelLinear8});
+    scene.texels.push_back(0x40ff8000u);
+    scene.textures.push_back(makeTexture(kTextureImage, vec3(0.5f, 1, 1), 1, 0, 0, 0));
+    const vec4 texel = evalTexture(kFeatureAll, scene, 0, vec3(0), vec2(0.5f), vec2(0.5f));
+    EXPECT_EQ(texel.x, 0.0f);
+    EXPECT_NEAR(texel.y, 128.0f / 255.0f, 1e-6f);
+    EXPECT_NEAR(texel.z, 1.0f, 1e-6f);
+    EXPECT_NEAR(texel.w, 64.0f / 255.0f, 1e-6f);
+}
+
 TEST(Textures, SolidNeedsNoFeature) {
     const TextureScene scene = checkerScene();
-    EXPECT_EQ(evalTexture(0, scene, 1, vec3(0), vec2(0)), vec3(1, 0, 0));
+    EXPECT_EQ(vec3(evalTexture(0, scene, 1, vec3(0), vec2(0), vec2(0))), vec3(1, 0, 0));
 }
 
 } // namespace

@@ -22,6 +22,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
 #undef RT_SURFACE
 #undef RT_BLACK
         {"fuzz", kFeatureFuzz},
+    {"opacity", kFeatureOpacity},
     {"emissive", kFeatureEmissive},
     {"textures", kTexturedFeatures},
     {"checker", kFeatureChecker},
@@ -47,11 +48,10 @@ constexpr bool haveOneNameEach() {
     std::uint32_t named = 0;
     for (const auto& row : kFeatures) {
         if (row.value == kTexturedFeatures) continue;
-        if ((named & row.value) != 0 || (row.value & ~kFeatureAll) != 0) return false;
+        if ((named & row.value) != 0) return false;
         named |= row.value;
     }
-    constexpr std::uint32_t kTaken = (1u << kFirstFreeFeature) - 1u;
-    return (named & kTaken) == kTaken;
+    return (named | kFreeFeatures) == kFeatureAll;
 }
 static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
 

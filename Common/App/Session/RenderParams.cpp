@@ -33,7 +33,7 @@ bool isUnderPlainSky(const scene::CompiledScene& scene) {
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
     return !scene.media.empty() || std::ranges::any_of(scene.materials, [](const shared::Material& material) {
-        return shared::scattersWidely(material);
+        return shared::scattersWidely(shared::makeBsdf(material, material.albedo));
     });
 }
 constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |

@@ -37,7 +37,7 @@ scene::TexelData readTexels(const std::filesystem::path& path) {
     data.words.resize(texels.srgb8.size() / 3);
     for (std::size_t i = 0; i < data.words.size(); ++i) {
         const std::uint8_t* rgb = &texels.srgb8[3 * i];
-        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16;
+        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16 | 0xff000000u;
     }
     return data;
 }

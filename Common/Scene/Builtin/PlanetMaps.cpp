@@ -136,7 +136,7 @@ TexelData makePlanetMap(const std::string& name) {
             const glm::dvec3 d(-std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
             const glm::dvec3 c = glm::clamp(map->color(d), 0.0, 1.0) * 255.0 + 0.5;
             data.words.push_back(static_cast<std::uint32_t>(c.x) | static_cast<std::uint32_t>(c.y) << 8 |
-                                 static_cast<std::uint32_t>(c.z) << 16);
+                                 static_cast<std::uint32_t>(c.z) << 16 | 0xff000000u);
         }
     }
     return data;

@@ -9,10 +9,15 @@ namespace {
 
 std::uint32_t ofMaterial(const shared::Material& material) {
     std::uint32_t mask = materialType(static_cast<MaterialKind>(material.kind)).feature;
-    if (shared::isMetal(mask, material) && shared::isFuzzy(shared::kFeatureFuzz, material))
-        mask |= shared::kFeatureFuzz;
+    const shared::Bsdf bsdf = shared::makeBsdf(material, material.albedo);
+    if (shared::isMetal(mask, bsdf) && shared::isFuzzy(shared::kFeatureFuzz, bsdf)) mask |= shared::kFeatureFuzz;
     const shared::vec3 e = material.emission;
     return e.x > 0 || e.y > 0 || e.z > 0 ? mask | shared::kFeatureEmissive : mask;
+}
+
+// Vertex colours count for opacity as soon as some texture or number does.
+bool letsRaysThrough(const shared::Principled& p) {
+    return p.opacity.factor < 1 || p.opacity.texture != shared::kNone || p.alphaCutoff > 0;
 }
 
 std::uint32_t ofTexture(const shared::Texture& texture) {
@@ -65,6 +70,7 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     need(scene.globals.targetCount > 0, shared::kFeatureTargets);
     need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
     for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
+    for (const shared::Principled& p : scene.principled) need(letsRaysThrough(p), shared::kFeatureOpacity);
     for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
     for (const shared::Light& light : scene.lights) mask |= ofLight(light);
     return mask;

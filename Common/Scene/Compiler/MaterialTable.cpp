@@ -1,9 +1,20 @@
 #include "Common/Scene/Compiler/MaterialTable.h"
 
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
 #include "Common/Core/Error.h"
+#include "Common/Scene/Compiler/DirectionalAlbedos.h"
 #include "Common/Scene/MaterialTypes.h"
 
 namespace rt::scene {
+
+namespace {
+
+constexpr double kLeastAttenuation = 1e-6; // of attenuation colours: black would absorb infinitely much
+
+} // namespace
 
 MaterialTable::MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out,
                              TextureTable& textures)
@@ -38,14 +49,75 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
             material.emissionTexture == shared::kNone ? glm::dvec3(factor) : textures_.mean(material.emissionTexture);
         material.emission *= factor;
     }
+    if (desc.kind == MaterialKind::Principled) addPrincipled(desc.principled);
     out_.materials.push_back(material);
+    if (!out_.principled.empty()) out_.principled.resize(out_.materials.size());
     meanEmission_.push_back(mean);
     return entry->second;
 }
 
+void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
+    if (out_.principled.empty()) out_.directionalAlbedos = directionalAlbedos();
+    shared::Principled p{};
+    const auto record = [&](const NumberOrTexture& source) {
+        shared::ScaledChannel number{};
+        number.factor = static_cast<float>(source.factor);
+        number.texture = shared::kNone;
+        number.channel = static_cast<std::uint32_t>(source.channel);
+        if (source.texture.empty()) return number;
+        shared::vec4 constant(1.0f);
+        shared::vec3 color;
+        number.texture = textures_.resolve(source.texture, color);
+        if (number.texture == shared::kNone) {
+            constant = shared::vec4(color, 1.0f);
+            number.factor *= constant[static_cast<int>(source.channel)];
+        }
+        return number;
+    };
+#define RT_NUMBER(member, usual) p.member = record(desc.member);
+#define RT_COLOR(member, usual) p.member.texture = textures_.resolve(desc.member, p.member.color);
+    RT_PRINCIPLED_NUMBERS(RT_NUMBER)
+    RT_PRINCIPLED_COLORS(RT_COLOR)
+#undef RT_NUMBER
+#undef RT_COLOR
+    p.ior = static_cast<float>(desc.ior);
+    p.thin = desc.isThin ? 1u : 0u;
+    p.glass = shared::kNone;
+    if (desc.transmission.factor > 0 && !desc.isThin) {
+        const auto [entry, isNew] = glass_.try_emplace(p.ior, static_cast<std::uint32_t>(out_.glassAlbedos.size()));
+        if (isNew) {
+            const std::vector<float> albedos = glassAlbedos(p.ior);
+            out_.glassAlbedos.insert(out_.glassAlbedos.end(), albedos.begin(), albedos.end());
+        }
+        p.glass = entry->second;
+    }
+    if (desc.attenuationDistance)
+        for (int c = 0; c < 3; ++c)
+            p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kLeastAttenuation)) /
+                                                 *desc.attenuationDistance);
+    p.normalTexture = shared::kNone;
+    shared::vec3 ignored;
+    if (!desc.normalTexture.empty()) p.normalTexture = textures_.resolve(desc.normalTexture, ignored);
+    p.normalScale = static_cast<float>(desc.normalScale);
+    p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
+    out_.principled.resize(out_.materials.size());
+    out_.principled.push_back(p);
+}
+
 bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {
     const auto* albedo = std::get_if<std::string>(&desc.albedo);
-    return (albedo && textures_.mayShowImage(*albedo)) || textures_.mayShowImage(desc.emissionTexture);
+    if ((albedo && textures_.mayShowImage(*albedo)) || textures_.mayShowImage(desc.emissionTexture)) return true;
+    if (desc.kind != MaterialKind::Principled) return false;
+    const auto shows = [&](const auto& source) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(source)>, NumberOrTexture>)
+            return textures_.mayShowImage(source.texture);
+        else
+            return std::holds_alternative<std::string>(source) && textures_.mayShowImage(std::get<std::string>(source));
+    };
+    const PrincipledDesc& p = desc.principled;
+#define RT_SHOWS(member, usual) || shows(p.member)
+    return textures_.mayShowImage(p.normalTexture) RT_PRINCIPLED_NUMBERS(RT_SHOWS) RT_PRINCIPLED_COLORS(RT_SHOWS);
+#undef RT_SHOWS
 }
 
 } // namespace rt::scene

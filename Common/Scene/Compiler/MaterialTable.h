@@ -2,6 +2,7 @@
 // features.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -26,11 +27,15 @@ class MaterialTable {
     const glm::dvec3& meanEmission(std::uint32_t material) const { return meanEmission_[material]; }
 
   private:
+    // The record beside the material that is about to be added.
+    void addPrincipled(const PrincipledDesc& desc);
+
     const SceneDesc& desc_;
     const CompileOptions& options_;
     CompiledScene& out_;
     TextureTable& textures_;
     std::unordered_map<const MaterialDesc*, std::uint32_t> indices_;
+    std::map<float, std::uint32_t> glass_; // by index of refraction: first of glassAlbedos
     std::vector<glm::dvec3> meanEmission_;
 };
 

@@ -29,6 +29,14 @@ glm::dvec3 doubleArea(const shared::vec3& a, const shared::vec3& b, const shared
     return usable ? normal : glm::dvec3(0);
 }
 
+// Tangents go with the surface; the bitangent turns over with a map that mirrors, as the winding does.
+shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
+    const glm::dvec3 along = map.vector(glm::dvec3(authored));
+    if (!(glm::dot(along, along) > 0) || !representable(along)) return shared::vec4(0.0f);
+    const double sign = (authored.w < 0) != map.mirrors() ? -1 : 1;
+    return shared::vec4(glm::dvec4(glm::normalize(along), sign));
+}
+
 bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
 }
@@ -206,10 +214,11 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
     record.material = materials_.index(material);
     if (map.mirrors() && materials_.mayShowImage(material)) {
         // Its front faces the mirrored way while its texture keeps its directions: no parallelogram says both.
-        const MeshData halves{{corner, corner + u, corner + v, corner + u + v},
-                              {},
-                              {{0, 0}, {1, 0}, {0, 1}, {1, 1}},
-                              {{0, 1, 3}, {0, 3, 2}}};
+        MeshData halves;
+        halves.positions = {corner, corner + u, corner + v, corner + u + v};
+        halves.uvs = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+        halves.tangents.assign(4, glm::dvec4(u, 1));
+        halves.triangles = {{0, 1, 3}, {0, 3, 2}};
         Placement placement;
         placement.outer = map;
         add(halves, material, light, placement);
@@ -253,6 +262,10 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     mesh.firstVertex = static_cast<std::uint32_t>(out_.positions.size());
     mesh.firstNormal = data.normals.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.normals.size());
     mesh.firstUv = data.uvs.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.uvs.size());
+    mesh.firstUv2 = data.uvs2.empty() ? shared::kNone : 0u; // known when the first set is complete
+    mesh.firstColor = data.colors.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.colors.size());
+    mesh.firstTangent = data.tangents.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.tangents.size());
+    std::vector<shared::vec2> uvs2;
     const bool hasLights = isLight(mesh.material, light);
     mesh.firstLight = hasLights ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
     const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
@@ -268,6 +281,9 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
                 out_.positions.push_back(positions[t[corner]]);
                 bounds_.add(positions[t[corner]]);
                 if (!data.uvs.empty()) out_.uvs.emplace_back(data.uvs[t[corner]]);
+                if (!data.uvs2.empty()) uvs2.emplace_back(data.uvs2[t[corner]]);
+                if (!data.colors.empty()) out_.colors.emplace_back(data.colors[t[corner]]);
+                if (!data.tangents.empty()) out_.tangents.push_back(tangentOf(data.tangents[t[corner]], map));
                 if (!data.normals.empty()) {
                     glm::dvec3 normal = normalMap * data.normals[t[corner]];
                     if (!(glm::dot(normal, normal) > 0) || !representable(normal))
@@ -279,6 +295,10 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
         out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
         out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
         if (hasLights) appendLight(triangleLight(positions[t.x], positions[t.y], positions[t.z]), mesh.material);
+    }
+    if (!data.uvs2.empty()) {
+        mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
+        out_.uvs.insert(out_.uvs.end(), uvs2.begin(), uvs2.end());
     }
     out_.meshes.push_back(mesh);
 }

@@ -174,7 +174,9 @@ class Compiler {
             globals.skyBottom = shared::vec3(gradient->bottom);
         } else {
             const auto& sky = std::get<ImageBackground>(desc_.background);
-            globals.skyImage = textures_.image(sky.file, {});
+            ImageTexture image;
+            image.file = sky.file;
+            globals.skyImage = textures_.image(image);
             globals.skyTop = shared::vec3(sky.factor);
             globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
         }

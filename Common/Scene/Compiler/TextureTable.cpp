@@ -48,6 +48,7 @@ glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, st
                 shared::uintBitsToFloat(words[2])};
     }
     const std::uint32_t word = scene.texels[image.firstTexel + texel];
+    if (image.format == shared::kTexelLinear8) return glm::dvec3(shared::vec3(shared::decodeLinear8(word)));
     const auto& linear = srgbTable();
     return {linear[word & 255u], linear[word >> 8 & 255u], linear[word >> 16 & 255u]};
 }
@@ -133,32 +134,42 @@ shared::Texture TextureTable::record(const TextureDesc& desc) {
         const auto& source = std::get<ImageTexture>(desc);
         texture.kind = shared::kTextureImage;
         texture.color = shared::vec3(source.tint);
-        texture.first = image(source.file, source.standIn);
+        texture.first = image(source);
+        texture.wrapU = static_cast<std::uint32_t>(source.wrapU);
+        texture.wrapV = static_cast<std::uint32_t>(source.wrapV);
+        texture.uvSet = source.uvSet;
+        const auto& rows = source.uvTransform;
+        texture.uRow = shared::vec3(glm::dvec3(rows[0], rows[1], rows[2]));
+        texture.vRow = shared::vec3(glm::dvec3(rows[3], rows[4], rows[5]));
     }
     return texture;
 }
 
-TexelData TextureTable::load(const std::string& file, const std::string& standIn) {
-    const std::optional<std::filesystem::path> path = locateAsset(file, standIn, options_, id_);
+TexelData TextureTable::load(const ImageTexture& source) {
+    const std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_);
     if (!path) {
-        out_.notices.push_back(file + ": a generated map stands in");
-        return makePlanetMap(standIn);
+        out_.notices.push_back(source.file + ": a generated map stands in");
+        return makePlanetMap(source.standIn);
     }
     if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
     return options_.loadTexels(*path);
 }
 
-std::uint32_t TextureTable::image(const std::string& file, const std::string& standIn) {
-    const auto [entry, isNew] = images_.try_emplace(file + '\n' + standIn, shared::kNone);
+std::uint32_t TextureTable::image(const ImageTexture& source) {
+    const std::string key = source.file + '\n' + source.standIn + '\n' + (source.image ? std::to_string(*source.image) : "") +
+                            (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
+    const auto [entry, isNew] = images_.try_emplace(key, shared::kNone);
     if (!isNew) return entry->second;
-    const TexelData data = load(file, standIn);
+    const TexelData data = load(source);
     shared::Image image{};
     image.firstTexel = static_cast<std::uint32_t>(out_.texels.size());
     image.width = data.width;
     image.height = data.height;
     image.format = data.format;
+    if (source.colorSpace == ColorSpace::Linear && image.format == shared::kTexelSrgb8)
+        image.format = shared::kTexelLinear8;
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
-    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + file + ": all images together exceed 16 GiB");
+    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
     return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
 }

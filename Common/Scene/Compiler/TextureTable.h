@@ -20,8 +20,8 @@ class TextureTable {
     void add(const std::map<std::string, TextureDesc>& textures) { library_.insert(textures.begin(), textures.end()); }
     // Index of the texture, or kNone and `color` set for a constant.
     std::uint32_t resolve(const ColorOrTexture& source, shared::vec3& color);
-    // Index into images of a file; files and stand-ins are read once each. Throws InputError when there is neither.
-    std::uint32_t image(const std::string& file, const std::string& standIn);
+    // Index into images of a source, of which wrapping and coordinates do not count; files and stand-ins are read once each. Throws InputError when there is neither.
+    std::uint32_t image(const ImageTexture& source);
     // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
     // `depth`).
     bool mayShowImage(const std::string& name, int depth = shared::kMaxCheckerDepth) const;
@@ -33,7 +33,7 @@ class TextureTable {
     std::uint32_t child(const ColorOrTexture& source);
     int nesting(const shared::Texture& texture) const; // checkers on the longest way down from it, itself included
     shared::Texture record(const TextureDesc& desc);
-    TexelData load(const std::string& file, const std::string& standIn);
+    TexelData load(const ImageTexture& source);
 
     const std::string id_; // of the scene, for errors
     std::map<std::string, TextureDesc> library_;

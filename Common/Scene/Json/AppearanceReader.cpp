@@ -1,6 +1,8 @@
 // Reading of scene files: textures and materials.
 #include <algorithm>
+#include <type_traits>
 
+#include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneReader.h"
 #include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
@@ -9,28 +11,59 @@ namespace rt::scene {
 
 namespace {
 
-// Reads the parameters of one texture.
+// Reads the parameters of one texture or material.
 class ParameterReader {
   public:
-    ParameterReader(const JsonNode& texture, const SceneReferences& references)
-        : texture_(texture), references_(references) {}
+    ParameterReader(const JsonNode& record, const SceneReferences& references)
+        : record_(record), references_(references) {}
 
-    void read(const TextureParameter& p, double& value) const { value = at(p).within(p.least, p.most); }
-    void read(const TextureParameter& p, std::uint32_t& value) const { value = at(p).unsignedInteger(); }
-    void read(const TextureParameter& p, glm::dvec3& value) const { value = at(p).vectorWithin(0, 1); }
-    void read(const TextureParameter& p, ColorOrTexture& value) const { value = references_.colorOrTexture(at(p)); }
-    void read(const TextureParameter& p, std::string& value) const {
-        value = p.choices ? readChoice(at(p), p.choices()) : references_.file(at(p), texture_.has("stand_in"));
+    void read(const SceneParameter& p, double& value) const { value = at(p).within(p.least, p.most); }
+    void read(const SceneParameter& p, std::optional<double>& value) const { value = at(p).within(p.least, p.most); }
+    void read(const SceneParameter& p, bool& value) const { value = at(p).boolean(); }
+    void read(const SceneParameter& p, std::uint32_t& value) const {
+        value = at(p).unsignedInteger();
+        at(p).within(p.least, p.most);
     }
-    void read(const TextureParameter& p, NoiseKind& value) const {
-        const auto& names = p.choices();
-        value = static_cast<NoiseKind>(std::ranges::find(names, readChoice(at(p), names)) - names.begin());
+    void read(const SceneParameter& p, std::optional<std::uint32_t>& value) const { read(p, value.emplace()); }
+    void read(const SceneParameter& p, glm::dvec3& value) const { value = at(p).vectorWithin(0, 1); }
+    void read(const SceneParameter& p, std::array<double, 6>& value) const {
+        const std::vector<double> numbers = at(p).numbers(3);
+        if (numbers.size() != value.size()) at(p).failValue("6 numbers: two rows of three");
+        std::ranges::copy(numbers, value.begin());
+    }
+    void read(const SceneParameter& p, ColorOrTexture& value) const { value = references_.colorOrTexture(at(p)); }
+    void read(const SceneParameter& p, NumberOrTexture& value) const {
+        const JsonNode node = at(p);
+        if (node.value().is_number()) {
+            value.factor = node.within(0, 1);
+            return;
+        }
+        node.expectKeys({"texture", "channel", "factor"});
+        value.texture = references_.name(node.at("texture"), "textures");
+        value.channel = enumeration<Channel>(node.at("channel"), channelNames());
+        const auto factor = node.find("factor");
+        value.factor = factor ? factor->within(0, 1) : 1;
+    }
+    void read(const SceneParameter& p, std::string& value) const {
+        value = p.choices   ? readChoice(at(p), p.choices())
+                : p.section ? references_.name(at(p), p.section)
+                            : references_.file(at(p), record_.has("stand_in"));
+    }
+    template <typename Enumeration>
+        requires std::is_enum_v<Enumeration>
+    void read(const SceneParameter& p, Enumeration& value) const {
+        value = enumeration<Enumeration>(at(p), p.choices());
     }
 
   private:
-    JsonNode at(const TextureParameter& p) const { return texture_.at(p.name); }
+    JsonNode at(const SceneParameter& p) const { return record_.at(p.name); }
 
-    const JsonNode& texture_;
+    template <typename Enumeration>
+    static Enumeration enumeration(const JsonNode& node, const std::vector<std::string>& names) {
+        return static_cast<Enumeration>(std::ranges::find(names, readChoice(node, names)) - names.begin());
+    }
+
+    const JsonNode& record_;
     const SceneReferences& references_;
 };
 
@@ -44,10 +77,10 @@ TextureDesc readTexture(const JsonNode& node, const SceneReferences& references)
     forEachTextureType([&]<typename Texture>(Texture texture) {
         if (name != TextureType<Texture>::name) return;
         std::vector<const char*> keys = {"type"};
-        TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto) { keys.push_back(p.name); });
+        TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto) { keys.push_back(p.name); });
         node.expectKeys(keys);
         const ParameterReader reader(node, references);
-        TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
+        TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto member) {
             if (p.isRequired || node.has(p.name)) reader.read(p, texture.*member);
         });
         read = std::move(texture);
@@ -64,6 +97,8 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
     std::vector<const char*> keys = {"type"};
     for (const MaterialParameter& parameter : type.parameters) keys.push_back(parameter.name);
     keys.insert(keys.end(), {"emission", "emission_texture", "sides"});
+    const bool isPrincipled = type.kind == MaterialKind::Principled;
+    if (isPrincipled) forEachPrincipledParameter([&](const SceneParameter& p, auto) { keys.push_back(p.name); });
     node.expectKeys(keys);
 
     MaterialDesc material;
@@ -75,6 +110,10 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
         if (parameter.isRequired || node.has(parameter.name))
             material.parameters[i] = node.at(parameter.name).within(parameter.least, parameter.most);
     });
+    if (isPrincipled)
+        forEachPrincipledParameter([&](const SceneParameter& p, auto member) {
+            if (node.has(p.name)) ParameterReader(node, references).read(p, material.principled.*member);
+        });
     if (!type.scatters || node.has("emission")) material.emission = node.at("emission").vectorWithin(0, kLargest);
     if (const auto texture = node.find("emission_texture"))
         material.emissionTexture = references.name(*texture, "textures");

@@ -141,11 +141,21 @@ MeshData readMeshData(const JsonNode& node) {
         data.normals = readVectors(*normals);
         expectOneEach(*normals, data.normals.size());
     }
-    if (const auto uvs = node.find("uvs")) {
-        const std::vector<double> values = uvs->numbers(2);
-        expectOneEach(*uvs, values.size() / 2);
-        for (std::size_t i = 0; i < values.size(); i += 2) data.uvs.emplace_back(values[i], values[i + 1]);
-    }
+    const auto readEach = [&](const char* name, auto& vectors) {
+        const auto attribute = node.find(name);
+        if (!attribute) return;
+        using Vector = typename std::decay_t<decltype(vectors)>::value_type;
+        constexpr auto kWidth = static_cast<std::size_t>(Vector::length());
+        const std::vector<double> values = attribute->numbers(kWidth);
+        expectOneEach(*attribute, values.size() / kWidth);
+        vectors.resize(values.size() / kWidth);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            vectors[i / kWidth][static_cast<int>(i % kWidth)] = values[i];
+    };
+    readEach("uvs", data.uvs);
+    readEach("uvs2", data.uvs2);
+    readEach("colors", data.colors);
+    readEach("tangents", data.tangents);
     data.triangles = readTriangles(node.at("triangles"), data.positions.size());
     return data;
 }
@@ -159,7 +169,8 @@ MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
         source.file = references.file(node.at("file"), !source.standIn.empty());
         mesh.source = source;
     } else {
-        node.expectKeys({"type", "positions", "normals", "uvs", "triangles", "material", "light"});
+        node.expectKeys({"type", "positions", "normals", "uvs", "uvs2", "colors", "tangents", "triangles", "material",
+                         "light"});
         mesh.source = readMeshData(node);
     }
     // Only a file can bring materials of its own.

@@ -63,12 +63,15 @@ RenderDefaults readRender(const JsonNode& node) {
 }
 
 SceneDesc readScene(const JsonNode& root, const SceneReferences& references, const LongJson& text) {
-    root.expectKeys({"$schema", "version", "title", "camera", "background", "textures", "materials", "prototypes",
+    root.expectKeys({"$schema", "version", "title", "camera", "cameras", "background", "textures", "materials", "prototypes",
                      "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
     SceneDesc scene;
     if (const auto node = root.find("title")) scene.title = node->string();
     if (const auto node = root.find("camera")) scene.camera = readCamera(*node);
+    if (const auto section = root.find("cameras"))
+        section->forEachMember(
+            [&](const std::string& name, const JsonNode& node) { scene.cameras[name] = readCamera(node); });
     if (const auto node = root.find("background")) scene.background = readBackground(*node, references);
     if (const auto section = root.find("textures"))
         section->forEachMember([&](const std::string& name, const JsonNode& node) {

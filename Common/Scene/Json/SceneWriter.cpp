@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/TextureTypes.h"
 #include "Common/Scene/MaterialTypes.h"
@@ -135,12 +136,23 @@ Json json(const Background& background) {
 
 // ---- appearance ----------------------------------------------------------------------------------------------------
 
+Json json(const NumberOrTexture& number) {
+    if (number.texture.empty()) return number.factor;
+    return {{"texture", number.texture},
+            {"channel", channelNames().at(static_cast<std::size_t>(number.channel))},
+            {"factor", number.factor}};
+}
+
 template <typename Value>
-Json json(const TextureParameter& parameter, const Value& value) {
+Json json(const SceneParameter& parameter, const Value& value) {
     if constexpr (std::is_enum_v<Value>)
         return parameter.choices().at(static_cast<std::size_t>(value));
-    else if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture>)
+    else if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture> ||
+                       std::is_same_v<Value, NumberOrTexture>)
         return json(value);
+    else if constexpr (std::is_same_v<Value, std::optional<double>> ||
+                       std::is_same_v<Value, std::optional<std::uint32_t>>)
+        return *value; // the usual one is none, and not written
     else
         return value;
 }
@@ -150,7 +162,7 @@ Json json(const TextureDesc& desc) {
         []<typename Texture>(const Texture& texture) {
             const Texture usual;
             Json out = {{"type", TextureType<Texture>::name}};
-            TextureType<Texture>::forEachParameter([&](const TextureParameter& p, auto member) {
+            TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto member) {
                 if (p.isRequired || texture.*member != usual.*member) out[p.name] = json(p, texture.*member);
             });
             return out;
@@ -168,6 +180,11 @@ Json json(const MaterialDesc& material) {
         const std::optional<double>& value = material.parameters[i];
         if (parameter.isRequired || value) out[parameter.name] = value.value_or(parameter.usual);
     });
+    if (material.kind == MaterialKind::Principled)
+        forEachPrincipledParameter([&](const SceneParameter& p, auto member) {
+            const auto& value = material.principled.*member;
+            if (value != usual.principled.*member) out[p.name] = json(p, value);
+        });
     if (!type.scatters || material.emission != usual.emission) out["emission"] = json(material.emission);
     setUnless(out, "emission_texture", material.emissionTexture, std::string());
     if (material.sides) out["sides"] = *material.sides == Sides::Front ? "front" : "both";
@@ -236,6 +253,9 @@ Json json(const MeshDesc& mesh) {
     out["positions"] = flat(data.positions);
     if (!data.normals.empty()) out["normals"] = flat(data.normals);
     if (!data.uvs.empty()) out["uvs"] = flat(data.uvs);
+    if (!data.uvs2.empty()) out["uvs2"] = flat(data.uvs2);
+    if (!data.colors.empty()) out["colors"] = flat(data.colors);
+    if (!data.tangents.empty()) out["tangents"] = flat(data.tangents);
     out["triangles"] = flat(data.triangles);
     return out;
 }
@@ -276,6 +296,7 @@ std::string toJson(const SceneDesc& scene) {
     Json out = {{"version", 1}};
     setUnless(out, "title", scene.title, std::string());
     out["camera"] = json(scene.camera);
+    setSection(out, "cameras", scene.cameras);
     out["background"] = json(scene.background);
     if (scene.render != RenderDefaults()) out["render"] = {{"aspect", scene.render.aspect}};
     setSection(out, "textures", scene.textures);

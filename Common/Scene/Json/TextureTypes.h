@@ -5,22 +5,10 @@
 #include <vector>
 
 #include "Common/Scene/Builtin/StandIns.h"
-#include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Json/SceneParameter.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::scene {
-
-// The type of the member says what else it may be: components of a colour lie in [0,1], a string is the name of a file.
-struct TextureParameter {
-    const char* name;
-    bool isRequired; // else a new texture's value stands where a file says nothing
-    const char* help = "";
-    double least = -kLargest; // numbers
-    double most = kLargest;
-    const std::vector<std::string>& (*choices)() = nullptr; // strings; enumerations, in the order of their values
-};
-
-inline constexpr double kSmallest = 1 / kLargest;
 
 // A row: the name and the help of a texture, and visit(parameter, pointer to member) in the order of scene files.
 template <typename Texture>
@@ -32,7 +20,7 @@ struct TextureType<SolidTexture> {
     static constexpr const char* help = "One colour";
     template <typename Visit>
     static void forEachParameter(const Visit& visit) {
-        visit(TextureParameter{"color", true}, &SolidTexture::color);
+        visit(SceneParameter{"color", true}, &SolidTexture::color);
     }
 };
 
@@ -43,9 +31,9 @@ struct TextureType<CheckerTexture> {
         "Cubes of two textures in world space; checkers of checkers may be nested 8 deep";
     template <typename Visit>
     static void forEachParameter(const Visit& visit) {
-        visit(TextureParameter{"scale", true, "edge of a cube", kSmallest}, &CheckerTexture::scale);
-        visit(TextureParameter{"even", true}, &CheckerTexture::even);
-        visit(TextureParameter{"odd", true}, &CheckerTexture::odd);
+        visit(SceneParameter{"scale", true, "edge of a cube", kSmallest}, &CheckerTexture::scale);
+        visit(SceneParameter{"even", true}, &CheckerTexture::even);
+        visit(SceneParameter{"odd", true}, &CheckerTexture::odd);
     }
 };
 
@@ -60,13 +48,24 @@ struct TextureType<NoiseTexture> {
     static constexpr const char* help = "Perlin noise in world space";
     template <typename Visit>
     static void forEachParameter(const Visit& visit) {
-        visit(TextureParameter{.name = "kind", .isRequired = true, .choices = noiseKindNames}, &NoiseTexture::kind);
-        visit(TextureParameter{"scale", false, "multiplies the point", kSmallest}, &NoiseTexture::scale);
-        visit(TextureParameter{"frequency", false, "marble: of the stripes along z"}, &NoiseTexture::frequency);
-        visit(TextureParameter{"tint", false}, &NoiseTexture::tint);
-        visit(TextureParameter{"seed", false}, &NoiseTexture::seed);
+        visit(SceneParameter{.name = "kind", .isRequired = true, .choices = noiseKindNames}, &NoiseTexture::kind);
+        visit(SceneParameter{"scale", false, "multiplies the point", kSmallest}, &NoiseTexture::scale);
+        visit(SceneParameter{"frequency", false, "marble: of the stripes along z"}, &NoiseTexture::frequency);
+        visit(SceneParameter{"tint", false}, &NoiseTexture::tint);
+        visit(SceneParameter{"seed", false, "", 0, 4294967295.0}, &NoiseTexture::seed);
     }
 };
+
+inline constexpr double kMaxImages = 1e6; // of one file
+
+inline const std::vector<std::string>& wrapNames() {
+    static const std::vector<std::string> names = {"clamp", "repeat", "mirror"};
+    return names;
+}
+inline const std::vector<std::string>& colorSpaceNames() {
+    static const std::vector<std::string> names = {"srgb", "linear"};
+    return names;
+}
 
 template <>
 struct TextureType<ImageTexture> {
@@ -74,13 +73,25 @@ struct TextureType<ImageTexture> {
     static constexpr const char* help = "An image file";
     template <typename Visit>
     static void forEachParameter(const Visit& visit) {
-        visit(TextureParameter{"file", true}, &ImageTexture::file);
-        visit(TextureParameter{.name = "stand_in",
+        visit(SceneParameter{"file", true}, &ImageTexture::file);
+        visit(SceneParameter{.name = "stand_in",
                                .isRequired = false,
                                .help = "a generated map for when the file is missing",
                                .choices = planetMapNames},
               &ImageTexture::standIn);
-        visit(TextureParameter{"tint", false}, &ImageTexture::tint);
+        visit(SceneParameter{"tint", false}, &ImageTexture::tint);
+        visit(SceneParameter{"image", false, "its number, where the file is one of glTF", 0, kMaxImages},
+              &ImageTexture::image);
+        visit(SceneParameter{.name = "color_space",
+                             .isRequired = false,
+                             .help = "of 8 and 16 bits; files of floats are linear",
+                             .choices = colorSpaceNames},
+              &ImageTexture::colorSpace);
+        visit(SceneParameter{.name = "wrap_u", .isRequired = false, .choices = wrapNames}, &ImageTexture::wrapU);
+        visit(SceneParameter{.name = "wrap_v", .isRequired = false, .choices = wrapNames}, &ImageTexture::wrapV);
+        visit(SceneParameter{"uv_set", false, "0: uvs of a mesh, 1: uvs2", 0, 1}, &ImageTexture::uvSet);
+        visit(SceneParameter{"uv_transform", false, "two rows of three: the place is rows . (u, v, 1)"},
+              &ImageTexture::uvTransform);
     }
 };
 

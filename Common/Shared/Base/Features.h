@@ -12,7 +12,7 @@ const uint kFeatureMovingSpheres = 1u << 1u;
 const uint kFeatureQuads = 1u << 2u;
 const uint kFeatureTriangles = 1u << 3u;
 const uint kFeatureInstances = 1u << 4u;
-// Bits of materials: see their table, Common/Shared/Material/Materials.h. 5, 6 and 7 are taken.
+// Bits of materials: see their table, Common/Shared/Material/Materials.h. 5, 6, 7 and 28 are taken.
 const uint kFeatureEmissive = 1u << 8u; // some surface emits
 const uint kFeatureChecker = 1u << 9u;
 const uint kFeatureNoise = 1u << 10u;   // Perlin textures of every kind
@@ -33,9 +33,10 @@ const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
 const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
 const uint kFeatureEllipsoidLights = 1u << 27u;
-const uint kFirstFreeFeature = 28u; // bits from here on are free for materials
-const uint kFeatureBits = 31u;
-const uint kFeatureAll = (1u << kFeatureBits) - 1u;
+const uint kFeatureDetail = 1u << 28u;  // tangents, vertex colours, second uvs: the bit of principled materials
+const uint kFeatureOpacity = 1u << 31u; // principled surfaces that let a part of rays through
+const uint kFreeFeatures = 3u << 29u;   // free for materials and what else comes
+const uint kFeatureAll = 0xffffffffu;
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 
 RT_FN bool has(uint features, uint bits) {

@@ -5,6 +5,15 @@
 #include "Common/Shared/Base/SceneArrays.h"
 #include "Common/Shared/Base/Types.h"
 
+RT_SHARED_BEGIN
+
+RT_FN vec4 decodeLinear8(uint word) {
+    return vec4(float(word & 255u), float(word >> 8u & 255u), float(word >> 16u & 255u), float(word >> 24u)) *
+           (1.0f / 255.0f);
+}
+
+RT_SHARED_END
+
 #ifdef __cplusplus
 
 namespace rt::shared {
@@ -85,15 +94,16 @@ RT_FN LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
     c.child = n.child[i];
     return c;
 }
-RT_FN vec3 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
+RT_FN vec4 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
     const uint texel = y * image.width + x;
     if (image.format == kTexelLinearF32) {
         const uint* words = scene.texels + image.firstTexel + 3u * texel;
-        return vec3(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]));
+        return vec4(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]), 1.0f);
     }
     const uint word = scene.texels[image.firstTexel + texel];
-    return vec3(scene.srgbToLinear[word & 255u], scene.srgbToLinear[word >> 8u & 255u],
-                scene.srgbToLinear[word >> 16u & 255u]);
+    if (image.format == kTexelLinear8) return decodeLinear8(word);
+    return vec4(scene.srgbToLinear[word & 255u], scene.srgbToLinear[word >> 8u & 255u],
+                scene.srgbToLinear[word >> 16u & 255u], float(word >> 24u) * (1.0f / 255.0f));
 }
 
 } // namespace rt::shared
@@ -112,7 +122,7 @@ SceneGlobals loadGlobals(SceneRef scene);
 vec3 loadSphereMotion(SceneRef scene, uint i); // 0 for all where none moves
 LightBound loadLightBound(SceneRef scene, uint i);
 LightCluster loadLightCluster(SceneRef scene, uint node, uint i); // child i of a node
-vec3 loadTexel(SceneRef scene, Image image, uint x, uint y);      // linear RGB
+vec4 loadTexel(SceneRef scene, Image image, uint x, uint y);      // linear RGB, opacity
 
 #endif
 

@@ -14,11 +14,14 @@
     PLAIN(vec3, positions, loadPosition, "vertices") \
     PLAIN(vec3, normals, loadNormal, "normals") /* unit; see Mesh */ \
     PLAIN(vec2, uvs, loadUv, "texture coordinates") \
+    PLAIN(vec4, colors, loadColor, "vertex colours") /* linear rgb, opacity */ \
+    PLAIN(vec4, tangents, loadTangent, "tangents") /* unit direction of u; sign of the bitangent */ \
     PLAIN(uvec3, triangles, loadTriangle, "triangles") /* into positions; along a space-filling curve per mesh */ \
     PLAIN(Mesh, meshes, loadMesh, "meshes") \
     PLAIN(Geometry, geometries, loadGeometry, "geometries") \
     PLAIN(Instance, instances, loadInstance, "instances") \
     PLAIN(Material, materials, loadMaterial, "materials") \
+    PLAIN(Principled, principled, loadPrincipled, "materials") /* empty, or one a material */ \
     PLAIN(Texture, textures, loadTexture, "textures") \
     PLAIN(Image, images, loadImage, "images") \
     OWN(uint, texels, loadTexel, "texels") /* words of all images */ \
@@ -30,6 +33,8 @@
 
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
+    PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledSurface.h; empty without */ \
+    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* likewise, for each index of refraction */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     OWN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \

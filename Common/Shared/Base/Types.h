@@ -3,6 +3,7 @@
 #ifndef RT_SHARED_TYPES_H
 #define RT_SHARED_TYPES_H
 #include "Common/Shared/Base/Shim.h"
+#include "Common/Shared/Material/PrincipledParameters.h"
 
 RT_SHARED_BEGIN
 
@@ -45,6 +46,9 @@ struct Mesh {
     uint firstVertex;
     uint firstNormal; // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
     uint firstUv;     // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
+    uint firstUv2;    // likewise into uvs, of the second set; kNone: there is none
+    uint firstColor;  // likewise into colors; kNone: white
+    uint firstTangent; // likewise into tangents; kNone: there are none
     uint firstLight;  // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
 };
 
@@ -73,6 +77,7 @@ const uint kSidesFront = 1u;
 const uint kSidesBoth = 3u;
 
 const uint kMaterialParameters = 2u;
+const uint kAlbedoSteps = 32u; // of the table of directional albedos, see PrincipledSurface.h
 
 // What kinds there are and what their parameters mean: Common/Shared/Material/Materials.h.
 struct Material {
@@ -92,6 +97,11 @@ const uint kTextureTurbulence = 3u; // turbulence(scale p)
 const uint kTextureNoise = 4u;      // 0.5 (1 + noise(scale p))
 const uint kTextureImage = 5u;
 
+// What lies beyond the edges of an image.
+const uint kWrapClamp = 0u;
+const uint kWrapRepeat = 1u;
+const uint kWrapMirror = 2u;
+
 struct Texture {
     uint kind;
     vec3 color;      // solid: the colour; noise kinds and images: a tint
@@ -99,10 +109,16 @@ struct Texture {
     float frequency; // marble
     uint first;      // checker: texture of even cells; noise: Perlin table; image: index into images
     uint second;     // checker: texture of odd cells
+    uint wrapU;      // images: kWrap...
+    uint wrapV;
+    uint uvSet; // images: 0 or 1, of a mesh's texture coordinates
+    vec3 uRow;  // images: the place is (uRow . (u, v, 1), vRow . (u, v, 1)), before wrapping
+    vec3 vRow;
 };
 
-const uint kTexelSrgb8 = 0u;     // one word a texel, R in the low byte, sRGB-encoded
+const uint kTexelSrgb8 = 0u;     // one word a texel, R in the low byte, opacity in the high one; colours sRGB-encoded
 const uint kTexelLinearF32 = 1u; // three words a texel, floats
+const uint kTexelLinear8 = 2u;   // as kTexelSrgb8, but not encoded
 
 struct Image {
     uint firstTexel; // word offset into texels

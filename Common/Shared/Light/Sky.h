@@ -27,7 +27,7 @@ RT_FN vec3 skyRadiance(uint features, SceneRef scene, vec3 direction) {
     if (has(features, kFeatureSkyImage) && globals.skyKind == kSkyImage) {
         RT_IN(Image) image = loadImage(scene, globals.skyImage);
         uvec2 texel = skyTexel(image, skyUv(direction));
-        return globals.skyTop * loadTexel(scene, image, texel.x, texel.y);
+        return globals.skyTop * vec3(loadTexel(scene, image, texel.x, texel.y));
     }
     return globals.skyTop;
 }
@@ -81,7 +81,7 @@ RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
     s.wi = vec3(-r * sinCos.y, y, r * sinCos.x);
     s.distance = kInfinity;
     s.pdf = skyTexelPdf(scene, image, uvec2(column, row));
-    s.radiance = globals.skyTop * loadTexel(scene, image, column, row);
+    s.radiance = globals.skyTop * vec3(loadTexel(scene, image, column, row));
     s.point = vec3(0.0f, 0.0f, 0.0f);
     s.error = vec3(0.0f, 0.0f, 0.0f);
     s.normal = -s.wi;

@@ -1,11 +1,39 @@
-// What sampling a bsdf returns. Directions point away from the surface, `n` is the unit shading normal on the side of
-// wo. Densities are per steradian; `weight` is value * |cosine| / density, so no division is left to the caller.
+// What bsdfs are given and what sampling them returns. Directions point away from the surface, `n` is the unit shading
+// normal on the side of wo. Densities are per steradian; `weight` is value * |cosine| / density, so no division is left
+// to the caller.
 #ifndef RT_SHARED_BSDF_SAMPLE_H
 #define RT_SHARED_BSDF_SAMPLE_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Sampling.h"
 
 RT_SHARED_BEGIN
+
+// Of a principled material, for one wo: what each lobe is multiplied by, and the probability with which it is sampled.
+struct PrincipledLobes {
+    vec3 diffuse;        // albedo
+    vec3 f0;             // of reflection by rough facets at normal incidence
+    vec3 f90;            // and at grazing incidence
+    vec3 sheen;          // sampled together with diffuse
+    float sheenExponent; // 1 / roughness^2
+    float alpha;         // width of the facets' distribution, also of glass
+    float glass;         // reflection and transmission by a dielectric without a base; transmission is tinted by albedo
+    float eta;           // its index on wo's side over that beyond
+    uint thin;           // 1: it does not bend
+    float coat;
+    float coatAlpha;
+    float diffuseShare; // the probabilities: they sum to 1, or all are 0
+    float specularShare;
+    float coatShare;
+    float glassShare;
+};
+
+// A material at a point, its textures evaluated.
+struct Bsdf {
+    uint kind; // kMaterial...
+    vec3 albedo;
+    float parameter[kMaterialParameters];
+    PrincipledLobes lobes; // of principled materials only
+};
 
 struct BsdfSample {
     vec3 wi;
@@ -23,6 +51,26 @@ RT_FN BsdfSample absorbed() {
     s.delta = 0u;
     s.transmitted = 0u;
     return s;
+}
+
+RT_FN PrincipledLobes noLobes() {
+    PrincipledLobes lobes;
+    lobes.diffuse = vec3(0.0f);
+    lobes.f0 = vec3(0.0f);
+    lobes.f90 = vec3(0.0f);
+    lobes.sheen = vec3(0.0f);
+    lobes.sheenExponent = 1.0f;
+    lobes.alpha = 0.0f;
+    lobes.glass = 0.0f;
+    lobes.eta = 1.0f;
+    lobes.thin = 0u;
+    lobes.coat = 0.0f;
+    lobes.coatAlpha = 0.0f;
+    lobes.diffuseShare = 0.0f;
+    lobes.specularShare = 0.0f;
+    lobes.coatShare = 0.0f;
+    lobes.glassShare = 0.0f;
+    return lobes;
 }
 
 RT_FN vec3 mirrorDirection(vec3 wo, vec3 n) {

@@ -5,9 +5,9 @@
 
 RT_SHARED_BEGIN
 
-const uint kDielectricIor = 0u; // of Material::parameter: index of refraction inside over outside, > 0
+const uint kDielectricIor = 0u; // of Bsdf::parameter: index of refraction inside over outside, > 0
 
-RT_FN bool isDeltaDielectric(uint, RT_IN(Material)) {
+RT_FN bool isDeltaDielectric(uint, RT_IN(Bsdf)) {
     return true;
 }
 
@@ -26,10 +26,9 @@ RT_FN vec2 fresnel(float c, float eta) {
 
 // Reflects with the probability that Fresnel's equations give, else refracts; radiance is not scaled by the indices, as
 // long as camera and lights stand in the same medium.
-RT_FN BsdfSample sampleDielectric(uint, RT_IN(Material) m, vec3 albedo, vec3 n, uint frontFace, vec3 wo, vec2,
-                                  float uLobe) {
+RT_FN BsdfSample sampleDielectric(uint, RT_IN(Bsdf) m, vec3 n, uint frontFace, vec3 wo, vec2, float uLobe) {
     BsdfSample s = absorbed();
-    s.weight = albedo;
+    s.weight = m.albedo;
     s.delta = 1u;
     float eta = frontFace != 0u ? 1.0f / m.parameter[kDielectricIor] : m.parameter[kDielectricIor];
     float c = clamp(dot(n, wo), 0.0f, 1.0f);
@@ -45,7 +44,7 @@ RT_FN BsdfSample sampleDielectric(uint, RT_IN(Material) m, vec3 albedo, vec3 n, 
     return s;
 }
 
-RT_FN vec4 evalDielectric(uint, RT_IN(Material), vec3, vec3, vec3, vec3) {
+RT_FN vec4 evalDielectric(uint, RT_IN(Bsdf), vec3, vec3, vec3) {
     return vec4(0.0f);
 }
 

@@ -5,7 +5,7 @@
 
 RT_SHARED_BEGIN
 
-RT_FN bool isDeltaLambertian(uint, RT_IN(Material)) {
+RT_FN bool isDeltaLambertian(uint, RT_IN(Bsdf)) {
     return false;
 }
 
@@ -18,13 +18,13 @@ RT_FN BsdfSample sampleLambertian(vec3 albedo, vec3 n, vec2 u) {
     return s;
 }
 
-RT_FN BsdfSample sampleLambertian(uint, RT_IN(Material), vec3 albedo, vec3 n, uint, vec3, vec2 u, float) {
-    return sampleLambertian(albedo, n, u);
+RT_FN BsdfSample sampleLambertian(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3, vec2 u, float) {
+    return sampleLambertian(m.albedo, n, u);
 }
 
-RT_FN vec4 evalLambertian(uint, RT_IN(Material), vec3 albedo, vec3 n, vec3, vec3 wi) {
+RT_FN vec4 evalLambertian(uint, RT_IN(Bsdf) m, vec3 n, vec3, vec3 wi) {
     float pdf = max(dot(n, wi), 0.0f) * kInvPi;
-    return vec4(albedo * pdf, pdf);
+    return vec4(m.albedo * pdf, pdf);
 }
 
 RT_SHARED_END

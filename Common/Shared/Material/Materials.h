@@ -3,19 +3,20 @@
 //
 // SURFACE(Name, kind, feature bit, name in scene files, what it is, (parameters)) scatters. Its header defines
 //     bool isDelta<Name>(features, m)                                       whether every lobe of m is a delta
-//     BsdfSample sample<Name>(features, m, albedo, n, frontFace, wo, u, uLobe)
-//     vec4 eval<Name>(features, m, albedo, n, wo, wi)                       as evalBsdf; not called where isDelta<Name>
+//     BsdfSample sample<Name>(features, m, n, frontFace, wo, u, uLobe)
+//     vec4 eval<Name>(features, m, n, wo, wi)                               as evalBsdf; not called where isDelta<Name>
 // and BLACK(Name, kind, name, what it is, (parameters)) only emits; any material may emit as well as scatter.
 //
 // Parameters, see Common/Scene/MaterialTypes.h: at most one color(name, need, help), a constant or a texture, which is
-// Material::albedo; and at most kMaterialParameters of number(name, need, least, most, usual value, help), which are
-// Material::parameter in this order.
+// Bsdf::albedo; and at most kMaterialParameters of number(name, need, least, most, usual value, help), which are
+// Bsdf::parameter in this order. What a principled material has beyond its base colour is in PrincipledParameters.h.
 #ifndef RT_SHARED_MATERIALS_H
 #define RT_SHARED_MATERIALS_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Material/Dielectric.h"
 #include "Common/Shared/Material/Lambertian.h"
 #include "Common/Shared/Material/Metal.h"
+#include "Common/Shared/Material/Principled.h"
 
 // clang-format off
 #define RT_MATERIALS(SURFACE, BLACK) \
@@ -24,6 +25,8 @@
             (color("albedo", kRequired, ""), number("fuzz", kOptional, 0, 1, 0, ""))) \
     SURFACE(Dielectric, 2u, 7u, "dielectric", "Clear: albedo tints, ior is the index inside over that outside", \
             (color("albedo", kOptional, ""), number("ior", kRequired, 1e-9, 1e9, 1.5, ""))) \
+    SURFACE(Principled, 4u, 28u, "principled", "Layers of glTF 2.0: metal, dielectric over diffuse, glass, clearcoat, sheen", \
+            (color("base_color", kOptional, ""))) \
     BLACK(Emitter, 3u, "emitter", "Emits and absorbs", ())
 // clang-format on
 

@@ -6,15 +6,15 @@
 
 RT_SHARED_BEGIN
 
-const uint kMetalFuzz = 0u;        // of Material::parameter: [0,1]
+const uint kMetalFuzz = 0u;        // of Bsdf::parameter: [0,1]
 const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
 
 // kFeatureFuzz says that some metal of the scene is.
-RT_FN bool isFuzzy(uint features, RT_IN(Material) m) {
+RT_FN bool isFuzzy(uint features, RT_IN(Bsdf) m) {
     return has(features, kFeatureFuzz) && m.parameter[kMetalFuzz] > kMirrorFuzz;
 }
 
-RT_FN bool isDeltaMetal(uint features, RT_IN(Material) m) {
+RT_FN bool isDeltaMetal(uint features, RT_IN(Bsdf) m) {
     return !isFuzzy(features, m);
 }
 
@@ -33,10 +33,10 @@ RT_FN float fuzzPdf(vec3 r, float fuzz, vec3 w) {
     return x > -blur && cosine > 0.0f ? (square(cosine) + square(root)) / (2.0f * kPi * fuzz * root) : 0.0f;
 }
 
-RT_FN BsdfSample sampleMetal(uint features, RT_IN(Material) m, vec3 albedo, vec3 n, uint, vec3 wo, vec2 u, float) {
+RT_FN BsdfSample sampleMetal(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     BsdfSample s = absorbed();
     s.wi = mirrorDirection(wo, n);
-    s.weight = albedo;
+    s.weight = m.albedo;
     s.delta = 1u;
     if (isFuzzy(features, m)) {
         vec3 w = s.wi + sampleSphere(u) * m.parameter[kMetalFuzz];
@@ -50,9 +50,9 @@ RT_FN BsdfSample sampleMetal(uint features, RT_IN(Material) m, vec3 albedo, vec3
     return s;
 }
 
-RT_FN vec4 evalMetal(uint, RT_IN(Material) m, vec3 albedo, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalMetal(uint, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     float pdf = fuzzPdf(mirrorDirection(wo, n), m.parameter[kMetalFuzz], wi);
-    return vec4(albedo * (dot(n, wi) > 0.0f ? pdf : 0.0f), pdf);
+    return vec4(m.albedo * (dot(n, wi) > 0.0f ? pdf : 0.0f), pdf);
 }
 
 RT_SHARED_END

@@ -46,7 +46,7 @@ RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) ligh
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
     }
-    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv);
+    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv, sampled.uv);
 }
 
 RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,

@@ -34,10 +34,11 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
 }
 
 // Emitted radiance at a point of a surface with this material, both sides alike.
-RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv) {
+RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv,
+                            vec2 uv2) {
     if (material.emissionTexture == kNone) return material.emission;
     return material.emission *
-           evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv);
+           vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));
 }
 
 RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
@@ -45,7 +46,7 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
     if (!front && material.emissionSides != kSidesBoth) return;
-    vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv);
+    vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv, surface.uv2);
     float weight = 1.0f;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
         float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);

@@ -90,8 +90,16 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
     bool lightless = context.policy == kSelectContribution && !(context.total > 0.0f);
     if (lightless && globals.targetCount == 0u) return b;
     BsdfSample mixed = b;
+    bool aimsAtLight = u.roulette.y < 0.5f;
+    if (!aimsAtLight && (b.delta != 0u || b.transmitted != 0u)) {
+        // Lights have no part in a mirror's direction, and they are aimed at on the side of wo only.
+        mixed.weight = b.weight * 2.0f;
+        return mixed;
+    }
     mixed.weight = vec3(0.0f, 0.0f, 0.0f);
-    if (u.roulette.y < 0.5f) {
+    mixed.delta = 0u;
+    mixed.transmitted = 0u;
+    if (aimsAtLight) {
         LightSample sampled = sampleMixtureLight(features, scene, params, globals, light, v, u, time);
         if (!(sampled.pdf > 0.0f)) return mixed;
         mixed.wi = sampled.wi;

@@ -69,6 +69,13 @@ RT_FN float sampleCollision(SceneRef scene, RT_IN(Ray) ray, float tMax, RT_IN(Sa
     return nearest;
 }
 
+// What a principled material absorbs of a path that meets it from inside, by Beer's law.
+RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, RT_INOUT(PathState) s) {
+    if (dot(s.ray.direction, surface.normal) < 0.0f) return;
+    vec3 depth = loadPrincipled(scene, surface.material).absorption * distance;
+    s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
+}
+
 // Arrives at the next vertex of the path, v, given what s.ray hits. False: the path has ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                   RT_INOUT(PathState) s, RT_OUT(Vertex) v) {
@@ -86,6 +93,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         }
         Surface surface = makeSurface(features, scene, s.ray, hit);
         Material material = loadMaterial(scene, surface.material); // the vertex keeps parts of it, in registers
+        if (isPrincipled(features, material)) absorbInside(scene, surface, hit.t, s);
         addEmission(features, scene, params, surface, material, hit.t, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
@@ -109,7 +117,8 @@ RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b
         s.ray.origin = v.origin;
     }
     s.ray.direction = b.wi;
-    s.pdf = b.delta != 0u ? 0.0f : b.pdf;
+    // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
+    s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
     if (params.russianRoulette != 0u && v.index > 0u) {
         float probability = clamp(float(params.russianRoulette) * strongest, kLeastSurvival, 1.0f);
         if (survival >= probability) return false;

@@ -3,6 +3,7 @@
 #define RT_SHARED_VERTEX_H
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Material/Bsdf.h"
+#include "Common/Shared/Material/PrincipledSurface.h"
 #include "Common/Shared/Shape/Surface.h"
 #include "Common/Shared/Texture/Textures.h"
 
@@ -11,34 +12,42 @@ RT_SHARED_BEGIN
 // A place where light scatters: a surface point or a collision in a medium.
 struct Vertex {
     uint index;    // position along the path, 0 is what the camera sees
-    uint inMedium; // 1: isotropic scattering, the fields up to albedo are unused
+    uint inMedium; // 1: isotropic scattering, of the bsdf only the albedo is used
     uint front;    // 1: wo is on the front side
-    Material material;
+    Bsdf bsdf;
     vec3 normal;  // geometric, facing wo; zero in a medium
     vec3 shading; // of the bsdf frame, facing wo; zero in a medium
     vec3 wo;
-    vec3 albedo;
     vec3 position;
     vec3 error;  // of position, per axis
     vec3 origin; // where rays on wo's side start
 };
 
-RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint texture, vec3 position, vec2 uv) {
+// A medium's albedo.
+RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint texture, vec3 position) {
     if (!has(features, kTexturedFeatures) || texture == kNone) return constant;
-    return evalTexture(features, scene, texture, position + loadGlobals(scene).origin, uv);
+    vec2 none = vec2(0.0f, 0.0f);
+    return vec3(evalTexture(features, scene, texture, position + loadGlobals(scene).origin, none, none));
 }
 
-// The material of what has none.
-RT_FN Material blackMaterial() {
-    Material m;
-    m.kind = kMaterialEmitter;
-    m.albedo = vec3(0.0f, 0.0f, 0.0f);
-    m.texture = kNone;
-    for (uint i = 0u; i < kMaterialParameters; i++) m.parameter[i] = 0.0f;
-    m.emission = vec3(0.0f, 0.0f, 0.0f);
-    m.emissionTexture = kNone;
-    m.emissionSides = kSidesFront;
-    return m;
+// A surface's albedo, or base colour.
+RT_FN vec3 surfaceAlbedo(uint features, SceneRef scene, RT_IN(Material) material, RT_IN(Surface) s) {
+    vec3 albedo = material.albedo;
+    if (has(features, kTexturedFeatures) && material.texture != kNone) {
+        albedo = vec3(evalTexture(features, scene, material.texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2));
+    }
+    if (isPrincipled(features, material)) albedo = clamp(albedo * vec3(s.color), vec3(0.0f), vec3(1.0f));
+    return albedo;
+}
+
+// What scatters in a medium: of it only the albedo counts.
+RT_FN Bsdf mediumBsdf(vec3 albedo) {
+    Bsdf b;
+    b.kind = kMaterialEmitter;
+    b.albedo = albedo;
+    for (uint i = 0u; i < kMaterialParameters; i++) b.parameter[i] = 0.0f;
+    b.lobes = noLobes();
+    return b;
 }
 
 // The vertex of a collision in medium `index` at the distance t along the path's ray.
@@ -47,14 +56,13 @@ RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, floa
     v.index = s.vertex - 1u;
     v.inMedium = 1u;
     v.front = 1u;
-    v.material = blackMaterial();
     v.normal = vec3(0.0f, 0.0f, 0.0f);
     v.shading = vec3(0.0f, 0.0f, 0.0f);
     v.wo = -s.ray.direction;
     v.position = s.ray.origin + s.ray.direction * t;
     v.error = vec3(0.0f, 0.0f, 0.0f);
     v.origin = v.position;
-    v.albedo = texturedAlbedo(features, scene, medium.albedo, medium.texture, v.position, vec2(0.0f, 0.0f));
+    v.bsdf = mediumBsdf(texturedAlbedo(features, scene, medium.albedo, medium.texture, v.position));
 }
 
 // The vertex on a surface that the path's ray hit.
@@ -64,34 +72,41 @@ RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_
     v.inMedium = 0u;
     v.wo = -s.ray.direction;
     v.front = dot(v.wo, surface.normal) > 0.0f ? 1u : 0u;
-    v.material = material;
     v.normal = v.front != 0u ? surface.normal : -surface.normal;
     v.shading = v.front != 0u ? surface.shading : -surface.shading;
     if (!(dot(v.wo, v.shading) > 0.0f)) v.shading = v.normal;
     v.position = surface.position;
     v.error = surface.error;
     v.origin = offsetOrigin(surface.position, surface.error, v.normal, v.normal);
-    v.albedo = texturedAlbedo(features, scene, material.albedo, material.texture, surface.position, surface.uv);
+    v.bsdf = makeBsdf(material, surfaceAlbedo(features, scene, material, surface));
+    if (isPrincipled(features, material)) {
+        RT_IN(Principled) p = loadPrincipled(scene, surface.material);
+        float facing = v.front != 0u ? 1.0f : -1.0f;
+        vec3 mapped = mappedNormal(features, scene, p, surface, v.shading, facing);
+        v.shading = keepReflectionAbove(mapped, v.normal, v.wo);
+        float cosine = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
+        v.bsdf.lobes = makeLobes(features, scene, p, surface, v.bsdf.albedo, cosine, v.front != 0u);
+    }
 }
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
 // are black, whatever the interpolated normal says.
 RT_FN vec4 evalScattering(uint features, RT_IN(Vertex) v, vec3 wi) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) {
-        return vec4(v.albedo * kPhasePdf, kPhasePdf);
+        return vec4(v.bsdf.albedo * kPhasePdf, kPhasePdf);
     }
     if (!(dot(wi, v.normal) > 0.0f)) return vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    return evalBsdf(features, v.material, v.albedo, v.shading, v.wo, wi);
+    return evalBsdf(features, v.bsdf, v.shading, v.wo, wi);
 }
 
 RT_FN bool isDeltaVertex(uint features, RT_IN(Vertex) v) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) return false;
-    return isDelta(features, v.material);
+    return isDelta(features, v.bsdf);
 }
 
 RT_FN BsdfSample sampleScattering(uint features, RT_IN(Vertex) v, vec2 u) {
-    if (has(features, kFeatureVolumes) && v.inMedium != 0u) return samplePhase(v.albedo, u);
-    return sampleBsdf(features, v.material, v.albedo, v.shading, v.front, v.wo, u, u.x);
+    if (has(features, kFeatureVolumes) && v.inMedium != 0u) return samplePhase(v.bsdf.albedo, u);
+    return sampleBsdf(features, v.bsdf, v.shading, v.front, v.wo, u, u.x);
 }
 
 RT_FN LightContext lightContext(RT_IN(RenderParams) params, RT_IN(Vertex) v) {

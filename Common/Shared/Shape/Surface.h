@@ -18,6 +18,9 @@ struct Surface {
     vec3 normal;  // geometric, unit, on the front side
     vec3 shading; // unit, on the front side; differs from normal only on smooth meshes
     vec2 uv;
+    vec2 uv2;     // a mesh's second set; these two and the next two are of use to principled materials only
+    vec4 color;   // of the vertices, with opacity
+    vec4 tangent; // direction of u, and the bitangent's sign; w = 0: there is none
     uint material;
     uint light; // kNone: not in the light table
 };
@@ -31,6 +34,13 @@ RT_FN float gammaBound(float n) {
 // below would be 7; but a device's own triangle test also has to see that a ray leaves its surface, and NVIDIA's let
 // one in 2000 paths of a closed box fall through with 7.
 const float kFlatError = 30.0f;
+
+// What few surfaces have more than.
+RT_FN void addDetail(vec2 uv, vec4 tangent, RT_INOUT(Surface) s) {
+    s.uv2 = uv;
+    s.color = vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    s.tangent = tangent;
+}
 
 // The object-space normal taken to world space by the inverse transpose: the columns of toObject.
 RT_FN vec3 transformNormal(vec4 row0, vec4 row1, vec4 row2, vec3 n) {
@@ -53,12 +63,14 @@ RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN
     s.error = vec3(8.0f * kEpsilon * (max(max(abs(center.x), abs(center.y)), abs(center.z)) + sphere.radius));
     s.uv = vec2(0.0f, 0.0f);
     if (has(features, kFeatureImages)) s.uv = sphereUv(s.normal);
+    // u runs eastwards.
+    if (has(features, kFeatureDetail)) addDetail(s.uv, vec4(s.normal.z, 0.0f, -s.normal.x, 1.0f), s);
     s.material = sphere.material;
     s.light = sphere.light;
     return s;
 }
 
-RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
+RT_FN Surface quadSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     RT_IN(Quad) quad = loadQuad(scene, hit.primitive);
     Surface s;
     vec3 alongU = quad.edgeU * hit.u;
@@ -69,9 +81,29 @@ RT_FN Surface quadSurface(SceneRef scene, RT_IN(Hit) hit) {
     s.normal = quad.normal;
     s.shading = quad.normal;
     s.uv = vec2(hit.u, hit.v);
+    if (has(features, kFeatureDetail)) addDetail(s.uv, vec4(quad.edgeU, 1.0f), s);
     s.material = quad.material;
     s.light = quad.light;
     return s;
+}
+
+RT_FN void addMeshDetail(SceneRef scene, RT_IN(Mesh) mesh, uvec3 index, RT_IN(Hit) hit, RT_INOUT(Surface) s) {
+    float w = 1.0f - hit.u - hit.v;
+    addDetail(s.uv, vec4(0.0f, 0.0f, 0.0f, 0.0f), s);
+    if (mesh.firstUv2 != kNone) {
+        uvec3 t = index + (mesh.firstUv2 - mesh.firstVertex);
+        s.uv2 = loadUv(scene, t.x) * w + loadUv(scene, t.y) * hit.u + loadUv(scene, t.z) * hit.v;
+    }
+    if (mesh.firstColor != kNone) {
+        uvec3 c = index + (mesh.firstColor - mesh.firstVertex);
+        s.color = loadColor(scene, c.x) * w + loadColor(scene, c.y) * hit.u + loadColor(scene, c.z) * hit.v;
+    }
+    if (mesh.firstTangent != kNone) {
+        uvec3 t = index + (mesh.firstTangent - mesh.firstVertex);
+        vec4 t0 = loadTangent(scene, t.x);
+        s.tangent = t0 * w + loadTangent(scene, t.y) * hit.u + loadTangent(scene, t.z) * hit.v;
+        s.tangent.w = t0.w; // the same for all three
+    }
 }
 
 RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
@@ -102,6 +134,7 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
         uvec3 t = index + (mesh.firstUv - mesh.firstVertex);
         s.uv = loadUv(scene, t.x) * w + loadUv(scene, t.y) * hit.u + loadUv(scene, t.z) * hit.v;
     }
+    if (has(features, kFeatureDetail)) addMeshDetail(scene, mesh, index, hit, s);
     s.material = mesh.material;
     s.light = mesh.firstLight == kNone ? kNone : mesh.firstLight + hit.primitive - mesh.firstTriangle;
     return s;
@@ -109,7 +142,7 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
 
 RT_FN Surface primitiveSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (has(features, kFeatureTriangles) && hit.kind == kTriangle) return triangleSurface(features, scene, hit);
-    if (has(features, kFeatureQuads) && hit.kind == kQuad) return quadSurface(scene, hit);
+    if (has(features, kFeatureQuads) && hit.kind == kQuad) return quadSurface(features, scene, hit);
     return sphereSurface(features, scene, ray, hit);
 }
 
@@ -128,6 +161,13 @@ RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(H
     s.position = transformPoint(instance.toWorld[0], instance.toWorld[1], instance.toWorld[2], s.position);
     s.normal = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.normal);
     s.shading = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.shading);
+    if (has(features, kFeatureDetail)) {
+        vec3 along = transformVector(instance.toWorld[0], instance.toWorld[1], instance.toWorld[2], vec3(s.tangent));
+        // A map that mirrors turns the bitangent over.
+        vec3 x = vec3(instance.toWorld[0]);
+        float volume = dot(cross(x, vec3(instance.toWorld[1])), vec3(instance.toWorld[2]));
+        s.tangent = vec4(along, volume < 0.0f ? -s.tangent.w : s.tangent.w);
+    }
     if (instance.material != kNone) s.material = instance.material;
     if (has(features, kFeatureEllipsoidLights) && instance.light != kNone) {
         // Rays start where the map to the unit sphere leaves no doubt that they are outside, so that it does not light

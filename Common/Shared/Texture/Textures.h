@@ -74,49 +74,73 @@ RT_FN float noiseValue(SceneRef scene, RT_IN(Texture) t, vec3 point) {
 // ---- images --------------------------------------------------------------------------------------------------------
 
 // The four texels of a bilinear lookup and the weights of the second column and row. Texel centres lie at (i + 1/2) /
-// size; beyond the outermost the edge is repeated.
+// size.
 struct Footprint {
     uvec2 low;
     uvec2 high;
     vec2 weight;
 };
 
+// (texel before, texel after, weight of the latter) at p, in [0, size] along one side of an image.
+RT_FN vec3 texelsAround(float p, float size, uint wrap) {
+    float limit = size - 1.0f;
+    float at = p - 0.5f;
+    if (wrap == kWrapRepeat) {
+        float low = floor(at);
+        float after = low + 1.0f;
+        return vec3(low < 0.0f ? limit : low, after > limit ? 0.0f : after, at - low);
+    }
+    at = clamp(at, 0.0f, limit);
+    float low = min(floor(at), limit);
+    return vec3(low, min(low + 1.0f, limit), at - low);
+}
+
+// A place in [0,1], taken there as wrapping says.
+RT_FN float wrapped(float x, uint wrap) {
+    if (wrap == kWrapClamp) return clamp(x, 0.0f, 1.0f);
+    float turn = wrap == kWrapRepeat ? x - floor(x) : abs(x - 2.0f * floor(0.5f * x + 0.5f));
+    return isFinite(turn) ? clamp(turn, 0.0f, 1.0f) : 0.0f;
+}
+
 // uv with v upwards from the last row of the image.
-RT_FN Footprint imageFootprint(RT_IN(Image) image, vec2 uv) {
-    vec2 limit = vec2(float(image.width - 1u), float(image.height - 1u));
-    vec2 p = vec2(uv.x * float(image.width), (1.0f - uv.y) * float(image.height)) - 0.5f;
-    p = clamp(p, vec2(0.0f), limit);
-    vec2 low = min(floor(p), limit);
+RT_FN Footprint imageFootprint(RT_IN(Texture) t, RT_IN(Image) image, vec2 uv) {
+    float width = float(image.width);
+    float height = float(image.height);
+    vec3 place = vec3(uv.x, uv.y, 1.0f);
+    vec3 across = texelsAround(wrapped(dot(t.uRow, place), t.wrapU) * width, width, t.wrapU);
+    vec3 down = texelsAround((1.0f - wrapped(dot(t.vRow, place), t.wrapV)) * height, height, t.wrapV);
     Footprint f;
-    f.low = uvec2(low);
-    f.high = uvec2(min(low + 1.0f, limit));
-    f.weight = p - low;
+    f.low = uvec2(uint(across.x), uint(down.x));
+    f.high = uvec2(uint(across.y), uint(down.y));
+    f.weight = vec2(across.z, down.z);
     return f;
 }
 
-RT_FN vec3 imageColor(SceneRef scene, RT_IN(Image) image, vec2 uv) {
-    Footprint f = imageFootprint(image, uv);
-    vec3 upper = mix(loadTexel(scene, image, f.low.x, f.low.y), loadTexel(scene, image, f.high.x, f.low.y), f.weight.x);
-    vec3 lower =
+RT_FN vec4 imageColor(SceneRef scene, RT_IN(Texture) t, vec2 uv) {
+    RT_IN(Image) image = loadImage(scene, t.first);
+    Footprint f = imageFootprint(t, image, uv);
+    vec4 upper = mix(loadTexel(scene, image, f.low.x, f.low.y), loadTexel(scene, image, f.high.x, f.low.y), f.weight.x);
+    vec4 lower =
         mix(loadTexel(scene, image, f.low.x, f.high.y), loadTexel(scene, image, f.high.x, f.high.y), f.weight.x);
     return mix(upper, lower, f.weight.y);
 }
 
 // ---- any texture ---------------------------------------------------------------------------------------------------
 
-// `point` in authored world coordinates (SceneGlobals::origin added back), `uv` the surface's.
-RT_FN vec3 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv) {
+// Colour and opacity. `point` in authored world coordinates (SceneGlobals::origin added back), `uv` and `uv2` the
+// surface's texture coordinates.
+RT_FN vec4 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv, vec2 uv2) {
     Texture t = loadTexture(scene, texture);
     if (has(features, kFeatureChecker)) {
         for (int depth = 0; depth < kMaxCheckerDepth && t.kind == kTextureChecker; ++depth) {
             t = loadTexture(scene, isEvenCell(point, t.scale) ? t.first : t.second);
         }
     }
-    vec3 color = t.color;
+    vec4 color = vec4(t.color, 1.0f);
     if (has(features, kFeatureImages) && t.kind == kTextureImage) {
-        color = color * imageColor(scene, loadImage(scene, t.first), uv);
+        color = color * imageColor(scene, t, has(features, kFeatureDetail) && t.uvSet != 0u ? uv2 : uv);
     } else if (has(features, kFeatureNoise) && isNoise(t.kind)) {
-        color = color * noiseValue(scene, t, point);
+        color = vec4(t.color * noiseValue(scene, t, point), 1.0f);
     }
     return color;
 }

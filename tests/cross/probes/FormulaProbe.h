@@ -78,16 +78,13 @@ RT_FN uvec4 probeSampler(uint i) {
     return uvec4(words.x, words.y, 0u, 0u);
 }
 
-RT_FN Material probeMaterial(uint kind, float parameter) {
-    Material m;
+RT_FN Bsdf probeMaterial(uint kind, float parameter) {
+    Bsdf m;
     m.kind = kind;
     m.albedo = vec3(0.8f, 0.6f, 0.4f);
-    m.texture = kNone;
     m.parameter[0] = parameter;
     m.parameter[1] = 0.0f;
-    m.emission = vec3(0.0f, 0.0f, 0.0f);
-    m.emissionTexture = kNone;
-    m.emissionSides = kSidesFront;
+    m.lobes = noLobes();
     return m;
 }
 
@@ -155,11 +152,11 @@ RT_FN uvec4 probeCluster(RT_INOUT(Arguments) a) {
     return floatWords(clusterContribution(c, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
 }
 
-RT_FN uvec4 probeBsdf(RT_INOUT(Arguments) a, Material m) {
+RT_FN uvec4 probeBsdf(RT_INOUT(Arguments) a, Bsdf m) {
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
     vec2 u = uniformPair(a);
-    BsdfSample s = sampleBsdf(kFeatureAll, m, m.albedo, n, uint(u.x * 2.0f), wo, u, u.y);
+    BsdfSample s = sampleBsdf(kFeatureAll, m, n, uint(u.x * 2.0f), wo, u, u.y);
     return floatWords(s.wi, s.pdf);
 }
 
@@ -241,7 +238,7 @@ RT_FN uvec4 probeSurface(RT_INOUT(Arguments) a, uint which) {
     if (which == kProbeMetal) return probeBsdf(a, probeMaterial(kMaterialMetal, fuzz));
     vec3 n = unitVector(a);
     vec3 wo = hemisphereVector(a, n);
-    vec4 f = evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz), vec3(1.0f), n, wo, hemisphereVector(a, n));
+    vec4 f = evalBsdf(kFeatureAll, probeMaterial(kMaterialMetal, fuzz), n, wo, hemisphereVector(a, n));
     return floatWords(vec3(f), f.w);
 }
 

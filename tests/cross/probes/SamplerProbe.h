@@ -218,16 +218,13 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
 
 // ---- materials -----------------------------------------------------------------------------------------------------
 
-RT_FN Material probeCaseMaterial(uint which) {
-    Material m;
+RT_FN Bsdf probeCaseBsdf(uint which) {
+    Bsdf m;
     m.kind = which == 0u ? kMaterialLambertian : kMaterialMetal;
     m.albedo = vec3(1.0f);
-    m.texture = kNone;
     m.parameter[kMetalFuzz] = which == 2u ? 0.1f : 0.6f;
     m.parameter[1] = 0.0f;
-    m.emission = vec3(0.0f);
-    m.emissionTexture = kNone;
-    m.emissionSides = kSidesFront;
+    m.lobes = noLobes();
     return m;
 }
 
@@ -237,7 +234,7 @@ const vec3 kProbeOutwards = vec3(0.34202014f, 0.93969262f, 0.0f);
 RT_FN vec4 probeCone(uint which) {
     if (which == 0u) return vec4(0.0f, 1.0f, 0.0f, 0.0f);
     if (which == 1u) return vec4(0.0f, 1.0f, 0.0f, -1.0f);
-    float fuzz = probeCaseMaterial(which).parameter[kMetalFuzz];
+    float fuzz = probeCaseBsdf(which).parameter[kMetalFuzz];
     return vec4(-kProbeOutwards.x, kProbeOutwards.y, 0.0f, sqrt((1.0f - fuzz) * (1.0f + fuzz)));
 }
 
@@ -247,7 +244,7 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     a.key = i;
     a.next = ((kProbeScattering * kProbeCases + which) * kProbeModes + mode) << 8u;
     bool stress = mode == kProbeStress;
-    Material m = probeCaseMaterial(which);
+    Bsdf m = probeCaseBsdf(which);
     vec3 n = vec3(0.0f, 1.0f, 0.0f);
     vec3 wo = kProbeOutwards;
     if (stress) { // grazing directions and the smallest lobes
@@ -257,7 +254,7 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     }
     vec2 u = probeSquare(a, mode, i);
     if (stress && (i & 7u) < 4u) u = vec2(float(i & 1u), float(i >> 1u & 1u)) * 0.99999994f;
-    BsdfSample s = sampleBsdf(kFeatureAll, m, m.albedo, n, 1u, wo, u, uniformNumber(a));
+    BsdfSample s = sampleBsdf(kFeatureAll, m, n, 1u, wo, u, uniformNumber(a));
     if (which == 1u) s = samplePhase(m.albedo, u);
     if (mode <= kProbeStrata) return floatWords(s.wi, s.pdf);
     vec4 cone = probeCone(which);
@@ -265,9 +262,9 @@ RT_FN uvec4 probeScattering(uint which, uint mode, uint i) {
     float cosine = mix(1.0f, cone.w, w.x);
     vec2 sc = sinCos2Pi(w.y) * sqrt(max((1.0f - cosine) * (1.0f + cosine), 0.0f));
     vec3 wi = toWorld(makeFrame(vec3(cone)), vec3(sc.y, sc.x, cosine));
-    float there = which == 1u ? kPhasePdf : evalBsdf(kFeatureAll, m, m.albedo, n, wo, wi).w;
+    float there = which == 1u ? kPhasePdf : evalBsdf(kFeatureAll, m, n, wo, wi).w;
     there *= 2.0f * kPi * (1.0f - cone.w);
-    float again = which == 1u || !(s.pdf > 0.0f) ? s.pdf : evalBsdf(kFeatureAll, m, m.albedo, n, wo, s.wi).w;
+    float again = which == 1u || !(s.pdf > 0.0f) ? s.pdf : evalBsdf(kFeatureAll, m, n, wo, s.wi).w;
     if (!stress) return floatWords(s.pdf > 0.0f ? again / s.pdf : 1.0f, there, 0.0f, 0.0f);
     uint flags = isFinite(s.pdf) && isFinite(there) && there >= 0.0f ? 0u : 1u;
     if (s.pdf < 0.0f) flags |= 2u;

@@ -1,0 +1,15 @@
+#pragma once
+#include <vector>
+
+#include "Common/Shared/Base/Types.h"
+
+namespace rt::scene {
+
+// The table that directionalAlbedo() of PrincipledSurface.h reads, kAlbedoSteps rows of as many entries: by quadrature,
+// the first time that it is asked for. Errors are below 0.005.
+const std::vector<shared::vec3>& directionalAlbedos();
+
+// Likewise what glassAlbedo() reads of one index of refraction, from outside and from inside.
+std::vector<float> glassAlbedos(float ior);
+
+} // namespace rt::scene

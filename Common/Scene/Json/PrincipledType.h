@@ -1,0 +1,43 @@
+// The principled material as scene files have it, beside what every material has and its base colour.
+#pragma once
+#include "Common/Scene/Json/SceneParameter.h"
+#include "Common/Scene/SceneDesc.h"
+
+namespace rt::scene {
+
+// Calls visit(parameter, pointer to member of PrincipledDesc) in the order of scene files.
+template <typename Visit>
+void forEachPrincipledParameter(const Visit& visit) {
+    using D = PrincipledDesc;
+    visit(SceneParameter{"metallic", false, "0: dielectric, 1: metal of the base colour"}, &D::metallic);
+    visit(SceneParameter{"roughness", false, "its square is the width of the GGX distribution; 0: smooth"},
+          &D::roughness);
+    visit(SceneParameter{"ior", false, "index of refraction, inside over outside", 1, 10}, &D::ior);
+    visit(SceneParameter{"specular", false, "scales the reflection of the dielectric"}, &D::specular);
+    visit(SceneParameter{"specular_color", false, "tints it at normal incidence"}, &D::specularColor);
+    visit(SceneParameter{"transmission", false, "share of the dielectric that lets light through"}, &D::transmission);
+    visit(SceneParameter{"thin_walled", false, "transmits without bending"}, &D::isThin);
+    visit(SceneParameter{"attenuation_color", false, "what is left of white after attenuation_distance inside"},
+          &D::attenuationColor);
+    visit(SceneParameter{"attenuation_distance", false, "missing: nothing is absorbed inside", kSmallest},
+          &D::attenuationDistance);
+    visit(SceneParameter{"clearcoat", false, "share of the surface under a clear coat"}, &D::clearcoat);
+    visit(SceneParameter{"clearcoat_roughness", false}, &D::clearcoatRoughness);
+    visit(SceneParameter{"sheen_color", false, "of the fibres of cloth"}, &D::sheenColor);
+    visit(SceneParameter{"sheen_roughness", false}, &D::sheenRoughness);
+    visit(SceneParameter{.name = "normal_texture",
+                         .isRequired = false,
+                         .help = "a name from textures: tangent-space normals, 2 rgb - 1",
+                         .section = "textures"},
+          &D::normalTexture);
+    visit(SceneParameter{"normal_scale", false, "of their x and y", -100, 100}, &D::normalScale);
+    visit(SceneParameter{"opacity", false, "share of rays that meet the surface"}, &D::opacity);
+    visit(SceneParameter{"alpha_cutoff", false, "opacity below it is 0, else 1", 0, 1}, &D::alphaCutoff);
+}
+
+inline const std::vector<std::string>& channelNames() {
+    static const std::vector<std::string> names = {"red", "green", "blue", "alpha"};
+    return names;
+}
+
+} // namespace rt::scene

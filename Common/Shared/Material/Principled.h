@@ -1,0 +1,181 @@
+// One layered surface with the parameters of glTF 2.0: a metal, or a dielectric coat over a diffuse base or around
+// glass; over them sheen and a clear coat. Here are the lobes that the layers come down to for one outgoing direction,
+// which PrincipledSurface.h finds.
+#ifndef RT_SHARED_PRINCIPLED_H
+#define RT_SHARED_PRINCIPLED_H
+#include "Common/Shared/Base/Random.h"
+#include "Common/Shared/Material/Dielectric.h"
+#include "Common/Shared/Material/Microfacets.h"
+
+RT_SHARED_BEGIN
+
+const float kLeastSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
+const float kCoatReflectance = 0.04f; // of a clear coat at normal incidence
+
+RT_FN float fifthPower(float x) {
+    return square(square(x)) * x;
+}
+
+// Schlick's approximation, a weight for the reflectance at grazing incidence.
+RT_FN float schlick(float cosine) {
+    return fifthPower(1.0f - cosine);
+}
+
+RT_FN bool isMirror(float alpha) {
+    return alpha < kLeastAlpha;
+}
+
+RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
+    return false; // few are, and the choice among their lobes tells
+}
+
+// Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
+// for the exponent 1 / roughness^2.
+RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
+    float density = (2.0f + exponent) * 0.5f * kInvPi * exponential(0.5f * exponent * log1p(-min(square(h.z), 0.999999f)));
+    return density / (4.0f * (wo.z + wi.z - wo.z * wi.z));
+}
+
+// The lobes on wo's side of the surface: f cos in rgb, density in w.
+RT_FN vec4 evalPrincipledReflection(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
+    RT_IN(PrincipledLobes) lobes = m.lobes;
+    vec3 h = normalize(wo + wi);
+    float c = clamp(dot(wo, h), 0.0f, 1.0f);
+    float cosine = wi.z * kInvPi;
+    vec3 value = lobes.diffuse * cosine;
+    float pdf = lobes.diffuseShare * cosine;
+    if (!isMirror(lobes.alpha)) {
+        float facets = ggxDensity(h, lobes.alpha) * smithVisibility(wo.z, wi.z, lobes.alpha) * wi.z;
+        value += mix(lobes.f0, lobes.f90, schlick(c)) * facets;
+        pdf += lobes.specularShare * reflectionPdf(wo, h, lobes.alpha);
+        if (lobes.glass > 0.0f) {
+            float reflected = fresnel(c, lobes.eta).x;
+            value += vec3(lobes.glass * reflected * facets);
+            pdf += lobes.glassShare * reflected * visibleNormalPdf(wo, h, lobes.alpha) / max(4.0f * c, 1.0e-20f);
+        }
+    }
+    if (lobes.coat > 0.0f && !isMirror(lobes.coatAlpha)) {
+        float facets = ggxDensity(h, lobes.coatAlpha) * smithVisibility(wo.z, wi.z, lobes.coatAlpha) * wi.z;
+        value += vec3(lobes.coat * mix(kCoatReflectance, 1.0f, schlick(c)) * facets);
+        pdf += lobes.coatShare * reflectionPdf(wo, h, lobes.coatAlpha);
+    }
+    if (maxComponent(lobes.sheen) > 0.0f) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
+    return vec4(value, pdf);
+}
+
+// Through rough glass (Walter et al. 2007, section 4), or through a sheet of it, which mirrors what it would reflect to
+// the other side. Radiance is not scaled by the indices, as in Dielectric.h.
+RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
+    RT_IN(PrincipledLobes) lobes = m.lobes;
+    if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha)) return vec4(0.0f);
+    vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
+    vec3 h = lobes.thin != 0u ? wo + mirrored : wo * lobes.eta + wi;
+    h = normalize(h) * (h.z < 0.0f ? -1.0f : 1.0f);
+    float co = dot(wo, h);
+    float ci = dot(lobes.thin != 0u ? mirrored : -wi, h);
+    if (!(co > 0.0f && ci > 0.0f)) return vec4(0.0f);
+    // d h / d wi: of reflection, and of refraction.
+    float jacobian = lobes.thin != 0u ? 0.25f / co : ci / max(square(lobes.eta * co - ci), 1.0e-20f);
+    float transmitted = 1.0f - fresnel(min(co, 1.0f), lobes.eta).x;
+    float facets = ggxDensity(h, lobes.alpha) * smithVisibility(wo.z, mirrored.z, lobes.alpha) * mirrored.z;
+    vec3 value = m.albedo * (lobes.glass * transmitted * facets * 4.0f * co * jacobian);
+    return vec4(value, lobes.glassShare * transmitted * visibleNormalPdf(wo, h, lobes.alpha) * jacobian);
+}
+
+RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
+    return vec3(dot(f.tangent, w), dot(f.bitangent, w), dot(f.normal, w));
+}
+
+// As evalBsdf, of directions in the frame of the normal.
+RT_FN vec4 evalPrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
+    if (!(wo.z > 0.0f)) return vec4(0.0f);
+    if (wi.z > 0.0f) return evalPrincipledReflection(m, wo, wi);
+    return wi.z < 0.0f ? evalPrincipledTransmission(m, wo, wi) : vec4(0.0f);
+}
+
+RT_FN vec4 evalPrincipled(uint, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+    Frame frame = makeFrame(n);
+    return evalPrincipledLocal(m, toLocal(frame, wo), toLocal(frame, wi));
+}
+
+// The mirror direction of a lobe that was chosen with probability `share`, of reflectance `f`.
+RT_FN BsdfSample mirrorSample(vec3 wi, vec3 f, float share) {
+    BsdfSample s = absorbed();
+    s.wi = wi;
+    s.weight = f / share;
+    s.delta = 1u;
+    return s;
+}
+
+// One sample of one lobe, weighed by the density of all of them. In the frame of the normal.
+RT_FN BsdfSample samplePrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
+    RT_IN(PrincipledLobes) lobes = m.lobes;
+    vec3 mirrored = vec3(-wo.x, -wo.y, wo.z);
+    float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
+    float beyondSpecular = beyondDiffuse + lobes.coatShare;
+    vec3 wi;
+    uint transmitted = 0u;
+    if (u.x < lobes.diffuseShare) {
+        wi = sampleCosineHemisphere(vec2(stretch(u.x, 0.0f, lobes.diffuseShare), u.y));
+    } else if (u.x < beyondDiffuse) {
+        if (isMirror(lobes.alpha)) {
+            return mirrorSample(mirrored, mix(lobes.f0, lobes.f90, schlick(wo.z)), lobes.specularShare);
+        }
+        vec2 v = vec2(stretch(u.x, lobes.diffuseShare, beyondDiffuse), u.y);
+        vec3 h = sampleReflectionNormal(wo, lobes.alpha, v);
+        wi = h * (2.0f * dot(wo, h)) - wo;
+    } else if (u.x < beyondSpecular) {
+        if (isMirror(lobes.coatAlpha)) {
+            float f = lobes.coat * mix(kCoatReflectance, 1.0f, schlick(wo.z));
+            return mirrorSample(mirrored, vec3(f), lobes.coatShare);
+        }
+        vec2 v = vec2(stretch(u.x, beyondDiffuse, beyondSpecular), u.y);
+        vec3 h = sampleReflectionNormal(wo, lobes.coatAlpha, v);
+        wi = h * (2.0f * dot(wo, h)) - wo;
+    } else if (lobes.glassShare > 0.0f) {
+        // Of rough glass the last digits choose between reflection and refraction, since all choose the normal.
+        float pick = stretch(u.x, beyondSpecular, 1.0f);
+        float choice = isMirror(lobes.alpha) ? pick : pick * 4096.0f - floor(pick * 4096.0f);
+        vec3 h = vec3(0.0f, 0.0f, 1.0f);
+        if (!isMirror(lobes.alpha)) h = sampleVisibleNormal(wo, lobes.alpha, vec2(pick, u.y));
+        float c = clamp(dot(wo, h), 0.0f, 1.0f);
+        vec2 f = fresnel(c, lobes.eta);
+        if (choice < f.x) {
+            wi = h * (2.0f * c) - wo;
+        } else {
+            transmitted = 1u;
+            wi = lobes.thin != 0u ? h * (2.0f * c) - wo : h * (lobes.eta * c - f.y) - wo * lobes.eta;
+            if (lobes.thin != 0u) wi.z = -wi.z;
+        }
+        if (isMirror(lobes.alpha)) {
+            BsdfSample s = mirrorSample(wi, vec3(lobes.glass), lobes.glassShare);
+            s.transmitted = transmitted;
+            if (transmitted != 0u) s.weight *= m.albedo;
+            return s;
+        }
+    } else {
+        return absorbed();
+    }
+    BsdfSample s = absorbed();
+    s.wi = wi;
+    s.transmitted = transmitted;
+    bool leaks = transmitted != 0u ? !(wi.z < 0.0f) : !(wi.z > 0.0f);
+    if (leaks) return s;
+    vec4 f = evalPrincipledLocal(m, wo, wi);
+    s.pdf = f.w;
+    if (f.w > 0.0f) s.weight = vec3(f) / f.w;
+    return s;
+}
+
+RT_FN BsdfSample samplePrincipled(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
+    Frame frame = makeFrame(n);
+    vec3 local = toLocal(frame, wo);
+    if (!(local.z > 0.0f)) return absorbed();
+    BsdfSample s = samplePrincipledLocal(m, local, u);
+    s.wi = normalize(toWorld(frame, s.wi));
+    return s;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,55 @@
+// What a principled material (Principled.h) is made of, and its record in the compiled scene. Names in scene files and
+// their help stand in Common/Scene/Json/PrincipledType.h.
+#ifndef RT_SHARED_PRINCIPLED_PARAMETERS_H
+#define RT_SHARED_PRINCIPLED_PARAMETERS_H
+#include "Common/Shared/Base/Shim.h"
+
+// Numbers, which a channel of an image may multiply: NUMBER(member, usual value). All lie in [0,1].
+#define RT_PRINCIPLED_NUMBERS(NUMBER) \
+    NUMBER(metallic, 0)               \
+    NUMBER(roughness, 0.5)            \
+    NUMBER(specular, 1)               \
+    NUMBER(transmission, 0)           \
+    NUMBER(clearcoat, 0)              \
+    NUMBER(clearcoatRoughness, 0)     \
+    NUMBER(sheenRoughness, 0)         \
+    NUMBER(opacity, 1)
+
+// Colours beside the base colour, constant or a texture: COLOR(member, usual value).
+#define RT_PRINCIPLED_COLORS(COLOR) \
+    COLOR(specularColor, 1)         \
+    COLOR(sheenColor, 0)
+
+RT_SHARED_BEGIN
+
+struct ScaledChannel {
+    float factor;
+    uint texture; // kNone: factor alone
+    uint channel; // of the texture, 0 to 3: red, green, blue, opacity
+};
+
+struct TintedTexture {
+    vec3 color;   // where there is no texture, which replaces it
+    uint texture; // kNone: constant
+};
+
+// Beside the Material of the same index.
+struct Principled {
+#define RT_NUMBER(member, usual) ScaledChannel member;
+#define RT_COLOR(member, usual) TintedTexture member;
+    RT_PRINCIPLED_NUMBERS(RT_NUMBER)
+    RT_PRINCIPLED_COLORS(RT_COLOR)
+#undef RT_NUMBER
+#undef RT_COLOR
+    float ior;          // index of refraction inside over outside, >= 1
+    uint thin;          // 1: transmits without bending, as a sheet does
+    uint glass;         // first of the glassAlbedos of its index; kNone: it is thin, or nothing is transmitted
+    vec3 absorption;    // per world unit of length inside
+    uint normalTexture; // tangent-space normals, 2 rgb - 1; kNone: none
+    float normalScale;  // of their x and y
+    float alphaCutoff;  // opacity below it is 0, else 1; negative: opacity is a probability
+};
+
+RT_SHARED_END
+
+#endif

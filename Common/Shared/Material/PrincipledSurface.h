@@ -1,0 +1,186 @@
+// From a principled material and a hit to the lobes of Principled.h: textures, normal map, what the layers leave to
+// those below them, and the choice among lobes.
+#ifndef RT_SHARED_PRINCIPLED_SURFACE_H
+#define RT_SHARED_PRINCIPLED_SURFACE_H
+#include "Common/Shared/Material/Bsdf.h"
+#include "Common/Shared/Shape/Surface.h"
+#include "Common/Shared/Texture/Textures.h"
+
+RT_SHARED_BEGIN
+
+#ifdef __cplusplus
+static_assert(kFeatureDetail == kFeaturePrincipled, "surfaces give principled materials what they ask for");
+#endif
+
+RT_FN bool isPrincipled(uint features, RT_IN(Material) m) {
+    return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
+}
+
+// ---- directional albedo --------------------------------------------------------------------------------------------
+
+// The scene's table of what GGX facets and sheen reflect in all, over the cosine of wo and the roughness, each at
+// kAlbedoSteps equal steps from 0 to 1: x and y are the factors of the reflectance at normal and at grazing incidence
+// (Karis, "Real Shading in Unreal Engine 4", 2013), z belongs to sheen.
+RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
+    vec2 at = vec2(cosine, roughness) * float(kAlbedoSteps - 1u);
+    uint column = min(uint(at.x), kAlbedoSteps - 2u);
+    uint row = min(uint(at.y), kAlbedoSteps - 2u);
+    vec2 part = at - vec2(float(column), float(row));
+    uint first = row * kAlbedoSteps + column;
+    vec3 lower = mix(loadDirectionalAlbedo(scene, first), loadDirectionalAlbedo(scene, first + 1u), part.x);
+    first += kAlbedoSteps;
+    vec3 upper = mix(loadDirectionalAlbedo(scene, first), loadDirectionalAlbedo(scene, first + 1u), part.x);
+    return mix(lower, upper, part.y);
+}
+
+// What rough glass reflects and transmits in all, from outside or from inside: two such tables, one after the other,
+// from `first` on.
+RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, float roughness) {
+    vec2 at = vec2(cosine, roughness) * float(kAlbedoSteps - 1u);
+    uint column = min(uint(at.x), kAlbedoSteps - 2u);
+    uint row = min(uint(at.y), kAlbedoSteps - 2u);
+    vec2 part = at - vec2(float(column), float(row));
+    uint i = first + ((inside ? kAlbedoSteps : 0u) + row) * kAlbedoSteps + column;
+    float lower = mix(loadGlassAlbedo(scene, i), loadGlassAlbedo(scene, i + 1u), part.x);
+    i += kAlbedoSteps;
+    return mix(lower, mix(loadGlassAlbedo(scene, i), loadGlassAlbedo(scene, i + 1u), part.x), part.y);
+}
+
+// ---- textures ------------------------------------------------------------------------------------------------------
+
+// A texture's colour and opacity on a surface.
+RT_FN vec4 surfaceTexture(uint features, SceneRef scene, uint texture, RT_IN(Surface) s) {
+    return evalTexture(features, scene, texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2);
+}
+
+RT_FN float surfaceNumber(uint features, SceneRef scene, RT_IN(ScaledChannel) number, RT_IN(Surface) s) {
+    if (!has(features, kTexturedFeatures) || number.texture == kNone) return number.factor;
+    vec4 texel = surfaceTexture(features, scene, number.texture, s);
+    float high = number.channel == 2u ? texel.z : texel.w;
+    float low = number.channel == 0u ? texel.x : texel.y;
+    return clamp(number.factor * (number.channel < 2u ? low : high), 0.0f, 1.0f);
+}
+
+RT_FN vec3 surfaceColor(uint features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {
+    if (!has(features, kTexturedFeatures) || source.texture == kNone) return source.color;
+    return vec3(surfaceTexture(features, scene, source.texture, s));
+}
+
+// Share of rays that meet the surface.
+RT_FN float surfaceOpacity(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+    float opacity = surfaceNumber(features, scene, p.opacity, s) * s.color.w;
+    if (p.alphaCutoff < 0.0f) return opacity;
+    return opacity < p.alphaCutoff ? 0.0f : 1.0f;
+}
+
+// ---- normal map ----------------------------------------------------------------------------------------------------
+
+// The least cosine with the geometric normal of the reflection at a bent shading normal.
+const float kLeastReflection = 0.01f;
+
+// The normal n, bent back so far towards the geometric one that the mirror direction of wo stays above the surface:
+// otherwise bumps seen at grazing angles would be black.
+RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
+    vec3 reflected = n * (2.0f * dot(n, wo)) - wo;
+    float above = dot(reflected, geometric);
+    // At grazing angles the flat surface's own reflection is as low as wo.
+    float least = min(kLeastReflection, 0.5f * dot(wo, geometric));
+    if (above >= least) return n;
+    vec3 half_ = wo + normalize(reflected + geometric * (least - above));
+    return normalize(half_);
+}
+
+// The shading normal that a map asks for, on the side of `shading`; `facing` is 1 on the front and -1 on the back.
+RT_FN vec3 mappedNormal(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading, float facing) {
+    if (!has(features, kTexturedFeatures) || p.normalTexture == kNone || s.tangent.w == 0.0f) return shading;
+    vec3 tangent = vec3(s.tangent) - shading * dot(vec3(s.tangent), shading);
+    float length2 = dot(tangent, tangent);
+    if (!(length2 > 1.0e-12f)) return shading;
+    tangent = tangent * (1.0f / sqrt(length2));
+    vec3 bitangent = cross(shading * facing, tangent) * s.tangent.w;
+    vec3 local = vec3(surfaceTexture(features, scene, p.normalTexture, s)) * 2.0f - vec3(1.0f);
+    // On the back the map is seen from behind.
+    vec3 n = tangent * (local.x * p.normalScale * facing) + bitangent * (local.y * p.normalScale * facing) +
+             shading * max(local.z, 0.0f);
+    float squared = dot(n, n);
+    return squared > 1.0e-12f ? n * (1.0f / sqrt(squared)) : shading;
+}
+
+// ---- lobes ---------------------------------------------------------------------------------------------------------
+
+// What single reflection at rough facets loses is put back in proportion: Turquin, "Practical Multiple Scattering
+// Compensation for Microfacet Models", 2019. `whole` is the albedo of facets that reflect everything.
+RT_FN vec3 compensation(vec3 f0, float whole) {
+    return vec3(1.0f) + f0 * (1.0f / max(whole, 1.0e-3f) - 1.0f);
+}
+
+// Of the principled material p at a point: `albedo` its base colour, `cosine` that of wo, `front` whether wo is on the
+// front side.
+RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 albedo,
+                                float cosine, bool front) {
+    PrincipledLobes lobes;
+    float metallic = surfaceNumber(features, scene, p.metallic, s);
+    float roughness = surfaceNumber(features, scene, p.roughness, s);
+    float specular = surfaceNumber(features, scene, p.specular, s);
+    float transmission = surfaceNumber(features, scene, p.transmission, s);
+    float coat = surfaceNumber(features, scene, p.clearcoat, s);
+    float coatRoughness = surfaceNumber(features, scene, p.clearcoatRoughness, s);
+    float sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kLeastSheenRoughness);
+    vec3 specularColor = surfaceColor(features, scene, p.specularColor, s);
+    vec3 sheen = surfaceColor(features, scene, p.sheenColor, s);
+
+    // Clear coat and sheen leave the rest to what is below. From inside of glass there is neither.
+    bool inside = !front && transmission > 0.0f && p.thin == 0u;
+    coat = inside ? 0.0f : coat;
+    sheen = select(inside, vec3(0.0f), sheen);
+    float coatAlbedo = 0.0f;
+    float coatBoost = 1.0f;
+    if (coat > 0.0f) {
+        vec3 a = directionalAlbedo(scene, cosine, coatRoughness);
+        coatBoost = compensation(vec3(kCoatReflectance), a.x + a.y).x;
+        coatAlbedo = coat * coatBoost * (kCoatReflectance * a.x + a.y);
+    }
+    float sheenAlbedo = 0.0f;
+    if (maxComponent(sheen) > 0.0f) {
+        sheenAlbedo = min(maxComponent(sheen) * directionalAlbedo(scene, cosine, sheenRoughness).z, 1.0f);
+    }
+    float below = (1.0f - coatAlbedo) * (1.0f - sheenAlbedo);
+
+    float opaque = (1.0f - metallic) * (1.0f - transmission);
+    vec3 a = directionalAlbedo(scene, cosine, roughness);
+    vec3 f0 = min(specularColor * square((p.ior - 1.0f) / (p.ior + 1.0f)), vec3(1.0f)) * specular;
+    vec3 boost = compensation(f0, a.x + a.y);
+    vec3 metalBoost = compensation(albedo, a.x + a.y);
+    vec3 reflected = (f0 * a.x + vec3(specular * a.y)) * boost;
+    lobes.diffuse = albedo * (below * opaque * max(1.0f - maxComponent(reflected), 0.0f));
+    lobes.f0 = (f0 * boost * opaque + albedo * metalBoost * metallic) * below;
+    lobes.f90 = (boost * (opaque * specular) + metalBoost * metallic) * below;
+    lobes.sheen = sheen * (1.0f - coatAlbedo);
+    lobes.sheenExponent = 1.0f / square(sheenRoughness);
+    lobes.alpha = square(roughness);
+    lobes.glass = (1.0f - metallic) * transmission * below;
+    if (lobes.glass > 0.0f && roughness > 0.0f) {
+        // A sheet mirrors to its other side what it does not reflect.
+        float whole = a.x + a.y;
+        if (p.glass != kNone) whole = glassAlbedo(scene, p.glass, !front, cosine, roughness);
+        lobes.glass *= compensation(vec3(1.0f), whole).x;
+    }
+    lobes.eta = front || p.thin != 0u ? 1.0f / p.ior : p.ior;
+    lobes.thin = p.thin;
+    lobes.coat = coat * coatBoost;
+    lobes.coatAlpha = square(coatRoughness);
+
+    float diffuseAlbedo = maxComponent(lobes.diffuse) + sheenAlbedo * (1.0f - coatAlbedo);
+    float specularAlbedo = maxComponent(lobes.f0 * a.x + lobes.f90 * a.y);
+    float sum = diffuseAlbedo + specularAlbedo + coatAlbedo + lobes.glass;
+    float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+    lobes.diffuseShare = diffuseAlbedo * scale;
+    lobes.specularShare = specularAlbedo * scale;
+    lobes.coatShare = coatAlbedo * scale;
+    lobes.glassShare = lobes.glass * scale;
+    return lobes;
+}
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,249 @@
+// Principled surfaces: sampling against the density, energy, reciprocity, mirrors as the limit, textures of each number.
+#include <cmath>
+#include <numeric>
+
+#include <gtest/gtest.h>
+
+#include "Common/Scene/Compiler/DirectionalAlbedos.h"
+#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Shared/Material/PrincipledSurface.h"
+#include "tests/unit/DirectionCells.h"
+#include "tests/unit/Oracles.h"
+#include "tests/unit/Statistics.h"
+
+namespace rt::shared {
+namespace {
+
+using glm::dvec3;
+using test::Mean;
+using test::Uniforms;
+
+const vec3 kUp(0, 0, 1);
+const float kIor = 1.5f;
+
+struct Scene : SceneArraysOf<std::vector> {
+    Scene() {
+        directionalAlbedos = scene::directionalAlbedos();
+        glassAlbedos = scene::glassAlbedos(kIor);
+    }
+    operator SceneView() const { return viewOf(*this, {}); }
+};
+
+const Scene& scene() {
+    static const Scene made;
+    return made;
+}
+
+struct Case {
+    const char* name;
+    float metallic = 0, transmission = 0, clearcoat = 0, sheen = 0;
+    bool thin = false;
+};
+constexpr Case kCases[] = {{"metal", 1},
+                           {"dielectric"},
+                           {"glass", 0, 1},
+                           {"sheet", 0, 1, 0, 0, true},
+                           {"clearcoat", 0, 0, 1},
+                           {"sheen", 0, 0, 0, 0.8f},
+                           {"mixture", 0.3f, 0.5f, 0.5f, 0.5f}};
+
+Principled principled(const Case& which, float roughness) {
+    const auto constant = [](float factor) { return ScaledChannel{factor, kNone, 0}; };
+    Principled p{};
+    p.metallic = constant(which.metallic);
+    p.roughness = constant(roughness);
+    p.specular = constant(1);
+    p.transmission = constant(which.transmission);
+    p.clearcoat = constant(which.clearcoat);
+    p.clearcoatRoughness = constant(roughness);
+    p.sheenRoughness = constant(roughness);
+    p.opacity = constant(1);
+    p.specularColor = {vec3(1), kNone};
+    p.sheenColor = {vec3(which.sheen), kNone};
+    p.ior = kIor;
+    p.thin = which.thin ? 1u : 0u;
+    p.glass = which.thin ? kNone : 0u;
+    p.normalTexture = kNone;
+    p.alphaCutoff = -1;
+    return p;
+}
+
+Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true) {
+    Bsdf b{};
+    b.kind = kMaterialPrincipled;
+    b.albedo = albedo;
+    b.lobes = makeLobes(kFeatureAll, scene(), p, Surface{}, albedo, wo.z, front);
+    return b;
+}
+
+vec3 outgoing(double cosine) {
+    return vec3(test::onSphere(0.5 * (cosine + 1), 0.1));
+}
+
+BsdfSample draw(const Bsdf& b, const vec3& wo, const vec2& u) {
+    return sampleBsdf(kFeatureAll, b, kUp, 1, wo, u, u.x);
+}
+
+class PrincipledCases : public testing::TestWithParam<Case> {};
+
+TEST_P(PrincipledCases, AreSampledAsTheirDensitySays) {
+    Uniforms uniform(31);
+    for (const float roughness : {0.2f, 0.35f, 0.5f, 0.65f, 0.8f, 1.0f})
+        for (const double cosine : {0.95, 0.6, 0.2}) {
+            const vec3 wo = outgoing(cosine);
+            const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(0.2f, 0.5f, 0.9f), wo);
+            const auto density = [&](double u, double v) {
+                return double(evalBsdf(kFeatureAll, b, kUp, wo, vec3(test::onSphere(u, v))).w);
+            };
+            const std::vector<double> expected = test::cellMasses(density);
+            const double integral = std::accumulate(expected.begin(), expected.end(), 0.0);
+            std::vector<std::uint64_t> counts(expected.size());
+            int lost = 0; // below the surface
+            constexpr int kSamples = 1 << 14;
+            for (int i = 0; i < kSamples; ++i) {
+                const BsdfSample s = draw(b, wo, uniform.pair());
+                ASSERT_EQ(s.delta, 0u);
+                if (!(s.pdf > 0)) {
+                    ++lost;
+                    continue;
+                }
+                ++counts[test::cellOf(s.wi)];
+                const vec4 f = evalBsdf(kFeatureAll, b, kUp, wo, s.wi);
+                ASSERT_NEAR(f.w, s.pdf, 2e-3f * s.pdf) << roughness << ' ' << cosine;
+                for (int c = 0; c < 3; ++c) ASSERT_NEAR(s.weight[c] * s.pdf, f[c], 2e-3f * f[c]);
+            }
+            EXPECT_GT(test::chiSquareP(counts, expected), test::kSignificance) << roughness << ' ' << cosine;
+            EXPECT_NEAR(1 - integral, double(lost) / kSamples, 0.01) << roughness << ' ' << cosine;
+        }
+}
+
+// White surfaces reflect and transmit all light, to the percent that the tables leave.
+TEST_P(PrincipledCases, WhiteFurnaceIsWhite) {
+    Uniforms uniform(32);
+    for (const float roughness : {0.0f, 0.1f, 0.3f, 0.5f, 0.75f, 1.0f})
+        for (const double cosine : {1.0, 0.7, 0.4, 0.15}) {
+            const vec3 wo = outgoing(cosine);
+            const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(1), wo);
+            Mean mean;
+            for (int i = 0; i < 1 << 14; ++i) mean.add(double(draw(b, wo, uniform.pair()).weight.x));
+            EXPECT_TRUE(test::agrees(mean, 1, 0.012)) << roughness << ' ' << cosine;
+        }
+}
+
+// Nothing but numbers, whatever the parameters and however low the direction.
+TEST_P(PrincipledCases, AreFiniteEverywhere) {
+    Uniforms uniform(33);
+    for (int i = 0; i < 100'000; ++i) {
+        const float roughness = i % 4 == 0 ? 0.0f : std::pow(uniform(), 3.0f);
+        const double cosine = i % 3 == 0 ? std::pow(10.0, uniform.between(-7, 0)) : uniform.between(1e-3, 1);
+        const vec3 wo = outgoing(cosine);
+        const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(uniform(), 0, 1), wo, i % 2 == 0);
+        const BsdfSample s = draw(b, wo, uniform.pair());
+        ASSERT_TRUE(isFinite(s.weight) && isFinite(s.pdf) && s.pdf >= 0) << roughness << ' ' << cosine;
+        if (s.weight == vec3(0)) continue;
+        ASSERT_NEAR(double(dot(s.wi, s.wi)), 1, 1e-4);
+        ASSERT_EQ(s.wi.z < 0, s.transmitted != 0);
+        const vec4 f = evalBsdf(kFeatureAll, b, kUp, wo, s.wi);
+        ASSERT_TRUE(isFinite(vec3(f)) && isFinite(f.w)) << roughness << ' ' << cosine;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Lobes, PrincipledCases, testing::ValuesIn(kCases),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// The lobes themselves, before tables scale them, are those of a physical surface.
+TEST(Principled, LobesAreReciprocal) {
+    Uniforms uniform(34);
+    for (int i = 0; i < 2000; ++i) {
+        Bsdf b{};
+        b.kind = kMaterialPrincipled;
+        b.albedo = vec3(1);
+        b.lobes = noLobes();
+        b.lobes.f0 = vec3(0.2f, 0.5f, 1);
+        b.lobes.f90 = vec3(1);
+        b.lobes.sheen = vec3(0.3f);
+        b.lobes.sheenExponent = 4;
+        b.lobes.coat = 0.5f;
+        b.lobes.coatAlpha = 0.2f;
+        b.lobes.alpha = 0.05f + 0.9f * uniform();
+        b.lobes.glass = 1;
+        b.lobes.eta = 1 / kIor;
+        const vec3 wo = outgoing(uniform.between(0.05, 1)), wi = vec3(test::onSphere(uniform(), uniform()));
+        if (std::abs(wi.z) < 0.05f) continue;
+        const vec3 there = vec3(evalBsdf(kFeatureAll, b, kUp, wo, wi)) / std::abs(wi.z);
+        vec3 back;
+        if (wi.z > 0) {
+            back = vec3(evalBsdf(kFeatureAll, b, kUp, wi, wo)) / wo.z;
+        } else {
+            // Radiance is not scaled by the indices, so what comes back differs by their ratio squared.
+            b.lobes.eta = kIor;
+            back = vec3(evalBsdf(kFeatureAll, b, -kUp, wi, wo)) / wo.z * (kIor * kIor);
+        }
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(there[c], back[c], 1e-3f * there[c] + 1e-5f) << wi.z;
+    }
+}
+
+// A lobe that becomes a mirror loses no brightness on the way.
+TEST(Principled, MirrorsAreTheLimitOfRoughness) {
+    Uniforms uniform(35);
+    const float least = std::sqrt(kLeastAlpha);
+    for (const Case& which : kCases)
+        for (const double cosine : {0.9, 0.3}) {
+            const vec3 wo = outgoing(cosine);
+            const vec3 albedo(0.8f, 0.5f, 0.2f);
+            Mean below, above;
+            const Bsdf mirror = bsdfOf(principled(which, 0.999f * least), albedo, wo);
+            const Bsdf rough = bsdfOf(principled(which, 1.001f * least), albedo, wo);
+            for (int i = 0; i < 1 << 14; ++i) {
+                below.add(double(draw(mirror, wo, uniform.pair()).weight.y));
+                above.add(double(draw(rough, wo, uniform.pair()).weight.y));
+            }
+            EXPECT_TRUE(test::agrees(above, below.mean(), 0.01 + 4 * below.standardError())) << which.name;
+        }
+}
+
+// ---- from scene files ----------------------------------------------------------------------------------------------
+
+TEST(Principled, ScenesWithoutItHaveNoneOfIt) {
+    scene::SceneDesc desc;
+    desc.materials["plain"] = {};
+    scene::SphereDesc sphere;
+    sphere.material = "plain";
+    desc.objects.push_back({sphere});
+    const auto plain = scene::compileScene(desc, {});
+    EXPECT_TRUE(plain->principled.empty());
+    EXPECT_TRUE(plain->directionalAlbedos.empty());
+    EXPECT_FALSE(has(plain->features, kFeaturePrincipled | kFeatureOpacity));
+
+    desc.materials["plain"].kind = scene::MaterialKind::Principled;
+    const auto made = scene::compileScene(desc, {});
+    ASSERT_EQ(made->principled.size(), 1u);
+    EXPECT_EQ(made->directionalAlbedos.size(), kAlbedoSteps * kAlbedoSteps);
+    EXPECT_TRUE(made->glassAlbedos.empty());
+    EXPECT_TRUE(has(made->features, kFeaturePrincipled));
+    EXPECT_FALSE(has(made->features, kFeatureOpacity));
+
+    desc.materials["plain"].principled.opacity.factor = 0.5;
+    desc.materials["plain"].principled.transmission.factor = 1;
+    const auto translucent = scene::compileScene(desc, {});
+    EXPECT_TRUE(has(translucent->features, kFeatureOpacity));
+    EXPECT_EQ(translucent->glassAlbedos.size(), 2u * kAlbedoSteps * kAlbedoSteps);
+}
+
+// Light that crosses a distance inside loses what Beer's law says.
+TEST(Principled, AttenuationIsAuthoredByColourAndDistance) {
+    scene::SceneDesc desc;
+    scene::MaterialDesc& m = desc.materials["glass"];
+    m.kind = scene::MaterialKind::Principled;
+    m.principled.attenuationColor = {0.25, 0.5, 1};
+    m.principled.attenuationDistance = 3;
+    scene::SphereDesc sphere;
+    sphere.material = "glass";
+    desc.objects.push_back({sphere});
+    const vec3 absorption = scene::compileScene(desc, {})->principled.at(0).absorption;
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(std::exp(-3.0 * double(absorption[c])), m.principled.attenuationColor[c], 1e-6);
+}
+
+} // namespace
+} // namespace rt::shared
