@@ -178,6 +178,24 @@ TEST(TilePool, GoesOnToAPlan) {
     EXPECT_TRUE(pool.isDone());
 }
 
+// Recalls, as for checkpoints, interrupt who does the work of a rank that hangs.
+TEST(TilePool, CopiesThatComeBackUnfinishedAreMadeAnew) {
+    Film film({32, 32, 1, false});
+    TilePool pool(film, {image::allTiles(film), 64, false}, 2);
+    const std::vector<double> sums(Film::kTilePixels * 3);
+    ASSERT_TRUE(pool.lease(0, 4, 0)); // and never comes back
+    for (int recalls = 0; !pool.isDone(); ++recalls) {
+        ASSERT_LT(recalls, 1000);
+        const auto lease = pool.lease(1, 4, 100);
+        ASSERT_TRUE(lease);
+        const std::uint32_t tile = lease->tiles[static_cast<std::size_t>(recalls) % lease->tiles.size()];
+        const std::uint32_t samples = film.samples(tile, 0) + (film.samples(tile, 0) < lease->spp ? Film::kBlock : 0);
+        film.assign(tile, 0, {samples, sums, {}, {}});
+        pool.giveBack(1, Film::kBlock * Film::kTilePixels, 0.2);
+    }
+    EXPECT_EQ(film.minSamples(), 64u);
+}
+
 TEST(TilePool, LeasesDoNotOverlap) {
     const Film film({kTilesX * Film::kTile, kTilesY * Film::kTile, 1, false});
     TilePool pool(film, {image::allTiles(film), 16, false}, 3);

@@ -27,7 +27,6 @@ void TilePool::goOn(TilePlan plan) {
         if (!rank.lease) continue;
         for (const std::uint32_t tile : rank.lease->tiles) --holders_[tile];
         rank.lease->tiles.clear();
-        rank.isCopied = true;
     }
     isDrained_ = false;
     refill();
@@ -87,7 +86,6 @@ void TilePool::keep(std::size_t rank, Lease lease, double now) {
     for (const std::uint32_t tile : lease.tiles) ++holders_[tile];
     Rank& holder = ranks_[rank];
     holder.since = now;
-    holder.isCopied = false;
     holder.lease = std::move(lease);
 }
 
@@ -126,23 +124,21 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
     return lease;
 }
 
-std::optional<Lease> TilePool::copyOverdue(double now) {
-    Rank* latest = nullptr;
+// Of the rank that is most overdue, the tiles that nobody else holds. A copy that comes back unfinished is made anew.
+std::optional<Lease> TilePool::copyOverdue(double now) const {
+    std::optional<Lease> copy;
     double most = 0;
-    for (Rank& rank : ranks_) {
-        if (!rank.lease || rank.isCopied) continue;
-        const double late = now - rank.since - rank.lease->seconds;
+    for (const Rank& rank : ranks_) {
+        const double late = rank.lease ? now - rank.since - rank.lease->seconds : 0;
         if (late <= most) continue;
+        Lease lease = *rank.lease;
+        std::erase_if(lease.tiles, [&](std::uint32_t tile) {
+            return holders_[tile] > 1 || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
+        });
+        if (lease.tiles.empty()) continue;
         most = late;
-        latest = &rank;
+        copy = std::move(lease);
     }
-    if (latest == nullptr) return std::nullopt;
-    latest->isCopied = true;
-    Lease copy = *latest->lease;
-    std::erase_if(copy.tiles, [&](std::uint32_t tile) {
-        return film_.nextSample(tile, copy.spp) == image::Film::kNoSample;
-    });
-    if (copy.tiles.empty()) return std::nullopt;
     return copy;
 }
 

@@ -45,9 +45,8 @@ class TilePool {
   private:
     struct Rank {
         std::optional<Lease> lease;
-        double since = 0;      // when it was made
-        bool isCopied = false; // its tiles have been handed out again
-        double rate = 0;       // samples a second; 0: not known yet
+        double since = 0; // when it was made
+        double rate = 0;  // samples a second; 0: not known yet
     };
 
     struct Waiting {
@@ -60,7 +59,7 @@ class TilePool {
     void enqueue(std::uint32_t tile, End end);
     std::uint32_t lengthOf(const image::TileList& tiles) const;
     void updateDone();
-    std::optional<Lease> copyOverdue(double now);
+    std::optional<Lease> copyOverdue(double now) const;
     void keep(std::size_t rank, Lease lease, double now);
     double totalRate() const;
 
