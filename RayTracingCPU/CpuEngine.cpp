@@ -347,10 +347,10 @@ class CpuEngine final : public app::Engine {
     KernelContext context_;
 
     Film film_;
-    image::TileList tiles_;            // of the film, that are to be rendered
+    image::TileList tiles_;              // of the film, that are to be rendered
     std::optional<std::uint32_t> limit_; // samples per pixel that renderOnly() has asked for
-    std::uint64_t passEnd_ = 0;        // samples per pixel that the pass in progress leads to
-    std::uint32_t nextTile_ = kNoTile; // position in tiles_ of the first tile that the pass has not handed out
+    std::uint64_t passEnd_ = 0;          // samples per pixel that the pass in progress leads to
+    std::uint32_t nextTile_ = kNoTile;   // position in tiles_ of the first tile that the pass has not handed out
 
     std::mutex countersMutex_;
     KernelCounters counters_;

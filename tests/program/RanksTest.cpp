@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "Common/Image/Checkpoint.h"
+#include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
 
 namespace rt::test {
@@ -27,6 +28,18 @@ class Ranks : public ProgramTest {
         const Outcome outcome = mpirun(ranks, arguments, program);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return bytesOf("ranks.pfm");
+    }
+    // c.rtc holds samples, from which three ranks get to the bits of a whole render.
+    void expectToGoOn(const Arguments& size) const {
+        const image::Film film = image::readCheckpoint(path("c.rtc")).film;
+        std::uint64_t most = 0;
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
+        EXPECT_GT(most, 0u);
+        Arguments rest = size;
+        rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
+        Arguments resumed = rest;
+        resumed.insert(resumed.end(), {"--resume", "c.rtc"});
+        EXPECT_TRUE(picture(3, resumed) == pixels(rest));
     }
 };
 
@@ -92,6 +105,38 @@ TEST_F(Ranks, MustHaveOneScene) {
 
 #ifndef _WIN32
 
+// Rank 0 has about a second, with Open MPI; the exit code is the launcher's own.
+TEST_F(Ranks, SignalsToTheLauncherKeepWhatThereIs) {
+    const Arguments size = {"--width", "64", "--height", "64", "--threads", "1"};
+    for (const char* signal : {"INT", "TERM"}) {
+        std::filesystem::remove(path("c.rtc"));
+        Arguments command = {
+            "-c",
+            "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; kill -" + std::string(signal) + " $!; wait $!",
+            RT_MPIEXEC,
+            "-n",
+            "2",
+            programPath("ray-tracing-cpu"),
+            "-q",
+            "--headless",
+            "--spp",
+            "2147483647",
+            "--checkpoint",
+            "c.rtc",
+            "--save-every",
+            "0.05",
+            "--stats",
+            "s.json",
+            "-o",
+            "interrupted.pfm"};
+        command.insert(command.end(), size.begin(), size.end());
+        EXPECT_NE(run("/bin/sh", command, launcher()).exitCode, 0);
+        EXPECT_EQ(jsonOf("s.json")["stopped_by"], "interrupted");
+        EXPECT_EQ(image::readImage(path("interrupted.pfm")).width, 64u);
+        expectToGoOn(size);
+    }
+}
+
 // Rank 1 of two dies, or stops, once there is a checkpoint.
 class EndedRanks : public Ranks {
   protected:
@@ -114,14 +159,7 @@ class EndedRanks : public Ranks {
 
 TEST_F(EndedRanks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
     EXPECT_NE(runUntil(kExists, "kill -9 $!; exit 9", {"--spp", "2147483647"}).exitCode, 0);
-    const image::Film film = image::readCheckpoint(path("c.rtc")).film;
-    std::uint64_t most = 0;
-    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
-    EXPECT_GT(most, 0u);
-    const Arguments rest = size(std::to_string(most + 5));
-    Arguments resumed = rest;
-    resumed.insert(resumed.end(), {"--resume", "c.rtc"});
-    EXPECT_TRUE(picture(3, resumed) == pixels(rest));
+    expectToGoOn({"--width", "24", "--height", "24", "--threads", "1"});
 }
 
 // From the pilot, and from what follows the plan, whose checkpoint is smaller as it lacks the pilot's squares.
