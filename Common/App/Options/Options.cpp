@@ -258,7 +258,9 @@ void settleErrorEstimate(Options& options) {
 void settleFiles(Options& options) {
     if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
     if (options.settings.adaptive && (options.region || options.tiles))
-        throw UsageError("--adaptive on: plans the samples of a whole image; not with --region or --tiles");
+        throw UsageError(
+            "--adaptive on: not with --region or --tiles, as its plan needs a pilot of the whole image; mpirun shares "
+            "that out too");
     if (options.targetError && (options.region || options.tiles))
         throw UsageError("--target-error: is that of a whole image; not with --region or --tiles");
     if ((!options.saveEvery && !options.tiles) || !options.checkpoint.empty()) return;
