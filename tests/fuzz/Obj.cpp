@@ -1,4 +1,6 @@
 // A mesh and its materials: an input is f.obj and, after the first byte 0, f.mtl.
+#include <algorithm>
+
 #include "Common/Scene/Obj/ObjLoader.h"
 #include "tests/fuzz/Fuzz.h"
 
