@@ -31,10 +31,7 @@ usage() {
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
 ./build.sh fuzz [SECONDS]
-                         build the fuzz targets with Clang and run them all, 60 s together; finds are kept in build/fuzz/finds
-./build.sh sanitize [address|thread]
-                         build and run the unit, image and program tests under the sanitizers of addresses and undefined
-                         behaviour (build-asan/), or of threads (build-tsan/)
+                         build the fuzz targets with Clang and run all, 60 s together; finds are kept in build/fuzz/finds
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -103,24 +100,6 @@ build_fuzz() {
     preset=fuzz build
 }
 
-# run_sanitized address|thread
-run_sanitized() {
-    local folder options
-    # Exit code 99 is none of the programs' own: a finding in a program that a test starts fails the test.
-    if [[ $1 == address ]]; then
-        preset=asan folder=build-asan
-        options=(ASAN_OPTIONS=exitcode=99 UBSAN_OPTIONS=print_stacktrace=1:exitcode=99)
-        configure
-    else
-        preset=tsan folder=build-tsan
-        options=("TSAN_OPTIONS=exitcode=99:second_deadlock_stack=1:suppressions=$PWD/tests/sanitize/thread.supp")
-        configure -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON
-    fi
-    build --target rt-unit-tests rt-image-tests rt-program-tests
-    env "${options[@]}" ctest --test-dir $folder --output-on-failure --no-label-summary --parallel "$(nproc)" \
-        --label-exclude nightly --tests-regex '^(unit|image|program)\.'
-}
-
 verb=${1:-build}
 shift $(($# > 0))
 case $verb in
@@ -158,14 +137,6 @@ case $verb in
         install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
         build_fuzz
         tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)"
-        ;;
-    sanitize)
-        [[ ${1:-address} == address || ${1:-} == thread ]] || fail "sanitize $1: must be address or thread"
-        install_packages "${build_packages[@]}" "${test_packages[@]}"
-        configure
-        build --target ray-tracing-gpu # what provide_device asks
-        provide_device || fail "$no_device_reason"
-        run_sanitized "${1:-address}"
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"

@@ -4,13 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "Common/App/Interactive/GuiSettings.h"
-#include "Common/App/Interactive/RunHistory.h"
-#include "Common/Bench/Suite.h"
 #include "Common/Image/Checkpoint.h"
 #include "Common/Image/ImageIo.h"
-#include "Common/Scene/Builtin/BuiltinScenes.h"
-#include "Common/Scene/Json/SceneJson.h"
 #include "tests/fuzz/Fuzz.h"
 
 namespace {
@@ -32,24 +27,6 @@ class Seeds {
   private:
     fs::path folder_;
 };
-
-void writeScenes(const Seeds& seeds) {
-    constexpr std::size_t kSmall = 16 << 10; // bytes; mutations of what is longer are slow
-    for (const auto& builtin : rt::scene::builtinScenes()) {
-        const std::string text = rt::scene::toJson(rt::scene::findBuiltinScene(std::string(builtin.id)));
-        if (text.size() <= kSmall) seeds.write("scene", std::string(builtin.id), text);
-    }
-}
-
-void writeMeshes(const Seeds& seeds) {
-    const std::string mesh = "mtllib f.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
-                             "usemtl a\nf 1/1/1 2/2/1 3/3/1\nusemtl b\nf -4//1 -3//1 -2//1 -1//1\n";
-    const std::string materials = "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 a.png\nillum 2\n"
-                                  "newmtl b\nKs 1 1 1\nPr .1\nillum 3\nnewmtl c\nillum 4\nNi 1.5\nTf 1 1 1\n"
-                                  "newmtl d\nKe 4 4 4\n";
-    seeds.write("obj", "materials", mesh + '\0' + materials);
-    seeds.write("obj", "plain", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-}
 
 void writeImages(const Seeds& seeds) {
     rt::image::Image image(5, 4);
@@ -88,33 +65,6 @@ void writeCheckpoints(const Seeds& seeds) {
     }
 }
 
-void writeTexts(const Seeds& seeds) {
-    rt::app::RunRecord record;
-    record.time = rt::app::utcNow();
-    record.app = "ray-tracing-cpu";
-    record.width = 600;
-    record.samplesPerSecond = 1e6;
-    record.curve = {{1, 0.5}, {2, 0.25}};
-    const std::string line = rt::app::toJsonLine(record) + '\n';
-    seeds.write("history", "two", line + line);
-
-    rt::app::GuiSettings settings;
-    settings.recent = {"a.json"};
-    settings.openPanels = {{"scene", false}};
-    rt::app::saveGuiSettings(seeds.place("settings", "settings"), settings);
-
-    for (const rt::bench::NamedSuite& suite : rt::bench::namedSuites()) seeds.write("suite", suite.name, suite.text);
-
-    seeds.write("flags", "render",
-                "--scene\nwhite-spheres:9\n--width=64\n--aspect\n1.5\n--spp\n4\n-o\na.png\n--aov\nalbedo,depth\n"
-                "--region\n1,2,3,4\n--sampler\nstratified\n--time-limit\n1e1\n--threads\n2");
-    seeds.write("flags", "share",
-                "--tiles=1/3\n--checkpoint\na.rtc\n--light-sampling\nmixture\n--features\nspheres,quads\n--seed=3\n"
-                "--camera={\"look_from\": [0, 0, 1], \"look_at\": [0, 0, 0]}\n--russian-roulette=off");
-    seeds.write("config", "lines", "# a\nspp = 5\nscene = \"a b\"\noutput = [\"a.png\", # b\n 'b.exr',\n]\naov=depth,albedo");
-    seeds.write("config", "json", "{\"spp\": 5, \"output\": [\"a.png\"]}");
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
@@ -123,10 +73,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     const Seeds seeds(argv[1]);
-    writeScenes(seeds);
-    writeMeshes(seeds);
     writeImages(seeds);
     writeCheckpoints(seeds);
-    writeTexts(seeds);
     return 0;
 }

@@ -30,4 +30,4 @@ mkdir -p finds logs
 bin/rt-fuzz-seeds seeds
 targets=(targets/*)
 each=$((seconds * jobs / ${#targets[@]}))
-printf '%s\n' "${targets[@]##*/}" | xargs -P "$jobs" -I{} bash -c "fuzz {} $((each > 0 ? each : 1))"
+printf '%s\n' "${targets[@]##*/}" | xargs -P "$jobs" -I{} bash -c "fuzz {} $((each > 0 ? each : 1))" || exit 1
