@@ -10,6 +10,7 @@ build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohma
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
                assimp-testmodels)
 bench_packages=(libbenchmark-dev libembree-dev)
+fuzz_packages=(clang)
 cluster_packages=(libopenmpi-dev openmpi-bin)
 
 preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
@@ -30,6 +31,8 @@ usage() {
                          render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
+./build.sh fuzz [SECONDS]
+                         build the fuzz targets with Clang and run all, 60 s together; finds are kept in build/fuzz/finds
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -92,6 +95,12 @@ run_tests() {
     return $status
 }
 
+# The fuzz targets are compiled apart, by Clang, into build/fuzz/.
+build_fuzz() {
+    preset=fuzz configure
+    preset=fuzz build
+}
+
 verb=${1:-build}
 shift $(($# > 0))
 case $verb in
@@ -120,8 +129,15 @@ case $verb in
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
+        build_fuzz
         provide_device || fail "$no_device_reason"
         run_tests "$@"
+        ;;
+    fuzz)
+        [[ ${1:-60} =~ ^[1-9][0-9]{0,6}$ ]] || fail "fuzz $1: must be a number of seconds, 1 to 9999999"
+        install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
+        build_fuzz
+        tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)"
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"
