@@ -17,6 +17,11 @@ Ray previewRay(uvec2 pixel) {
 // Configuration Factors", B-13), times the cosines. A point in a medium, whose normal is zero, gets a quarter of what a
 // surface gets that faces the light.
 vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
+    if (isPunctual(kFeatures, light)) {
+        LightSample s = samplePunctualLight(light, position, normal);
+        float cosine = isSurface(normal) ? dot(normal, s.wi) : 0.25f;
+        return s.pdf > 0.0f ? s.radiance * (cosine * kInvPi) : vec3(0.0f);
+    }
     vec3 middle = light.position;
     if (light.kind == kLightQuad) middle += 0.5f * (light.edgeU + light.edgeV);
     if (light.kind == kLightTriangle) middle += (light.edgeU + light.edgeV) / 3.0f;

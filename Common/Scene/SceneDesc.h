@@ -51,6 +51,7 @@ struct GradientBackground {
 struct ImageBackground {
     std::string file;
     glm::dvec3 factor{1, 1, 1};
+    double rotation = 0; // degrees, right-handed about +Y
     bool operator==(const ImageBackground&) const = default;
 };
 using Background = std::variant<ConstantBackground, GradientBackground, ImageBackground>;
@@ -83,8 +84,8 @@ struct NoiseTexture {
 enum class Wrap { Clamp, Repeat, Mirror }; // what lies beyond the edges of an image
 enum class ColorSpace { Srgb, Linear };    // how the numbers of an image with 8 or 16 bits are encoded
 struct ImageTexture {
-    std::string file;        // with an image number: a file of glTF that contains it
-    std::string standIn;     // name of a generated map that takes over where the file is missing; empty: that is an error
+    std::string file;    // with an image number: a file of glTF that contains it
+    std::string standIn; // name of a generated map that takes over where the file is missing; empty: that is an error
     glm::dvec3 tint{1, 1, 1};
     std::optional<std::uint32_t> image = std::nullopt; // its number among the images of a glTF file
     ColorSpace colorSpace = ColorSpace::Srgb;
@@ -124,13 +125,13 @@ struct PrincipledDesc {
     RT_PRINCIPLED_COLORS(RT_COLOR)
 #undef RT_NUMBER
 #undef RT_COLOR
-    double ior = 1.5;                        // index of refraction inside over outside, >= 1
-    bool isThin = false;                     // transmits without bending, as a sheet does
-    glm::dvec3 attenuationColor{1, 1, 1};    // what is left of white after attenuationDistance inside
+    double ior = 1.5;                          // index of refraction inside over outside, >= 1
+    bool isThin = false;                       // transmits without bending, as a sheet does
+    glm::dvec3 attenuationColor{1, 1, 1};      // what is left of white after attenuationDistance inside
     std::optional<double> attenuationDistance; // unset: nothing is absorbed inside
-    std::string normalTexture;               // tangent-space normals, 2 rgb - 1; empty: none
-    double normalScale = 1;                  // of their x and y
-    std::optional<double> alphaCutoff;       // opacity below it is 0, else 1; unset: opacity is a probability
+    std::string normalTexture;                 // tangent-space normals, 2 rgb - 1; empty: none
+    double normalScale = 1;                    // of their x and y
+    std::optional<double> alphaCutoff;         // opacity below it is 0, else 1; unset: opacity is a probability
     bool operator==(const PrincipledDesc&) const = default;
 };
 
@@ -240,6 +241,26 @@ struct MediumDesc {
     ColorOrTexture albedo{glm::dvec3(1)};
     bool operator==(const MediumDesc&) const = default;
 };
+// Lights without extent, as KHR_lights_punctual of glTF has them. Transforms move and turn them; what they emit stays
+// the same under scales. No camera and no reflection shows them.
+struct PointLightDesc {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 intensity{1, 1, 1}; // radiant intensity: irradiance at a distance of 1
+    bool operator==(const PointLightDesc&) const = default;
+};
+struct SpotLightDesc {
+    glm::dvec3 position{0, 0, 0};
+    glm::dvec3 direction{0, -1, 0}; // in which it shines; of any length but 0
+    glm::dvec3 intensity{1, 1, 1};  // within innerAngle of the direction
+    double innerAngle = 0;          // degrees, [0, outerAngle)
+    double outerAngle = 45;         // degrees, (0, 90]: dark from here on, and a smooth edge in between
+    bool operator==(const SpotLightDesc&) const = default;
+};
+struct DirectionalLightDesc {
+    glm::dvec3 direction{0, -1, 0}; // in which it shines; of any length but 0
+    glm::dvec3 irradiance{1, 1, 1}; // of a surface across the direction
+    bool operator==(const DirectionalLightDesc&) const = default;
+};
 struct ObjectDesc;
 struct GroupDesc {
     Transform transform;
@@ -253,8 +274,8 @@ struct InstanceDesc {
     bool operator==(const InstanceDesc&) const = default;
 };
 struct ObjectDesc {
-    using Shape =
-        std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, GroupDesc, InstanceDesc>;
+    using Shape = std::variant<SphereDesc, SphereSetDesc, QuadDesc, BoxDesc, MeshDesc, MediumDesc, PointLightDesc,
+                               SpotLightDesc, DirectionalLightDesc, GroupDesc, InstanceDesc>;
     Shape shape;
     bool operator==(const ObjectDesc&) const = default;
 };

@@ -1,5 +1,6 @@
 #include "tests/image/AnalyticScenes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -90,6 +91,56 @@ double polygonIrradiance(std::span<const dvec3> vertices) {
         sum += std::atan2(glm::length(n), glm::dot(a, b)) * n.y / glm::length(n);
     }
     return std::abs(sum) / 2;
+}
+
+std::vector<ObjectDesc> punctualLights() {
+    const dvec3 intensity(3, 2, 1), position(1, 2, -0.5);
+    const dvec3 aside = glm::normalize(-position) + dvec3(0.1, 0, 0.2); // within the edge of these spots
+    return {{PointLightDesc{position, intensity}},
+            {SpotLightDesc{position, -2.0 * position, intensity, 5, 6}},
+            {SpotLightDesc{position, aside, intensity, 0, 30}},
+            {SpotLightDesc{position, aside, intensity, 8, 40}},
+            {SpotLightDesc{position, aside, intensity, 89, 90}},
+            {DirectionalLightDesc{{-1, -3, 0.5}, intensity}},
+            {DirectionalLightDesc{{1, -0.01, 0}, intensity}}};
+}
+
+std::vector<ObjectDesc> manyPunctualLights(std::uint32_t count) {
+    std::vector<ObjectDesc> objects;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const double turn = 2.4 * i; // radians, never the same
+        const dvec3 around(std::cos(turn), 0, std::sin(turn));
+        const dvec3 color = 0.1 * dvec3(1 + i % 2, 1 + i % 3, 1 + i % 5);
+        const dvec3 position = (0.5 + 0.1 * i) * around + dvec3(0, i % 7 == 0 ? -1.0 : 1 + i % 4, 0);
+        if (i % 11 == 5)
+            objects.push_back({DirectionalLightDesc{around - dvec3(0, i % 2, 0), color}});
+        else if (i % 3 == 1)
+            objects.push_back({SpotLightDesc{position, around * (i % 2 ? 0.3 : -0.3) - position, 9.0 * color, 10, 30}});
+        else
+            objects.push_back({PointLightDesc{position, color}});
+    }
+    return objects;
+}
+
+dvec3 punctualIrradiance(const std::vector<ObjectDesc>& objects) {
+    dvec3 sum(0);
+    const auto add = [&sum](const dvec3& position, const dvec3& intensity) {
+        const double d = glm::length(position);
+        sum += intensity * std::max(position.y, 0.0) / (d * d * d);
+    };
+    for (const ObjectDesc& object : objects) {
+        if (const auto* point = std::get_if<PointLightDesc>(&object.shape)) add(point->position, point->intensity);
+        if (const auto* sun = std::get_if<DirectionalLightDesc>(&object.shape))
+            sum += sun->irradiance * std::max(-glm::normalize(sun->direction).y, 0.0);
+        if (const auto* spot = std::get_if<SpotLightDesc>(&object.shape)) {
+            // As in the text of KHR_lights_punctual.
+            const double inner = std::cos(spot->innerAngle * pi / 180), outer = std::cos(spot->outerAngle * pi / 180);
+            const double cosine = glm::dot(glm::normalize(spot->direction), glm::normalize(-spot->position));
+            const double ramp = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
+            add(spot->position, spot->intensity * ramp * ramp);
+        }
+    }
+    return sum;
 }
 
 } // namespace rt::test

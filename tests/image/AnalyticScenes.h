@@ -1,5 +1,6 @@
 // Scenes whose radiance is known in closed form.
 #pragma once
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,5 +35,13 @@ std::vector<scene::Transform> lampTransforms();
 
 // Lambert's polygon formula for a receiver in the origin with normal +y, per radiance; all vertices above the horizon.
 double polygonIrradiance(std::span<const glm::dvec3> vertices);
+
+// Punctual lights of every kind that shine on the origin of floorScene(): one light a scene.
+std::vector<scene::ObjectDesc> punctualLights();
+// `count` of all kinds, above, below and beside the floor.
+std::vector<scene::ObjectDesc> manyPunctualLights(std::uint32_t count);
+// Irradiance at the origin of a surface with the normal +y from those of `objects` that are punctual lights, with
+// nothing in between.
+glm::dvec3 punctualIrradiance(const std::vector<scene::ObjectDesc>& objects);
 
 } // namespace rt::test

@@ -75,6 +75,58 @@ TEST(Irradiance, UnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
+// The radiance of the floor, by every estimator, which all sample punctual lights.
+void expectPunctual(SceneDesc desc, const std::vector<ObjectDesc>& lights, std::uint32_t spp) {
+    desc.objects.insert(desc.objects.end(), lights.begin(), lights.end());
+    const auto scene = compileScene(desc);
+    const dvec3 truth = punctualIrradiance(lights) * (kFloorAlbedo / std::numbers::pi);
+    for (app::RenderSettings settings : allEstimators(smallSettings(4, spp))) {
+        settings.maxDepth = 2;
+        EXPECT_TRUE(isMean(render(*scene, settings), truth)) << describe(settings);
+    }
+}
+
+TEST(Irradiance, UnderAPunctualLight) {
+    for (const ObjectDesc& light : punctualLights()) {
+        SCOPED_TRACE(light.shape.index());
+        ASSERT_GT(punctualIrradiance({light}).y, 0);
+        expectPunctual(floorScene(), {light}, 256);
+    }
+}
+
+TEST(Irradiance, UnderSomePunctualLightsAndUnderSoManyThatATreeChooses) {
+    for (const std::uint32_t count : {12u, 40u, 300u}) expectPunctual(floorScene(), manyPunctualLights(count), 2048);
+}
+
+// A lamp and a point light: scattering finds the one, next-event estimation alone the other.
+TEST(Irradiance, UnderALampAndAPunctualLight) {
+    SceneDesc desc = floorScene();
+    const dvec3 center(0, 2, 0), position(1, 2, -0.5);
+    desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
+    const std::vector<ObjectDesc> lights = {{PointLightDesc{position, dvec3(0.5)}}};
+    desc.objects.push_back(lights[0]);
+    const auto scene = compileScene(desc);
+    const dvec3 irradiance = dvec3(3, 2, 1) * (std::numbers::pi * 0.64 / 4) + punctualIrradiance(lights);
+    for (app::RenderSettings settings : allEstimators(smallSettings(4, 2048))) {
+        settings.maxDepth = 2;
+        EXPECT_TRUE(isMean(render(*scene, settings), irradiance * (kFloorAlbedo / std::numbers::pi)))
+            << describe(settings);
+    }
+}
+
+TEST(Irradiance, OfPunctualLightsInTheShadow) {
+    for (const ObjectDesc& light : punctualLights()) {
+        SceneDesc desc = floorScene();
+        desc.objects.push_back(light);
+        desc.objects.push_back({QuadDesc{{-0.1, 0.01, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}, "floor"}});
+        desc.camera.lookFrom = {0, 0.005, 0.004}; // below the cover
+        if (const auto* sun = std::get_if<DirectionalLightDesc>(&light.shape); sun && sun->direction.y > -0.1) continue;
+        app::RenderSettings settings = smallSettings(4, 64);
+        settings.maxDepth = 2;
+        EXPECT_EQ(render(desc, settings).mean, dvec3(0)) << light.shape.index();
+    }
+}
+
 // The light stands next to the camera, where coordinates are small, and the wall far away: its shadow rays are long
 // against the coordinates of the light, and rounding must not let them end behind it.
 TEST(Irradiance, OfAWallFarAway) {
@@ -130,6 +182,33 @@ TEST(Transmittance, OfAnAbsorbingSlab) {
 }
 
 // Light sampling looks through media: the shadow ray is multiplied by their transmittance.
+// Of light that comes from infinity the whole layer is in the way.
+TEST(Transmittance, OfALayerUnderADirectionalLight) {
+    SceneDesc desc = floorScene();
+    const std::vector<ObjectDesc> lights = {{DirectionalLightDesc{{3, -4, 0}, dvec3(3, 2, 1)}}};
+    desc.objects.push_back(lights[0]);
+    desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-9, 2, -9), dvec3(9, 3, 9)}, 0.8, dvec3(0)}});
+    app::RenderSettings settings = smallSettings(4, 64);
+    settings.maxDepth = 2;
+    const dvec3 irradiance = punctualIrradiance(lights) * std::exp(-0.8 / 0.8); // the cosine is 0.8, too
+    EXPECT_TRUE(isMean(render(desc, settings), irradiance * (kFloorAlbedo / std::numbers::pi)));
+}
+
+// Light that a thin layer scatters once: isotropic, its collisions a fraction of those that go through.
+TEST(Transmittance, OfAMediumUnderAPunctualLight) {
+    const double depth = 1e-3;
+    SceneDesc desc = emptyScene({0, 0, 4}, {0, 0, 0}, 1e-3);
+    desc.objects.push_back({MediumDesc{BoxBoundary{dvec3(-9, -9, -0.01), dvec3(9, 9, 0.01)}, depth / 0.02, dvec3(1)}});
+    desc.objects.push_back({PointLightDesc{{0, 3, 4}, dvec3(3, 2, 1)}});
+    app::RenderSettings settings = smallSettings(8, 4096);
+    settings.maxDepth = 2;
+    const Estimate estimate = render(desc, settings);
+    const double once = depth / (4 * std::numbers::pi * 25);
+    // But for what is scattered or lost twice, in the order of the depth.
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(estimate.mean[c], (3 - c) * once, 4 * estimate.standardError[c] + 2 * depth * (3 - c) * once) << c;
+}
+
 TEST(Transmittance, OfALayerBetweenLightAndFloor) {
     SceneDesc desc = floorScene();
     desc.objects.push_back({SphereDesc{dvec3(0, 4, 0), 0.01, {}, "light"}});

@@ -15,6 +15,9 @@ bug 'weight of corners of a quad light' QuadLight.h 's/s\.pdf \*= bilinearDensit
 bug 'density on a triangle light' TriangleLight.h 's/s\.pdf = 1\.0f \/ t\.solidAngle;/s.pdf = 0.9f \/ t.solidAngle;/' unit.Lights/LightCase
 bug 'contribution of a light near the horizon' LightContribution.h 's/above \/ \(4\.0f \* wide\)/above \/ (3.9f * wide)/' cross.Families/Samplers
 bug 'probability of a light chosen uniformly' LightSelection.h 's/choice\.probability = 1\.0f \/ float\(count\);/choice.probability = 1.0f \/ float(count + 1u);/' cross.Families/Samplers
+bug 'weight of a punctual light' DirectLight.h 's/isPunctualSample \? 0\.0f : scattering/isPunctualSample ? f.w : scattering/' image.Irradiance
+bug 'flux of a spot' LightTable.cpp 's/\(outer - inner\) \/ 3\)/(outer - inner) \/ 2)/' unit.PunctualLight
+bug 'a sky that turns the other way' Sky.h 's/turn\.x \* d\.x \+ turn\.y \* d\.z/turn.x * d.x - turn.y * d.z/' unit.Sky
 
 # ---- paths -----------------------------------------------------------------------------------------------------------
 bug 'weight of multiple importance sampling' Sampling.h 's/square\(pdfB \/ pdfA\)/pdfB \/ pdfA/' image.Irradiance

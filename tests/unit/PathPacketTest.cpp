@@ -1,4 +1,5 @@
 // The paths of a packet are those of stepPath() alone, bit for bit: shaders compile its text, too.
+#include <array>
 #include <bit>
 #include <string>
 #include <vector>
@@ -7,9 +8,11 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
-#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Shared/Texture/Color.h"
 #include "RayTracingCPU/PathPacket.h"
 
 namespace rt::cpu {
@@ -17,14 +20,17 @@ namespace {
 
 constexpr uint kSide = 40;
 
-// A built-in scene as the engine prepares it.
+// A scene as the engine prepares it.
 struct TracedScene {
-    explicit TracedScene(const char* id) : compiled(scene::compileScene(scene::findBuiltinScene(id))) {
+    explicit TracedScene(const std::string& id) : TracedScene(app::loadScene(id)) {}
+    explicit TracedScene(const scene::SceneDesc& desc) : compiled(app::compile(desc, true, true)) {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
         accel = accel::CpuAccel::build(input, {}, nullptr);
         view = CpuScene{viewOf(s, s.globals), accel->view(), {}};
+        for (uint byte = 0; byte < 256; ++byte) linear[byte] = srgbToLinear(float(byte) / 255.0f);
+        view.srgbToLinear = linear.data();
         view.tracer = accel::rayQuery().tracer(view.accel.kinds);
     }
 
@@ -35,6 +41,7 @@ struct TracedScene {
 
     std::shared_ptr<const scene::CompiledScene> compiled;
     std::unique_ptr<const accel::CpuAccel> accel;
+    std::array<float, 256> linear{};
     CpuScene view;
 };
 
@@ -44,10 +51,12 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, traceRay(scene, path.ray), path, direct);
+        const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct);
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
-        if (!isOccluded(scene, shadowRay(path, direct), direct.distance)) {
+        const Ray shadow = shadowRay(path, direct);
+        if (traceRay<kFeatureAll>(scene, smp, 2u * path.vertex + 1u, shadow, direct.distance).t < 0.0f) {
             addDirectLight(kFeatureAll, scene, direct, path);
         }
     }
@@ -100,18 +109,38 @@ app::RenderSettings smallImage() {
     return settings;
 }
 
-// Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky.
+void compareEstimators(const TracedScene& scene) {
+    for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
+        SCOPED_TRACE("estimator " + std::to_string(estimator));
+        app::RenderSettings settings = smallImage();
+        settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
+        comparePaths(scene, settings);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
+// Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
-    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
-                           "one-weekend-final", "many-lights", "veach-mis"}) {
+    for (const char* id :
+         {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "one-weekend-final",
+          "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json"}) {
         const TracedScene scene(id);
-        for (uint estimator : {kSampleBsdf, kSampleMixture, kSampleMis, kSampleMisBalance}) {
-            SCOPED_TRACE(std::string(id) + ", estimator " + std::to_string(estimator));
-            app::RenderSettings settings = smallImage();
-            settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
-            comparePaths(scene, settings);
-            if (HasFatalFailure()) return;
-        }
+        SCOPED_TRACE(id);
+        compareEstimators(scene);
+        if (HasFatalFailure()) return;
+    }
+}
+
+// Beside a lamp, and in a medium.
+TEST(PathPacket, WithPunctualLights) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke"}) {
+        scene::SceneDesc desc = scene::findBuiltinScene(id);
+        desc.objects.push_back({scene::PointLightDesc{{200, 300, 100}, glm::dvec3(3e4)}});
+        desc.objects.push_back({scene::SpotLightDesc{{300, 500, 300}, {0.1, -1, 0}, glm::dvec3(2e5), 10, 40}});
+        desc.objects.push_back({scene::DirectionalLightDesc{{0.1, -0.5, 1}, glm::dvec3(0.5)}});
+        SCOPED_TRACE(id);
+        compareEstimators(TracedScene(desc));
+        if (HasFatalFailure()) return;
     }
 }
 

@@ -63,7 +63,11 @@ Json everything() {
     {"type": "medium", "boundary": {"type": "sphere", "center": [0, 0, 0], "radius": 9}, "density": 0.01},
     {"type": "group", "transform": [{"rotate": {"axis": [0, 1, 0], "degrees": 15}}, {"translate": [1, 2, 3]}, {"scale": 2},
                                     {"scale": [1, 2, 3]}, {"matrix": [1, 0, 0, 5, 0, 1, 0, 6, 0, 0, 1, 7]}],
-     "objects": [{"type": "instance", "prototype": "pair", "transform": [{"scale": 0.5}], "material": "shiny"}]}
+     "objects": [{"type": "instance", "prototype": "pair", "transform": [{"scale": 0.5}], "material": "shiny"}]},
+    {"type": "point_light", "position": [1, 2, 3], "intensity": [3, 2, 1]},
+    {"type": "spot_light", "position": [1, 2, 3], "direction": [0, -2, 1], "intensity": [1, 1, 1], "inner_angle": 20,
+     "outer_angle": 30},
+    {"type": "directional_light", "direction": [0, -1, 0.5], "irradiance": [2, 2, 2]}
   ],
   "importance_targets": [{"type": "sphere", "center": [0, 0, 0], "radius": 1},
                          {"type": "quad", "corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}]
@@ -94,6 +98,25 @@ TEST(SceneJson, EverythingSurvivesARoundTrip) {
     EXPECT_TRUE(schema().accepts(everything()));
     EXPECT_TRUE(schema().accepts(Json::parse(written)));
     EXPECT_NO_THROW(compileScene(scene));
+}
+
+TEST(SceneJson, LoadsBackToTheSameLights) {
+    const SceneDesc scene = parse(everything().dump());
+    EXPECT_EQ(compileScene(parse(toJson(scene)))->hash, compileScene(scene)->hash);
+}
+
+TEST(SceneJson, BackgroundImagesSurviveARoundTrip) {
+    Json document = everything();
+    const std::string file = (fs::path(RT_TEST_DATA_DIR) / "images" / "gradient.hdr").generic_string();
+    document["background"] = {{"type", "image"}, {"file", file}, {"factor", {2, 3, 4}}, {"rotation", -70.5}};
+    EXPECT_TRUE(schema().accepts(document));
+    const SceneDesc scene = parse(document.dump());
+    EXPECT_EQ(std::get<ImageBackground>(scene.background).rotation, -70.5);
+    EXPECT_EQ(parse(toJson(scene)), scene);
+    EXPECT_TRUE(schema().accepts(Json::parse(toJson(scene))));
+    document["background"]["rotation"] = "east";
+    EXPECT_FALSE(schema().accepts(document));
+    EXPECT_NE(errorOf(document.dump()).find("/background/rotation: \"east\": must be a number"), std::string::npos);
 }
 
 TEST(SceneJson, NumbersSurviveToTheLastBit) {
@@ -167,6 +190,16 @@ const Mistake kMistakes[] = {
     {"/camera/focus_distance", "0", "from 1e-09 to 1e+09"},
     {"/render/aspect", "-1", "from 1e-09 to 1e+09"},
     {"/background/top", "[-1, 0, 0]", "from 0 to 1e+09"},
+    {"/objects/9/intensity", "[1, -1, 0]", "/objects/9/intensity/1: -1: must be a number from 0 to 1e+09"},
+    {"/objects/9/radius", "1", "/objects/9: unknown key \"radius\"; allowed: type, position, intensity"},
+    {"/objects/10/outer_angle", "0", "/objects/10/outer_angle: 0: must be a number from 0.001 to 90"},
+    {"/objects/10/outer_angle", "91", "/objects/10/outer_angle: 91: must be a number from 0.001 to 90"},
+    {"/objects/10/inner_angle", "-1", "/objects/10/inner_angle: -1: must be a number from 0 to below outer_angle"},
+    {"/objects/10/inner_angle", "30", "a number from 0 to below outer_angle", false},
+    {"/objects/10/direction", "[0, 0, 0]", "/objects/10/direction: an array of 3: must be a vector that is not 0",
+     false},
+    {"/objects/11/direction", "[0, 0, 0]", "a vector that is not 0", false},
+    {"/objects/11", R"({"type": "directional_light", "direction": [0, -1, 0]})", "\"irradiance\" is missing"},
     // shapes without extent, cameras without direction
     {"/objects/2/edge_v", "[2, 0, 0]", "/objects/2: edge_u and edge_v must span an area", false},
     {"/objects/2/edge_v", "[0, 0, 0]", "must span an area", false},

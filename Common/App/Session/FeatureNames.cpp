@@ -39,6 +39,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"quad-lights", kFeatureQuadLights},
     {"triangle-lights", kFeatureTriangleLights},
     {"ellipsoid-lights", kFeatureEllipsoidLights},
+    {"punctual-lights", kFeaturePunctualLights},
     {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},

@@ -8,6 +8,7 @@
 #include "Common/Scene/Compiler/GridCdf.h"
 #include "Common/Scene/Compiler/LightTree.h"
 #include "Common/Scene/Compiler/TextureTable.h"
+#include "Common/Shared/Light/PunctualLight.h"
 
 namespace rt::scene {
 
@@ -48,7 +49,32 @@ double longestHalfAxis(const shared::Light& ellipsoid) {
     return std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
 }
 
+constexpr double kSteepestEdge = 1e12; // of a spot: keeps it finite where the angles are as good as the same
+// Directional lights are bounded as points so many radii of the scene away from its middle.
+constexpr float kDistantRadii = 1000;
+constexpr float kPointRadius = 1e-12f; // protects what a point contributes at its very place from a division by zero
+
+// Spots are taken for flat lights, whose cosine is positive wherever a cone of at most half the directions reaches.
+shared::LightBound punctualBound(const shared::Light& light) {
+    const auto luminous = static_cast<float>(luminance(light.emission));
+    shared::LightBound bound{};
+    bound.center = light.position;
+    bound.radius = kPointRadius;
+    bound.intensity = luminous;
+    if (light.kind == shared::kLightSpot) bound.axis = light.normal;
+    if (light.kind == shared::kLightDirectional) {
+        // Seen from anywhere in the scene the true direction is one to a point in the sphere around the distant one:
+        // where the light contributes a part of the sphere is above the horizon. The margin is for rounding.
+        const float distance = kDistantRadii * light.radius;
+        bound.center -= distance * light.normal;
+        bound.radius = light.radius * 1.001f;
+        bound.intensity = luminous * distance * distance;
+    }
+    return bound;
+}
+
 shared::LightBound boundOf(const shared::Light& light) {
+    if (shared::isPunctual(shared::kFeatureAll, light)) return punctualBound(light);
     shared::LightBound bound{};
     const double luminous = luminance(light.emission);
     if (light.kind == shared::kLightEllipsoid) {
@@ -133,6 +159,45 @@ shared::Light triangleLight(const shared::vec3& a, const shared::vec3& b, const 
     light.normal = shared::vec3(glm::normalize(normal));
     light.area = static_cast<float>(0.5 * glm::length(normal));
     return light;
+}
+
+shared::Light pointLight(const glm::dvec3& position, const glm::dvec3& intensity) {
+    shared::Light light = emptyLight(shared::kLightPoint);
+    light.position = shared::vec3(position);
+    light.emission = shared::vec3(intensity);
+    light.area = 4;
+    return light;
+}
+
+shared::Light spotLight(const glm::dvec3& position, const glm::dvec3& direction, const glm::dvec3& intensity,
+                        double innerAngle, double outerAngle) {
+    // 1 - cos, without its cancellation.
+    const auto versine = [](double angle) { return 2 * std::sin(0.5 * angle) * std::sin(0.5 * angle); };
+    const double inner = versine(innerAngle), outer = versine(outerAngle);
+    shared::Light light = emptyLight(shared::kLightSpot);
+    light.position = shared::vec3(position);
+    light.normal = shared::vec3(direction);
+    light.emission = shared::vec3(intensity);
+    light.edgeU = shared::vec3(outer, std::min(1 / (outer - inner), kSteepestEdge), 0);
+    // Between the angles the intensity is a square, whose mean is a third.
+    light.area = static_cast<float>(2 * (inner + (outer - inner) / 3));
+    return light;
+}
+
+shared::Light directionalLight(const glm::dvec3& direction, const glm::dvec3& irradiance) {
+    shared::Light light = emptyLight(shared::kLightDirectional);
+    light.normal = shared::vec3(direction);
+    light.emission = shared::vec3(irradiance);
+    return light;
+}
+
+void placeDirectionalLights(const Bounds& bounds, CompiledScene& out) {
+    for (shared::Light& light : out.lights) {
+        if (light.kind != shared::kLightDirectional) continue;
+        light.position = shared::vec3(bounds.center());
+        light.radius = std::max(static_cast<float>(bounds.radius()), kPointRadius);
+        light.area = light.radius * light.radius;
+    }
 }
 
 bool appendSkyLight(const Bounds& bounds, CompiledScene& out) {

@@ -173,18 +173,21 @@ class Builder {
     explicit Builder(CompiledScene& out) : out_(out) {}
 
     void build() {
-        std::vector<Item> items;
+        std::vector<Item> items, distant;
         for (std::uint32_t i = 0; i < out_.globals.lightCount; ++i) {
             const shared::LightBound& bound = out_.lightBounds[i];
             if (!(bound.intensity > 0.0f) || i == out_.globals.skyLight) continue;
-            items.push_back({i, dvec3(bound.center), clusterOf(bound)});
+            const bool isDistant = out_.lights[i].kind == shared::kLightDirectional;
+            (isDistant ? distant : items).push_back({i, dvec3(bound.center), clusterOf(bound)});
         }
         out_.lightToLeaf.assign(out_.globals.lightCount, shared::kNone);
         const bool sky = out_.globals.skyLight != shared::kNone;
         const std::uint32_t root = addNode(shared::kNone);
         std::uint32_t slot = 0;
-        // The sky surrounds everything, so no group may hold it.
+        // The sky surrounds everything, so no group may hold it, and directional lights are too far away from all
+        // others to be in a group with them.
         if (sky) placeLight(root, slot++, out_.globals.skyLight);
+        if (!distant.empty()) place(root, slot++, makeGroup(distant));
         if (!items.empty()) fill(root, slot, makeGroup(items));
     }
 
@@ -232,16 +235,21 @@ class Builder {
     // Children from `slot` on: the group, divided.
     void fill(std::uint32_t node, std::uint32_t slot, const Group& whole) {
         for (const Group& group : divide(whole, kLightNodeChildren - slot)) {
-            if (group.items.size() == 1) {
-                placeLight(node, slot, group.items[0].light);
-            } else {
-                placeGroup(node, slot, group);
-                const std::uint32_t child = addNode(node * kLightNodeChildren + slot);
-                out_.lightNodes[node].child[slot] = child;
-                fill(child, 0, group);
-            }
+            place(node, slot, group);
             ++slot;
         }
+    }
+
+    // A light, or a group with all that is below it.
+    void place(std::uint32_t node, std::uint32_t slot, const Group& group) {
+        if (group.items.size() == 1) {
+            placeLight(node, slot, group.items[0].light);
+            return;
+        }
+        placeGroup(node, slot, group);
+        const std::uint32_t child = addNode(node * kLightNodeChildren + slot);
+        out_.lightNodes[node].child[slot] = child;
+        fill(child, 0, group);
     }
 
     void placeLight(std::uint32_t node, std::uint32_t slot, std::uint32_t light) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/trigonometric.hpp>
+
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Scene/Compiler/LightTable.h"
@@ -303,6 +305,35 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     out_.meshes.push_back(mesh);
 }
 
+// ---- punctual lights -----------------------------------------------------------------------------------------------
+
+void PrimitiveSink::add(const PointLightDesc& light, const Placement& at) {
+    if (at.part == Part::Shared) return;
+    const glm::dvec3 position = (at.outer * at.local).point(light.position);
+    appendPunctual(pointLight(position, light.intensity));
+}
+
+void PrimitiveSink::add(const SpotLightDesc& light, const Placement& at) {
+    if (at.part == Part::Shared) return;
+    const Affine map = at.outer * at.local;
+    appendPunctual(spotLight(map.point(light.position), glm::normalize(map.vector(light.direction)), light.intensity,
+                             glm::radians(light.innerAngle), glm::radians(light.outerAngle)));
+}
+
+void PrimitiveSink::add(const DirectionalLightDesc& light, const Placement& at) {
+    if (at.part == Part::Shared) return;
+    const Affine map = at.outer * at.local;
+    appendPunctual(directionalLight(glm::normalize(map.vector(light.direction)), light.irradiance));
+}
+
+void PrimitiveSink::appendPunctual(const shared::Light& light) {
+    if (!(luminance(light.emission) > 0)) return;
+    if (representable(light.position) && representable(light.normal))
+        out_.lights.push_back(light);
+    else
+        ++dropped_.lights;
+}
+
 // ---- totals --------------------------------------------------------------------------------------------------------
 
 Bounds PrimitiveSink::finishGeometry() {
@@ -329,6 +360,7 @@ void PrimitiveSink::appendNotices(std::vector<std::string>& notices) const {
     note(dropped_.spheres, " spheres without a usable centre or radius were dropped");
     note(dropped_.quads, " quads without area were dropped");
     note(dropped_.triangles, " triangles without area were dropped");
+    note(dropped_.lights, " lights without a usable position or direction were dropped");
     note(unsampledEllipsoids_, " emissive spheres are scaled so unequally that light sampling leaves them out");
     note(dropped_.tinySpheres, " spheres are smaller than the spacing of single-precision numbers at their place");
 }

@@ -44,6 +44,10 @@ class PrimitiveSink {
     // One surface of a mesh with one material.
     void add(const MeshData& mesh, const MaterialDesc& material, bool light, const Placement& at);
 
+    void add(const PointLightDesc& light, const Placement& at);
+    void add(const SpotLightDesc& light, const Placement& at);
+    void add(const DirectionalLightDesc& light, const Placement& at);
+
     // Everything added since the last call as a geometry, with its bounds. The world, the first one, may have lights.
     Bounds finishGeometry();
 
@@ -62,13 +66,14 @@ class PrimitiveSink {
     const MaterialDesc& materialOf(const std::string& name, const Placement& at) const;
     bool isLight(std::uint32_t material, bool wanted) const;
     std::uint32_t appendLight(shared::Light light, std::uint32_t material);
+    void appendPunctual(const shared::Light& light);
 
     CompiledScene& out_;
     MaterialTable& materials_;
     Bounds bounds_;
     std::vector<Ellipsoid> ellipsoids_;
     struct {
-        std::uint64_t spheres = 0, quads = 0, triangles = 0, tinySpheres = 0;
+        std::uint64_t spheres = 0, quads = 0, triangles = 0, tinySpheres = 0, lights = 0;
     } dropped_;
     std::uint64_t unsampledEllipsoids_ = 0;
 };

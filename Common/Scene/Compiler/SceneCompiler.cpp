@@ -1,6 +1,9 @@
 #include "Common/Scene/Compiler/SceneCompiler.h"
 
+#include <cmath>
 #include <string>
+
+#include <glm/trigonometric.hpp>
 
 #include "Common/Scene/Compiler/FeatureMask.h"
 #include "Common/Scene/Compiler/InstancePlan.h"
@@ -42,6 +45,7 @@ class Compiler {
         emitWorld(plan, toWorld);
         emitSharedGeometries(plan);
         emitEllipsoids();
+        placeDirectionalLights(bounds_, *out_);
         emitSky();
         finishLights(*out_);
         for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);
@@ -178,6 +182,8 @@ class Compiler {
             image.file = sky.file;
             globals.skyImage = textures_.image(image);
             globals.skyTop = shared::vec3(sky.factor);
+            const double turn = glm::radians(sky.rotation);
+            globals.skyTurn = shared::vec2(std::cos(turn), std::sin(turn));
             globals.skyKind = appendSkyLight(bounds_, *out_) ? shared::kSkyImage : shared::kSkyBlack;
         }
     }

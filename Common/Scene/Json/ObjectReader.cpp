@@ -14,6 +14,8 @@ namespace rt::scene {
 
 namespace {
 
+constexpr double kLeastSpotAngle = 1e-3; // degrees: narrower ones single precision cannot aim
+
 // ---- transforms ----------------------------------------------------------------------------------------------------
 
 Rotate readRotate(const JsonNode& node) {
@@ -149,8 +151,7 @@ MeshData readMeshData(const JsonNode& node) {
         const std::vector<double> values = attribute->numbers(kWidth);
         expectOneEach(*attribute, values.size() / kWidth);
         vectors.resize(values.size() / kWidth);
-        for (std::size_t i = 0; i < values.size(); ++i)
-            vectors[i / kWidth][static_cast<int>(i % kWidth)] = values[i];
+        for (std::size_t i = 0; i < values.size(); ++i) vectors[i / kWidth][static_cast<int>(i % kWidth)] = values[i];
     };
     readEach("uvs", data.uvs);
     readEach("uvs2", data.uvs2);
@@ -169,8 +170,8 @@ MeshDesc readMesh(const JsonNode& node, const SceneReferences& references) {
         source.file = references.file(node.at("file"), !source.standIn.empty());
         mesh.source = source;
     } else {
-        node.expectKeys({"type", "positions", "normals", "uvs", "uvs2", "colors", "tangents", "triangles", "material",
-                         "light"});
+        node.expectKeys(
+            {"type", "positions", "normals", "uvs", "uvs2", "colors", "tangents", "triangles", "material", "light"});
         mesh.source = readMeshData(node);
     }
     // Only a file can bring materials of its own.
@@ -197,6 +198,37 @@ MediumDesc readMedium(const JsonNode& node, const SceneReferences& references) {
     return medium;
 }
 
+glm::dvec3 readDirection(const JsonNode& node) {
+    const glm::dvec3 direction = node.vector();
+    if (!(glm::length(direction) > 0)) node.failValue("a vector that is not 0");
+    return direction;
+}
+
+PointLightDesc readPointLight(const JsonNode& node) {
+    node.expectKeys({"type", "position", "intensity"});
+    return {node.at("position").vector(), node.at("intensity").vectorWithin(0, kLargest)};
+}
+
+SpotLightDesc readSpotLight(const JsonNode& node) {
+    node.expectKeys({"type", "position", "direction", "intensity", "inner_angle", "outer_angle"});
+    SpotLightDesc light;
+    light.position = node.at("position").vector();
+    light.direction = readDirection(node.at("direction"));
+    light.intensity = node.at("intensity").vectorWithin(0, kLargest);
+    if (const auto outer = node.find("outer_angle")) light.outerAngle = outer->within(kLeastSpotAngle, 90);
+    if (const auto inner = node.find("inner_angle")) {
+        light.innerAngle = inner->number();
+        if (!(light.innerAngle >= 0 && light.innerAngle < light.outerAngle))
+            inner->failValue("a number from 0 to below outer_angle");
+    }
+    return light;
+}
+
+DirectionalLightDesc readDirectionalLight(const JsonNode& node) {
+    node.expectKeys({"type", "direction", "irradiance"});
+    return {readDirection(node.at("direction")), node.at("irradiance").vectorWithin(0, kLargest)};
+}
+
 GroupDesc readGroup(const JsonNode& node, const SceneReferences& references) {
     node.expectKeys({"type", "transform", "objects"});
     GroupDesc group;
@@ -215,13 +247,16 @@ InstanceDesc readInstance(const JsonNode& node, const SceneReferences& reference
 }
 
 ObjectDesc readObject(const JsonNode& node, const SceneReferences& references) {
-    const std::string type =
-        node.at("type").oneOf({"sphere", "spheres", "quad", "box", "mesh", "medium", "group", "instance"});
+    const std::string type = node.at("type").oneOf({"sphere", "spheres", "quad", "box", "mesh", "medium", "point_light",
+                                                    "spot_light", "directional_light", "group", "instance"});
     if (type == "sphere") return {readSurface(readSphere(node), node, references)};
     if (type == "spheres") return {readSurface(readSphereSet(node), node, references)};
     if (type == "box") return {readSurface(readBox(node), node, references)};
     if (type == "mesh") return {readMesh(node, references)};
     if (type == "medium") return {readMedium(node, references)};
+    if (type == "point_light") return {readPointLight(node)};
+    if (type == "spot_light") return {readSpotLight(node)};
+    if (type == "directional_light") return {readDirectionalLight(node)};
     if (type == "group") return {readGroup(node, references)};
     if (type == "instance") return {readInstance(node, references)};
     node.expectKeys({"type", "corner", "edge_u", "edge_v", "material", "light"});

@@ -48,10 +48,11 @@ Background readBackground(const JsonNode& node, const SceneReferences& reference
         return GradientBackground{node.at("bottom").vectorWithin(0, kLargest),
                                   node.at("top").vectorWithin(0, kLargest)};
     }
-    node.expectKeys({"type", "file", "factor"});
+    node.expectKeys({"type", "file", "factor", "rotation"});
     ImageBackground image;
     image.file = references.file(node.at("file"), false);
     if (const auto factor = node.find("factor")) image.factor = factor->vectorWithin(0, kLargest);
+    if (const auto rotation = node.find("rotation")) image.rotation = rotation->number();
     return image;
 }
 
@@ -63,8 +64,8 @@ RenderDefaults readRender(const JsonNode& node) {
 }
 
 SceneDesc readScene(const JsonNode& root, const SceneReferences& references, const LongJson& text) {
-    root.expectKeys({"$schema", "version", "title", "camera", "cameras", "background", "textures", "materials", "prototypes",
-                     "objects", "importance_targets", "render"});
+    root.expectKeys({"$schema", "version", "title", "camera", "cameras", "background", "textures", "materials",
+                     "prototypes", "objects", "importance_targets", "render"});
     if (const auto version = root.find("version"); version && version->value() != 1) version->failValue("1");
     SceneDesc scene;
     if (const auto node = root.find("title")) scene.title = node->string();

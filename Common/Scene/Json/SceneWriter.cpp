@@ -131,6 +131,7 @@ Json json(const Background& background) {
     const auto& image = std::get<ImageBackground>(background);
     Json out = {{"type", "image"}, {"file", image.file}};
     setUnless(out, "factor", image.factor, glm::dvec3(1));
+    setUnless(out, "rotation", image.rotation, 0.0);
     return out;
 }
 
@@ -264,6 +265,23 @@ Json json(const MediumDesc& medium) {
     Json out = {{"type", "medium"}, {"boundary", boundary}, {"density", medium.density}};
     setUnless(out, "albedo", medium.albedo, MediumDesc().albedo);
     return out;
+}
+Json json(const PointLightDesc& light) {
+    return {{"type", "point_light"}, {"position", json(light.position)}, {"intensity", json(light.intensity)}};
+}
+Json json(const SpotLightDesc& light) {
+    const SpotLightDesc usual;
+    Json out = {{"type", "spot_light"},
+                {"position", json(light.position)},
+                {"direction", json(light.direction)},
+                {"intensity", json(light.intensity)}};
+    setUnless(out, "inner_angle", light.innerAngle, usual.innerAngle);
+    setUnless(out, "outer_angle", light.outerAngle, usual.outerAngle);
+    return out;
+}
+Json json(const DirectionalLightDesc& light) {
+    return {
+        {"type", "directional_light"}, {"direction", json(light.direction)}, {"irradiance", json(light.irradiance)}};
 }
 Json json(const GroupDesc& group) {
     Json out = {{"type", "group"}};

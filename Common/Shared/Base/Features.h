@@ -33,9 +33,10 @@ const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
 const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
 const uint kFeatureEllipsoidLights = 1u << 27u;
-const uint kFeatureDetail = 1u << 28u;  // tangents, vertex colours, second uvs: the bit of principled materials
-const uint kFeatureOpacity = 1u << 31u; // principled surfaces that let a part of rays through
-const uint kFreeFeatures = 3u << 29u;   // free for materials and what else comes
+const uint kFeatureDetail = 1u << 28u;         // tangents, vertex colours, second uvs: the bit of principled materials
+const uint kFreeFeatures = 1u << 29u;          // free for materials and what else comes
+const uint kFeaturePunctualLights = 1u << 30u; // point, spot and directional lights
+const uint kFeatureOpacity = 1u << 31u;        // principled surfaces that let a part of rays through
 const uint kFeatureAll = 0xffffffffu;
 const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
 

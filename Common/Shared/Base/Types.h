@@ -44,12 +44,12 @@ struct Mesh {
     uint firstTriangle;
     uint triangleCount;
     uint firstVertex;
-    uint firstNormal; // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
-    uint firstUv;     // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
-    uint firstUv2;    // likewise into uvs, of the second set; kNone: there is none
-    uint firstColor;  // likewise into colors; kNone: white
+    uint firstNormal;  // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
+    uint firstUv;      // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
+    uint firstUv2;     // likewise into uvs, of the second set; kNone: there is none
+    uint firstColor;   // likewise into colors; kNone: white
     uint firstTangent; // likewise into tangents; kNone: there are none
-    uint firstLight;  // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
+    uint firstLight;   // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
 };
 
 // A contiguous run of each kind of primitive: the unit that instances refer to. Geometry 0 is the world's own.
@@ -150,18 +150,27 @@ const uint kLightQuad = 1u;
 const uint kLightTriangle = 2u;
 const uint kLightSky = 3u;       // the sky image
 const uint kLightEllipsoid = 4u; // the unit sphere under an affine map
+// Punctual lights, which no ray can hit: kinds from here on.
+const uint kLightPoint = 5u;
+const uint kLightSpot = 6u;
+const uint kLightDirectional = 7u;
 
 // An emitter with its geometry in world space, or an importance target (emission zero).
 struct Light {
     uint kind;
-    uint material; // kNone for the sky and for importance targets
-    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre
-    vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x
+    uint material; // kNone for the sky, punctual lights and importance targets
+    vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre; directional light:
+                   // centre of the scene
+    vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x;
+                   // spot: 1 - cos(outer angle), 1 / (cos(inner angle) - cos(outer angle)), 0
     vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y
-    vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z
-    float radius;  // sphere; ellipsoid: that of a sphere of the same area
-    float area;    // world units squared, one side; of an ellipsoid within 1.1 %
-    vec3 emission; // radiance, mean over the surface if textured
+    vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z; unit direction in which a spot or
+                   // directional light shines
+    float radius;  // sphere; ellipsoid: that of a sphere of the same area; directional light: of the scene
+    float area;    // world units squared, one side; of an ellipsoid within 1.1 %; of a punctual light its flux over
+                   // pi times its emission
+    vec3 emission; // radiance, mean over the surface if textured; point: radiant intensity; spot: that on its axis;
+                   // directional: irradiance of a surface across its direction
     uint sides;    // kSidesFront or kSidesBoth
     float selection; // probability under power-proportional selection
     float cdf;       // sum of selection up to and including this light; exactly 1 for the last that can be chosen
@@ -241,6 +250,7 @@ struct SceneGlobals {
     uint skyKind;
     vec3 skyTop;
     vec3 skyBottom;
+    vec2 skyTurn;     // cosine and sine of the angle by which a sky image is turned about +y
     uint skyImage;    // into images
     uint skyLight;    // into lights, kNone unless the sky is sampled
     uint lightCount;  // lights proper

@@ -14,6 +14,16 @@ RT_FN vec2 skyUv(vec3 direction) {
     return vec2(uv.x, 1.0f - uv.y);
 }
 
+// A direction of the world in the frame of the sky image, which is turned about +y, and back.
+RT_FN vec3 toSkyImage(RT_IN(SceneGlobals) globals, vec3 d) {
+    vec2 turn = globals.skyTurn;
+    return vec3(turn.x * d.x - turn.y * d.z, d.y, turn.x * d.z + turn.y * d.x);
+}
+RT_FN vec3 fromSkyImage(RT_IN(SceneGlobals) globals, vec3 d) {
+    vec2 turn = globals.skyTurn;
+    return vec3(turn.x * d.x + turn.y * d.z, d.y, turn.x * d.z - turn.y * d.x);
+}
+
 // The texel that holds uv: sky images are piecewise constant, so that their distribution function is exact.
 RT_FN uvec2 skyTexel(RT_IN(Image) image, vec2 uv) {
     return uvec2(min(uint(uv.x * float(image.width)), image.width - 1u),
@@ -26,7 +36,7 @@ RT_FN vec3 skyRadiance(uint features, SceneRef scene, vec3 direction) {
     if (globals.skyKind == kSkyGradient) return mix(globals.skyBottom, globals.skyTop, 0.5f * (direction.y + 1.0f));
     if (has(features, kFeatureSkyImage) && globals.skyKind == kSkyImage) {
         RT_IN(Image) image = loadImage(scene, globals.skyImage);
-        uvec2 texel = skyTexel(image, skyUv(direction));
+        uvec2 texel = skyTexel(image, skyUv(toSkyImage(globals, direction)));
         return globals.skyTop * vec3(loadTexel(scene, image, texel.x, texel.y));
     }
     return globals.skyTop;
@@ -58,8 +68,9 @@ RT_FN float skyTexelPdf(SceneRef scene, RT_IN(Image) image, uvec2 texel) {
 }
 
 RT_FN float skyPdf(SceneRef scene, vec3 direction) {
-    RT_IN(Image) image = loadImage(scene, loadGlobals(scene).skyImage);
-    return skyTexelPdf(scene, image, skyTexel(image, skyUv(direction)));
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
+    RT_IN(Image) image = loadImage(scene, globals.skyImage);
+    return skyTexelPdf(scene, image, skyTexel(image, skyUv(toSkyImage(globals, direction))));
 }
 
 // A direction with density proportional to the image, uniform in solid angle inside a texel.
@@ -78,7 +89,7 @@ RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
     // Inverse of u = (atan2(-z, x) + pi) / 2 pi.
     vec2 sinCos = sinCos2Pi((float(column) + inColumn) / float(image.width));
     LightSample s;
-    s.wi = vec3(-r * sinCos.y, y, r * sinCos.x);
+    s.wi = fromSkyImage(globals, vec3(-r * sinCos.y, y, r * sinCos.x));
     s.distance = kInfinity;
     s.pdf = skyTexelPdf(scene, image, uvec2(column, row));
     s.radiance = globals.skyTop * vec3(loadTexel(scene, image, column, row));

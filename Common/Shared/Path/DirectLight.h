@@ -2,6 +2,7 @@
 // arrives.
 #ifndef RT_SHARED_DIRECT_LIGHT_H
 #define RT_SHARED_DIRECT_LIGHT_H
+#include "Common/Shared/Light/PunctualLight.h"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Path/Emission.h"
 #include "Common/Shared/Path/PathSamples.h"
@@ -21,10 +22,16 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
     return transmittance(depth);
 }
 
+// Whether lights are sampled beside scattering: all of them, or only the punctual ones, which scattering never finds.
+RT_FN bool samplesLights(uint features, RT_IN(RenderParams) params) {
+    return usesMis(params) || has(features, kFeaturePunctualLights);
+}
+
 // Whether a light is chosen and sampled at v, whose light is added if it arrives.
 RT_FN bool usesNextEventEstimation(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                                    RT_IN(Vertex) v) {
-    return has(features, kFeatureLights) && usesMis(params) && globals.lightCount > 0u && !isDeltaVertex(features, v);
+    return has(features, kFeatureLights) && samplesLights(features, params) && globals.lightCount > 0u &&
+           !isDeltaVertex(features, v);
 }
 
 // The sample that chooses the light: the one whose second coordinate also places the point on it, unless there are so
@@ -46,12 +53,14 @@ RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) ligh
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
     }
-    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv, sampled.uv);
+    sampled.radiance =
+        emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv, sampled.uv);
 }
 
 RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
                                     RT_IN(Vertex) v, float time, vec2 u) {
     if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
+    if (isPunctual(features, light)) return samplePunctualLight(light, v.origin, v.shading);
     LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
     applyEmissionTexture(features, scene, light, sampled);
     return sampled;
@@ -70,15 +79,18 @@ RT_FN DirectLight noDirectLight() {
 }
 
 // The contribution of a light that was chosen with `probability` and sampled, to a path of this throughput that
-// scatters at v, weighed against the bsdf's density. Without a branch, for loops over samples.
-RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, RT_IN(LightSample) sampled,
-                              RT_IN(Vertex) v, vec3 throughput) {
+// scatters at v, weighed against the bsdf's density. A punctual light's sample has nothing to be weighed against; where
+// the estimator is not mis that of any other is left to scattering. Without a branch, for loops over samples.
+RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, bool isPunctualSample,
+                              RT_IN(LightSample) sampled, RT_IN(Vertex) v, vec3 throughput) {
     vec4 f = evalScattering(features, v, sampled.wi);
     vec3 unweighted = throughput * vec3(f) * sampled.radiance;
-    float contribution = sampled.pdf > 0.0f ? maxComponent(unweighted) : 0.0f;
+    bool isWanted = !has(features, kFeaturePunctualLights) || isPunctualSample || usesMis(params);
+    float contribution = isWanted && sampled.pdf > 0.0f ? maxComponent(unweighted) : 0.0f;
     // The weight and the division by the light's own density are one division.
     float density = probability * sampled.pdf;
     float scattering = params.lightSampling == kSampleMisBalance ? f.w : f.w * (f.w / density);
+    if (has(features, kFeaturePunctualLights)) scattering = isPunctualSample ? 0.0f : scattering;
     // The segment ends at the light's own offset point, so that the emitter does not shadow itself and no primitive has
     // to be excluded.
     vec3 end = offsetOrigin(sampled.point, sampled.error, sampled.normal, -sampled.wi);
@@ -86,11 +98,11 @@ RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float p
     float segmentLength = length(segment);
     // Closer than rounding can tell apart nothing fits in between.
     float distance = dot(segment, sampled.wi) > 0.0f ? segmentLength * (1.0f - kShadowMargin) : 0.0f;
-    bool isSky = has(features, kFeatureSkyImage) && sampled.distance == kInfinity;
+    bool isDistant = has(features, kFeatureSkyImage | kFeaturePunctualLights) && sampled.distance == kInfinity;
     DirectLight direct;
     direct.radiance = select(contribution > 0.0f, unweighted * (1.0f / (density + scattering)), vec3(0.0f));
-    direct.direction = select(isSky, sampled.wi, segment / segmentLength);
-    distance = isSky ? kInfinity : distance;
+    direct.direction = select(isDistant, sampled.wi, segment / segmentLength);
+    distance = isDistant ? kInfinity : distance;
     direct.distance = contribution > 0.0f ? distance : 0.0f;
     return direct;
 }
@@ -103,7 +115,7 @@ RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderP
     RT_IN(Light) light = loadLight(scene, choice.light);
     vec2 position = positionSample(features, loadGlobals(scene), choice, u);
     LightSample sampled = sampleChosenLight(features, scene, params, light, v, s.ray.time, position);
-    return weighSample(features, params, choice.probability, sampled, v, s.throughput);
+    return weighSample(features, params, choice.probability, isPunctual(features, light), sampled, v, s.throughput);
 }
 
 // Adds what needs no shadow ray.

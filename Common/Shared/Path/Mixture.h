@@ -47,7 +47,7 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
         float density = 0.0f;
         if (has(features, kFeatureSkyImage) && light.kind == kLightSky) {
             density = skyPdf(scene, wi);
-        } else {
+        } else if (!isPunctual(features, light)) {
             density = lightPdfAlong(features, params, light, context.position, context.normal, time, wi);
         }
         if (density > 0.0f) sum += density * mixtureProbability(features, scene, globals, i, context);
@@ -70,11 +70,28 @@ RT_FN LightChoice mixtureChoice(uint features, RT_IN(SceneGlobals) globals, RT_I
     return choice;
 }
 
-// Samples a direction to a light or target; a pdf of 0 where there is none.
+// Share of the bsdf in the mixture: half, and of the lights' half what falls to punctual lights, which no direction
+// hits.
+RT_FN float bsdfShare(uint features, SceneRef scene, RT_IN(SceneGlobals) globals, RT_IN(LightContext) context) {
+    float share = 0.5f;
+    if (!has(features, kFeaturePunctualLights)) return share;
+    for (uint i = 0u; i < globals.lightCount; i++) {
+        if (!isPunctual(features, loadLight(scene, i))) continue;
+        share += 0.5f * mixtureProbability(features, scene, globals, i, context);
+    }
+    return share;
+}
+
+// Whether a direction can be drawn for the choice, or the bsdf's is taken in its place.
+RT_FN bool hasDirections(uint features, SceneRef scene, RT_IN(LightChoice) choice) {
+    if (!has(features, kFeaturePunctualLights) || choice.light == kNone) return true;
+    return !isPunctual(features, loadLight(scene, choice.light));
+}
+
+// Samples a direction to the light or target of mixtureChoice(); a pdf of 0 where there is none.
 RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
-                                     RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light, RT_IN(Vertex) v,
+                                     RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice, RT_IN(Vertex) v,
                                      RT_IN(VertexSamples) u, float time) {
-    LightChoice choice = mixtureChoice(features, globals, light, u);
     if (choice.light == kNone) return noLightSample();
     vec2 position = positionSample(features, globals, choice, u);
     return sampleChosenLight(features, scene, params, loadLight(scene, choice.light), v, time, position);
@@ -90,22 +107,24 @@ RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams
     bool lightless = context.policy == kSelectContribution && !(context.total > 0.0f);
     if (lightless && globals.targetCount == 0u) return b;
     BsdfSample mixed = b;
-    bool aimsAtLight = u.roulette.y < 0.5f;
+    LightChoice choice = mixtureChoice(features, globals, light, u);
+    bool aimsAtLight = u.roulette.y < 0.5f && hasDirections(features, scene, choice);
+    float share = bsdfShare(features, scene, globals, context);
     if (!aimsAtLight && (b.delta != 0u || b.transmitted != 0u)) {
         // Lights have no part in a mirror's direction, and they are aimed at on the side of wo only.
-        mixed.weight = b.weight * 2.0f;
+        mixed.weight = b.weight * (1.0f / share);
         return mixed;
     }
     mixed.weight = vec3(0.0f, 0.0f, 0.0f);
     mixed.delta = 0u;
     mixed.transmitted = 0u;
     if (aimsAtLight) {
-        LightSample sampled = sampleMixtureLight(features, scene, params, globals, light, v, u, time);
+        LightSample sampled = sampleMixtureLight(features, scene, params, globals, choice, v, u, time);
         if (!(sampled.pdf > 0.0f)) return mixed;
         mixed.wi = sampled.wi;
     }
     vec4 f = evalScattering(features, v, mixed.wi);
-    float pdf = 0.5f * f.w + 0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
+    float pdf = share * f.w + 0.5f * mixtureLightPdf(features, scene, params, globals, time, mixed.wi, context);
     mixed.pdf = pdf;
     if (pdf > 0.0f) mixed.weight = vec3(f) / pdf;
     return mixed;
