@@ -27,8 +27,8 @@ namespace rt::scene {
 
 namespace {
 
-// What shows a model that brings no light: neutral, so that colours are right, and uneven, as white things vanish before
-// a constant.
+// What shows a model that brings no light: neutral, so that colours are right, and uneven, as white things would vanish
+// before a constant.
 const GradientBackground kStudio{glm::dvec3(0.3), glm::dvec3(1)};
 
 // Primitives may share arrays, each having its own copy here: files whose corners exceed this many, and this many for
