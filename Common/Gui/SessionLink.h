@@ -2,10 +2,12 @@
 // sent, each of it once.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Presenter.h"
 
@@ -21,10 +23,21 @@ class SessionLink {
 
   private:
     void rememberScene();
+    void followExposure();
+    void followFile();
 
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
+    // By which a file is known to be as it was.
+    struct FileMark {
+        std::string source;
+        std::filesystem::file_time_type written{};
+        std::uintmax_t bytes = 0;
+        bool operator==(const FileMark&) const = default;
+    };
+    FileMark readMark_, seenMark_; // of the scene's file: as it was loaded; at the last look
+    app::Stopwatch sinceLook_;
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 
     std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
@@ -33,6 +46,7 @@ class SessionLink {
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
     bool sentRayTracing_;
+    std::uint32_t sentPreviewWidth_ = 0;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
     const image::Image* shownHeld_ = nullptr;

@@ -65,12 +65,26 @@ void row(const char* label, const char* tip) {
     ImGui::SetNextItemWidth(-1);
 }
 
-void note(const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+void wrapped(const std::string& text, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+void note(const std::string& text) {
+    wrapped(text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+}
+
+std::string elided(const std::string& text, float width) {
+    const auto fits = [&](const std::string& part) { return ImGui::CalcTextSize(part.c_str()).x <= width; };
+    if (fits(text)) return text;
+    for (std::size_t end = text.size(); end > 0; --end) {
+        const bool isInCharacter = (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; // of UTF-8
+        if (const std::string part = text.substr(0, end) + "..."; !isInCharacter && fits(part)) return part;
+    }
+    return "";
 }
 
 bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,

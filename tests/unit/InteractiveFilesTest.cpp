@@ -93,7 +93,7 @@ TEST_F(InteractiveFilesTest, ReferencesAreReadFromLinearFilesOfTheSameSize) {
     image::writeImage(folder_ / "wrong.pfm", image::Image(25, 24));
     session.loadReference((folder_ / "wrong.pfm").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
-    EXPECT_NE(session.state().error.find("25x24"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("25x24"), std::string::npos);
     EXPECT_TRUE(session.state().reference.empty());
     session.loadReference((folder_ / "right.pfm").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.referenceFits && !s.curve.empty(); }));

@@ -55,7 +55,7 @@ void writePreview(const SaveRequest& request, const Preview& preview, PublishedS
                 file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
             state.say("Saved the preview as " + file);
         } catch (...) {
-            state.fail(std::current_exception());
+            state.fail(std::current_exception(), ErrorSource::Save);
         }
     }
 }

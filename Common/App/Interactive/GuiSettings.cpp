@@ -126,7 +126,10 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
             if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
     reader.read("exposure", settings.exposure, -100, 100);
+    reader.read("auto_exposure", settings.autoExposure);
     reader.read("tonemap", kTonemaps, settings.tonemap);
+    reader.read("reload_scenes", settings.reloadScenes);
+    reader.read("saw_first_steps", settings.sawFirstSteps);
     reader.read("save_folder", settings.saveFolder);
     reader.read("ray_tracing", settings.rayTracing);
     reader.read("scene", settings.scene);
@@ -162,7 +165,10 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                     {"show_statistics", s.showStatistics},
                     {"open_panels", s.openPanels},
                     {"exposure", s.exposure},
+                    {"auto_exposure", s.autoExposure},
                     {"tonemap", nameOf(kTonemaps, s.tonemap)},
+                    {"reload_scenes", s.reloadScenes},
+                    {"saw_first_steps", s.sawFirstSteps},
                     {"save_folder", s.saveFolder},
                     {"ray_tracing", s.rayTracing},
                     {"scene", s.scene},
@@ -201,8 +207,13 @@ void override(GuiSettings& settings, const Options& options) {
     take("--adaptive", s.adaptive, o.adaptive);
     take("--russian-roulette", s.russianRoulette, o.russianRoulette);
     take("--one-sided-lights", settings.request.oneSidedLights, options.oneSidedLights);
-    take("--exposure", settings.exposure, options.exposure);
-    take("--tonemap", settings.tonemap, options.tonemap);
+    // Files that the command line asks for look as they do without a window, and the window as the files.
+    const bool asksForFiles = !options.outputs.empty();
+    if (given("--exposure") || asksForFiles) {
+        settings.exposure = options.exposure;
+        settings.autoExposure = false;
+    }
+    if (given("--tonemap") || asksForFiles) settings.tonemap = options.tonemap;
     if (given("--width") || given("--height") || given("--aspect")) settings.request.size = options.size;
     s.features = o.features;
     settings.request.timeLimit = options.timeLimit;

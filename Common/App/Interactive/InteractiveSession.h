@@ -45,6 +45,11 @@ class InteractiveSession {
     void preview(bool on) {
         mailbox_.post(Cancel::FirstPicture, [on](Requests& requests) { requests.preview = on; });
     }
+    // Pixels that a row of the preview is drawn with, so that it suits the window; 0: as many as the picture has. The
+    // height follows. Files get the picture's size.
+    void previewWidth(std::uint32_t width) {
+        mailbox_.post(Cancel::Nothing, [width](Requests& requests) { requests.previewWidth = width; });
+    }
     // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear
     // image file of the present size. Stop gives a render up, and what was the reference before stays.
     void renderReference(std::uint32_t spp) {

@@ -80,12 +80,20 @@ struct LastRun {
     std::uint64_t spp = 0;
 };
 
+// What an error is about: the window shows it there.
+enum class ErrorSource { Other, Scene, Engine, Reference, Save, Camera };
+struct ErrorMessage {
+    std::string text;
+    ErrorSource source = ErrorSource::Other;
+};
+
 // All that the window shows of the session, copied at one moment.
 struct SessionState {
     Activity activity = Activity::Preparing;
     std::string stage;       // what keeps the user waiting; empty: nothing
     double stageSeconds = 0; // how long it has
-    std::string error;       // of the last request that failed
+    static constexpr std::size_t kMostErrors = 16;
+    std::vector<ErrorMessage> errors{}; // of requests that failed; the last ones of `errorSerial`, the latest last
     std::uint64_t errorSerial = 0;
     std::string message; // what was last written
     std::uint64_t messageSerial = 0;

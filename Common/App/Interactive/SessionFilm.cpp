@@ -72,6 +72,12 @@ void SessionFilm::start(const FilmSubject& subject) {
     if (!before || isAnotherSize) state_.setStage("Preparing " + subject.scene.title);
     if (!before) publisher.forgetLatency();
     publisher.discardViews();
+    state_.update([&](SessionState& state) { // the progress of the film before is not this one's
+        state.settings = settings;
+        state.status = {};
+        state.status.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
+        state.renderSeconds = 0;
+    });
     if (round_ == 0) renderDraft(subject, settings);
     if (publisher.hasDraft() && mailbox_.moveCameraAlone()) {
         state_.setStage("");

@@ -64,6 +64,7 @@ void SessionThread::apply(Requests requests) {
         camera_ = requests.camera->second;
         film_.change();
     }
+    if (requests.previewWidth) previewWidth_ = *requests.previewWidth;
     if (requests.changeWhatIsSeen()) previewIsStale_ = true;
     if (requests.preview) switchPreview(*requests.preview);
     std::move(requests.saves.begin(), requests.saves.end(), std::back_inserter(waiting_));
@@ -99,7 +100,7 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
             state.canPreview = engine_->canPreview();
         });
     } catch (...) {
-        state_.fail(std::current_exception(), !engine_);
+        state_.fail(std::current_exception(), ErrorSource::Engine, !engine_);
         state_.update([](SessionState& state) { ++state.engineFailures; });
     }
     state_.setStage("");
@@ -113,7 +114,7 @@ void SessionThread::adopt(LoadedScene loaded) {
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
-        state_.fail(failure, fatal);
+        state_.fail(failure, ErrorSource::Scene, fatal);
     };
     if (loaded.failure) {
         const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
@@ -175,7 +176,8 @@ void SessionThread::switchPreview(bool on) {
 
 void SessionThread::startReference(std::uint32_t spp) {
     if (isPreviewing())
-        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")));
+        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")),
+                           ErrorSource::Reference);
     film_.reference.render(spp);
     film_.beginAnew();
     setActivity(Activity::Rendering);
@@ -187,7 +189,7 @@ void SessionThread::readReferenceFile(const std::string& file) {
         setReference(readReference(file, film_.run()->settings().width, film_.run()->settings().height), file);
         showFilm();
     } catch (...) {
-        state_.fail(std::current_exception());
+        state_.fail(std::current_exception(), ErrorSource::Reference);
     }
 }
 
@@ -237,7 +239,7 @@ void SessionThread::renderPreview() {
             state.status = {};
         });
     }
-    film_.publisher.showPreview(*engine_, camera_, settings);
+    film_.publisher.showPreview(*engine_, camera_, settings, previewWidth_ > 0 ? previewWidth_ : settings.width);
     state_.update([](SessionState& state) { state.stage.clear(); });
     writeWaiting();
 }
@@ -290,13 +292,19 @@ void SessionThread::writeWaiting() {
 }
 
 void SessionThread::write(const SaveRequest& request) {
-    if (isPreviewing()) return writePreview(request, film_.publisher.preview(), state_);
+    if (isPreviewing()) {
+        const RenderSettings size = sizedSettings(request_, *loaded_.scene);
+        const Preview& shown = film_.publisher.preview();
+        const bool isOfThatSize = shown.picture.width == size.width && shown.picture.height == size.height;
+        return writePreview(request, isOfThatSize ? shown : drawPreview(*engine_, camera_, size, size.width), state_);
+    }
     if (!film_.hasSamples()) {
-        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")));
+        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),
+                    ErrorSource::Save);
         return;
     }
     for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
-        state_.fail(std::make_exception_ptr(RenderError(failure)));
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 // Of the film; returns what cannot be written, one line each.
@@ -315,7 +323,8 @@ void SessionThread::writeEnd(StopReason reason) {
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
     endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
                                : std::vector<std::string>{"nothing was rendered that could be written"};
-    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
+    for (const std::string& failure : endFailures_)
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 } // namespace rt::app

@@ -64,6 +64,7 @@ class SessionThread {
     Activity activity_ = Activity::Preparing;
 
     SessionFilm film_;
+    std::uint32_t previewWidth_ = 0; // 0: the picture's
     bool previewIsWanted_, previewIsStale_ = true;
 
     std::vector<SaveRequest> waiting_; // to be written

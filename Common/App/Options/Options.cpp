@@ -146,7 +146,8 @@ void addOutput(FlagSet& flags, Options& options) {
                  options.exposure = static_cast<float>(parseReal(flag, text, -100, 100, "a number from -100 to 100"));
              })
         ->default_str("0");
-    flags.addChoice("--tonemap", kTonemaps, options.tonemap, "for PNG; none clamps");
+    flags.addChoice("--tonemap", kTonemaps, options.tonemap,
+                    "for PNG; none clamps, agx is the filmic curve that windows begin with");
     flags.add("--aov", "LIST", "write albedo,normal,depth,variance,samples as well, as NAME.albedo.EXT",
               [&options](const std::string& flag, const std::string& text) {
                   options.aovs = {};

@@ -162,6 +162,9 @@ void drawReference(Gui& gui) {
         !gui.referencePath.empty()) {
         gui.session.loadReference(gui.referencePath);
     }
+    besideIfItFits(buttonWidth("Browse"));
+    if (button("Browse", "Chooses the file of a reference", true)) gui.browse(BrowseFor::Reference);
+    drawErrorOf(gui, app::ErrorSource::Reference);
 }
 
 std::vector<ChartSeries> makeSeries(Gui& gui, const std::vector<const RunRecord*>& runs) {

@@ -70,14 +70,24 @@ std::string sentence(std::string text) {
     return text;
 }
 
-// How light is found and where random numbers come from; how lights are sampled only where they are.
-void drawMethods(app::RenderSettings& settings) {
+// A method of the table by its key, or all that are none of those two.
+enum class Methods { LightSampling, Sampler, Others };
+bool isAmong(Methods methods, std::string_view key) {
+    if (key == "light_sampling") return methods == Methods::LightSampling;
+    if (key == "sampler") return methods == Methods::Sampler;
+    return methods == Methods::Others;
+}
+
+// What has no effect stays in place, greyed: how lights are sampled where none are.
+void drawMethods(app::RenderSettings& settings, Methods methods) {
     const bool areLightsSampled = settings.lightSampling != app::LightSampling::Bsdf;
     app::forEachMethod(
-        [areLightsSampled](const char* key, const char* title, const char* help, const auto& table, auto& value) {
+        [areLightsSampled, methods](const char* key, const char* title, const char* help, const auto& table,
+                                    auto& value) {
+            if (!isAmong(methods, key)) return;
             const bool isOfLights = std::string_view(key).find("light") != std::string_view::npos;
-            if (areLightsSampled || !isOfLights || key == std::string_view("light_sampling"))
-                combo(title, sentence(help).c_str(), table, value);
+            const Disabled rest(isOfLights && !areLightsSampled && methods == Methods::Others);
+            combo(title, sentence(help).c_str(), table, value);
         },
         settings);
 }
@@ -99,32 +109,46 @@ void drawFrames(app::RenderRequest& request) {
     if (checkbox("Auto frames", "Samples per frame: as many as there is time for between two frames", isAuto)) {
         request.samplesPerFrame = isAuto ? 0 : app::RenderRequest().samplesPerFrame;
     }
-    if (isAuto) return;
-    inputCount(
-        "Samples per frame",
-        "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second is "
-        "shown while it is rendered; an old render shows four a second at most, and where the window is drawn by "
-        "software, pictures come once or twice a second",
-        request.samplesPerFrame, 1, 65536, 5);
+    const Disabled rest(isAuto);
+    std::uint32_t shown = isAuto ? app::RenderRequest().samplesPerFrame : request.samplesPerFrame;
+    if (inputCount(
+            "Samples per frame",
+            "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second "
+            "is shown while it is rendered; an old render shows four a second at most, and where the window is drawn "
+            "by software, pictures come once or twice a second",
+            shown, 1, 65536, 5)) {
+        request.samplesPerFrame = shown;
+    }
+}
+
+void drawAdvanced(app::RenderRequest& request) {
+    app::RenderSettings& settings = request.settings;
+    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawMethods(settings, Methods::Others);
+    drawLights(request);
+    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
+    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
+    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
+               settings.replicates, 1, 1024, 1);
+    drawFrames(request);
+    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
 }
 
 } // namespace
 
+// What matters first, then the rest.
 void drawRenderPanel(Gui& gui) {
     app::RenderRequest& request = gui.settings.request;
     app::RenderSettings& settings = request.settings;
     drawEnginePanel(gui);
     inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
-    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawMethods(settings, Methods::LightSampling);
+    drawMethods(settings, Methods::Sampler);
     drawSize(gui);
-    drawMethods(settings);
-    drawLights(request);
-    drawFrames(request);
-    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
-    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
-    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
-    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
-               settings.replicates, 1, 1024, 1);
+    bool& isOpen = gui.settings.openPanels.try_emplace("advanced", false).first->second;
+    ImGui::SetNextItemOpen(isOpen);
+    isOpen = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    if (isOpen) drawAdvanced(request);
 }
 
 } // namespace rt::gui
