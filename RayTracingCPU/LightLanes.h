@@ -172,16 +172,31 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
 
 // ---- weighing it ---------------------------------------------------------------------------------------------------
 
+const uint kOtherSurfaces = kFeatureLambertian | kFeatureMetal | kFeatureDielectric;
+
 template <uint kFeatures>
-RT_CALL void weighSamples(const RenderParams& params, PathLanes& lanes) {
+RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& direct, const PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
         const LightSample sampled = get(lanes.lightSamples, i);
         const Vertex v = vertexIn<kFeatures>(lanes, i);
         const bool isPunctualSample = isPunctual(kFeatures, get(lanes.lights, i));
-        set(lanes.direct, i,
+        set(direct, i,
             weighSample(kFeatures, params, probability, isPunctualSample, sampled, v, get(lanes.throughput, i)));
     }
+}
+
+// Principled materials apart from the others: each of the loops has one formula to evaluate.
+template <uint kFeatures>
+RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) {
+    weighSamples<kFeatures & ~kFeaturePrincipled>(params, lanes.direct, lanes);
+    if (!has(kFeatures, kFeaturePrincipled)) return;
+    RecordLanes<DirectLight> direct;
+    weighSamples<(kFeatures & ~kOtherSurfaces) | kFeaturePrincipled>(params, direct, lanes);
+    const UintLanes& kinds = lanesOf<&Bsdf::kind>(lanesOf<&Vertex::bsdf>(lanes.vertices));
+    eachLane(lit, [&](uint i) {
+        if (kinds.at[i] == kMaterialPrincipled) set(lanes.direct, i, get(direct, i));
+    });
 }
 
 // sampleDirectLight() for the paths `lit`: lanes.direct.
@@ -215,7 +230,7 @@ RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& param
             set(lanesOf<&LightSample::radiance>(lanes.lightSamples), i, sampled.radiance);
         }
     });
-    weighSamples<kFeatures>(params, lanes);
+    weighSamples<kFeatures>(params, lit, lanes);
 }
 
 } // namespace

@@ -85,6 +85,8 @@ constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian 
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
                                         kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
 
+constexpr std::uint32_t kAssetFeatures = kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureImages |
+                                         kFeatureSkyImage | kFeaturePunctualLights;
 constexpr std::uint32_t kBookFeatures =
     kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeaturePunctualLights | kFreeFeatures);
 
@@ -98,6 +100,7 @@ constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
+    makeKernel<kAssetFeatures>("assets"),
     makeKernel<kBookFeatures>("books"),
     makeKernel<kFeatureAll>("all"),
 };

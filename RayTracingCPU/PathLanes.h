@@ -63,6 +63,10 @@ template <>
 struct FieldsOf<DirectLight>
     : Fields<FieldList<&DirectLight::radiance, &DirectLight::direction, &DirectLight::distance>> {};
 
+template <>
+struct FieldsOf<BsdfSample> : Fields<FieldList<&BsdfSample::wi, &BsdfSample::weight, &BsdfSample::pdf,
+                                               &BsdfSample::delta, &BsdfSample::transmitted>> {};
+
 // One record, so that compilers see that its parts do not overlap. Lanes that are not in use are computed like the
 // others, from whatever they hold.
 struct PathLanes {
@@ -83,6 +87,9 @@ struct PathLanes {
     RecordLanes<DirectLight> direct;
     Vec3Lanes diffuse; // directions of sampleLambertian(), and their densities
     FloatLanes diffusePdf;
+    RecordLanes<BsdfSample> proposals; // of principled materials, in the frame of the normal
+    Vec3Lanes proposedValues;          // f cos and density of those that reflect
+    FloatLanes proposedPdfs;
 };
 
 // The vertex in a lane, with all of its bsdf.

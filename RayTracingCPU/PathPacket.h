@@ -33,9 +33,40 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
     }
 }
 
+// Where the principled ones of the vertices `arrived` would scatter: proposals one by one, evaluated in lanes.
+template <uint kFeatures>
+RT_CALL void proposeDirections(uint arrived, PathLanes& lanes) {
+    eachLane(arrived, [&](uint i) {
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        if (!isPrincipled(kFeatures, v.bsdf)) return;
+        const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
+        set(lanes.proposals, i, wo.z > 0.0f ? proposePrincipled(v.bsdf, wo, get(lanes.u, i).bsdf) : absorbed());
+    });
+    for (uint i = 0u; i < kLanes; ++i) {
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
+        const vec4 f = evalPrincipledReflection(v.bsdf.lobes, wo, get(lanesOf<&BsdfSample::wi>(lanes.proposals), i));
+        set(lanes.proposedValues, i, vec3(f));
+        lanes.proposedPdfs.at[i] = f.w;
+    }
+}
+
+// samplePrincipled() of what proposeDirections() has begun.
+RT_FN BsdfSample finishProposal(const PathLanes& lanes, uint i, const Vertex& v) {
+    const Frame frame = makeFrame(v.shading);
+    BsdfSample b = get(lanes.proposals, i);
+    const bool isReflected = b.wi.z > 0.0f;
+    weighProposal(isReflected ? vec4(get(lanes.proposedValues, i), lanes.proposedPdfs.at[i])
+                              : evalPrincipledLocal(v.bsdf, toLocal(frame, v.wo), b.wi),
+                  b);
+    b.wi = normalize(toWorld(frame, b.wi));
+    return b;
+}
+
 template <uint kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
+    if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return finishProposal(lanes, i, v);
     if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
     BsdfSample b = absorbed();
     b.wi = get(lanes.diffuse, i);
@@ -65,6 +96,7 @@ class PathPacket {
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
             sampleDiffuse(lanes_);
+            if (has(kFeatures, kFeaturePrincipled)) proposeDirections<kFeatures>(active.arrived, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
         }
     }

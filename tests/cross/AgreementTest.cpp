@@ -204,6 +204,24 @@ TEST_P(EllipsoidAgreementTest, SampleForSample) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
+// Every lobe, textures of numbers, a normal map, layers.
+class PrincipledAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, PrincipledAgreementTest, kBothEngines, engineName);
+
+TEST_P(PrincipledAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    for (const app::LightSampling estimator :
+         {app::LightSampling::Mis, app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
+        app::RenderSettings settings = pairSettings(1);
+        settings.lightSampling = estimator;
+        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << static_cast<int>(estimator);
+    }
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 // Punctual lights of every kind beside a lamp, and a turned sky.
 class PunctualAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, PunctualAgreementTest, kFirstEngine, engineName);

@@ -54,6 +54,10 @@ TEST(EllipsoidLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(desc);
 }
 
+TEST(Principled, IsTheSameForAllWaysToSampleLights) {
+    expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"));
+}
+
 // Beside a lamp and a turned sky, by scattering over several vertices.
 TEST(PunctualLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/punctual-lights.json"));

@@ -1,4 +1,5 @@
 // The paths of a packet are those of stepPath() alone, bit for bit: shaders compile its text, too.
+#include <array>
 #include <bit>
 #include <string>
 #include <vector>
@@ -7,9 +8,11 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
-#include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Shared/Texture/Color.h"
 #include "RayTracingCPU/PathPacket.h"
 
 namespace rt::cpu {
@@ -19,13 +22,15 @@ constexpr uint kSide = 40;
 
 // A scene as the engine prepares it.
 struct TracedScene {
-    explicit TracedScene(const char* id) : TracedScene(scene::findBuiltinScene(id)) {}
-    explicit TracedScene(const scene::SceneDesc& desc) : compiled(scene::compileScene(desc)) {
+    explicit TracedScene(const std::string& id) : TracedScene(app::loadScene(id)) {}
+    explicit TracedScene(const scene::SceneDesc& desc) : compiled(app::compile(desc, true, true)) {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};
         accel = accel::CpuAccel::build(input, {}, nullptr);
         view = CpuScene{viewOf(s, s.globals), accel->view(), {}};
+        for (uint byte = 0; byte < 256; ++byte) linear[byte] = srgbToLinear(float(byte) / 255.0f);
+        view.srgbToLinear = linear.data();
         view.tracer = accel::rayQuery().tracer(view.accel.kinds);
     }
 
@@ -36,6 +41,7 @@ struct TracedScene {
 
     std::shared_ptr<const scene::CompiledScene> compiled;
     std::unique_ptr<const accel::CpuAccel> accel;
+    std::array<float, 256> linear{};
     CpuScene view;
 };
 
@@ -45,10 +51,12 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, traceRay(scene, path.ray), path, direct);
+        const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct);
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
-        if (!isOccluded(scene, shadowRay(path, direct), direct.distance)) {
+        const Ray shadow = shadowRay(path, direct);
+        if (traceRay<kFeatureAll>(scene, smp, 2u * path.vertex + 1u, shadow, direct.distance).t < 0.0f) {
             addDirectLight(kFeatureAll, scene, direct, path);
         }
     }
@@ -111,10 +119,11 @@ void compareEstimators(const TracedScene& scene) {
     }
 }
 
-// Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky.
+// Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
-    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
-                           "one-weekend-final", "many-lights", "veach-mis"}) {
+    for (const char* id :
+         {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "one-weekend-final",
+          "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json"}) {
         const TracedScene scene(id);
         SCOPED_TRACE(id);
         compareEstimators(scene);

@@ -80,6 +80,11 @@ vec3 outgoing(double cosine) {
     return vec3(test::onSphere(0.5 * (cosine + 1), 0.1));
 }
 
+// On both sides.
+vec4 eval(const Bsdf& b, const vec3& wo, const vec3& wi) {
+    return evalPrincipledLocal(b, wo, wi);
+}
+
 BsdfSample draw(const Bsdf& b, const vec3& wo, const vec2& u) {
     return sampleBsdf(kFeatureAll, b, kUp, 1, wo, u, u.x);
 }
@@ -93,7 +98,7 @@ TEST_P(PrincipledCases, AreSampledAsTheirDensitySays) {
             const vec3 wo = outgoing(cosine);
             const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(0.2f, 0.5f, 0.9f), wo);
             const auto density = [&](double u, double v) {
-                return double(evalBsdf(kFeatureAll, b, kUp, wo, vec3(test::onSphere(u, v))).w);
+                return double(eval(b, wo, vec3(test::onSphere(u, v))).w);
             };
             const std::vector<double> expected = test::cellMasses(density);
             const double integral = std::accumulate(expected.begin(), expected.end(), 0.0);
@@ -108,7 +113,7 @@ TEST_P(PrincipledCases, AreSampledAsTheirDensitySays) {
                     continue;
                 }
                 ++counts[test::cellOf(s.wi)];
-                const vec4 f = evalBsdf(kFeatureAll, b, kUp, wo, s.wi);
+                const vec4 f = eval(b, wo, s.wi);
                 ASSERT_NEAR(f.w, s.pdf, 2e-3f * s.pdf) << roughness << ' ' << cosine;
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(s.weight[c] * s.pdf, f[c], 2e-3f * f[c]);
             }
@@ -143,7 +148,7 @@ TEST_P(PrincipledCases, AreFiniteEverywhere) {
         if (s.weight == vec3(0)) continue;
         ASSERT_NEAR(double(dot(s.wi, s.wi)), 1, 1e-4);
         ASSERT_EQ(s.wi.z < 0, s.transmitted != 0);
-        const vec4 f = evalBsdf(kFeatureAll, b, kUp, wo, s.wi);
+        const vec4 f = eval(b, wo, s.wi);
         ASSERT_TRUE(isFinite(vec3(f)) && isFinite(f.w)) << roughness << ' ' << cosine;
     }
 }
@@ -170,14 +175,14 @@ TEST(Principled, LobesAreReciprocal) {
         b.lobes.eta = 1 / kIor;
         const vec3 wo = outgoing(uniform.between(0.05, 1)), wi = vec3(test::onSphere(uniform(), uniform()));
         if (std::abs(wi.z) < 0.05f) continue;
-        const vec3 there = vec3(evalBsdf(kFeatureAll, b, kUp, wo, wi)) / std::abs(wi.z);
+        const vec3 there = vec3(eval(b, wo, wi)) / std::abs(wi.z);
         vec3 back;
         if (wi.z > 0) {
-            back = vec3(evalBsdf(kFeatureAll, b, kUp, wi, wo)) / wo.z;
+            back = vec3(eval(b, wi, wo)) / wo.z;
         } else {
             // Radiance is not scaled by the indices, so what comes back differs by their ratio squared.
             b.lobes.eta = kIor;
-            back = vec3(evalBsdf(kFeatureAll, b, -kUp, wi, wo)) / wo.z * (kIor * kIor);
+            back = vec3(eval(b, -wi, -wo)) / wo.z * (kIor * kIor);
         }
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(there[c], back[c], 1e-3f * there[c] + 1e-5f) << wi.z;
     }
@@ -222,6 +227,11 @@ TEST(Principled, ScenesWithoutItHaveNoneOfIt) {
     EXPECT_TRUE(made->glassAlbedos.empty());
     EXPECT_TRUE(has(made->features, kFeaturePrincipled));
     EXPECT_FALSE(has(made->features, kFeatureOpacity));
+
+    desc.materials["other"] = {};
+    sphere.material = "other";
+    desc.objects.push_back({sphere});
+    EXPECT_FALSE(has(scene::compileScene(desc, {})->features, kFeatureOpacity));
 
     desc.materials["plain"].principled.opacity.factor = 0.5;
     desc.materials["plain"].principled.transmission.factor = 1;

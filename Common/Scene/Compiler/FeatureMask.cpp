@@ -1,7 +1,7 @@
 #include "Common/Scene/Compiler/FeatureMask.h"
 
 #include "Common/Scene/MaterialTypes.h"
-#include "Common/Shared/Material/Bsdf.h"
+#include "Common/Shared/Material/PrincipledSurface.h"
 
 namespace rt::scene {
 
@@ -74,7 +74,9 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     need(scene.globals.targetCount > 0, shared::kFeatureTargets);
     need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
     for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
-    for (const shared::Principled& p : scene.principled) need(letsRaysThrough(p), shared::kFeatureOpacity);
+    for (std::size_t i = 0; i < scene.principled.size(); ++i)
+        if (shared::isPrincipled(shared::kFeatureAll, scene.materials[i]))
+            need(letsRaysThrough(scene.principled[i]), shared::kFeatureOpacity);
     for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
     for (const shared::Light& light : scene.lights) mask |= ofLight(light);
     return mask;

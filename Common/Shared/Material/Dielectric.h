@@ -17,11 +17,11 @@ RT_FN vec2 fresnel(float c, float eta) {
     // cos^2 of the refracted ray, in whichever form cancels less.
     float eta2 = eta * eta;
     float k = eta2 < 2.0f ? (1.0f - eta) * (1.0f + eta) + square(eta * c) : 1.0f - eta2 * ((1.0f - c) * (1.0f + c));
-    if (k <= 0.0f) return vec2(1.0f, 0.0f);
-    float t = sqrt(k);
+    float t = sqrt(max(k, 0.0f));
     float perpendicular = (eta * c - t) / (eta * c + t);
     float parallel = (c - eta * t) / (c + eta * t);
-    return vec2(min(0.5f * (square(perpendicular) + square(parallel)), 1.0f), t);
+    float reflectance = min(0.5f * (square(perpendicular) + square(parallel)), 1.0f);
+    return vec2(k > 0.0f ? reflectance : 1.0f, t);
 }
 
 // Reflects with the probability that Fresnel's equations give, else refracts; radiance is not scaled by the indices, as

@@ -12,7 +12,7 @@ const float kLeastAlpha = 1.0e-3f; // below it a lobe is a mirror: floats no lon
 RT_FN float ggxDensity(vec3 h, float alpha) {
     float a2 = square(alpha);
     float d = a2 * square(h.z) + square(h.x) + square(h.y);
-    return h.z > 0.0f ? a2 / (kPi * square(d)) : 0.0f;
+    return a2 / (kPi * square(d)); // h.z > 0
 }
 
 // Smith's Lambda + 1/2, times 2 |cosine|.
@@ -62,15 +62,15 @@ RT_FN float reflectionBound(vec3 wo, float alpha) {
     return (1.0f - a2) * s2 / (s2 + a2 * square(wo.z));
 }
 
-// Normal of a reflection; the density of the direction is reflectionPdf().
+// Normal of a reflection; see reflectionJacobian() for the density of the direction.
 RT_FN vec3 sampleReflectionNormal(vec3 wo, float alpha, vec2 u) {
     return sampleGgxCap(wo, alpha, reflectionBound(wo, alpha), u);
 }
 
-// Per steradian of the direction into which h reflects wo.
-RT_FN float reflectionPdf(vec3 wo, vec3 h, float alpha) {
+// Times ggxDensity(h): the density per steradian of the direction into which h reflects wo.
+RT_FN float reflectionJacobian(vec3 wo, float alpha) {
     float t = sqrt(square(alpha) * (square(wo.x) + square(wo.y)) + square(wo.z));
-    return ggxDensity(h, alpha) / (2.0f * (reflectionBound(wo, alpha) * wo.z + t));
+    return 0.5f / (reflectionBound(wo, alpha) * wo.z + t);
 }
 
 RT_SHARED_END

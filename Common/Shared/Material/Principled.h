@@ -36,31 +36,31 @@ RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
     return density / (4.0f * (wo.z + wi.z - wo.z * wi.z));
 }
 
-// The lobes on wo's side of the surface: f cos in rgb, density in w.
-RT_FN vec4 evalPrincipledReflection(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
-    RT_IN(PrincipledLobes) lobes = m.lobes;
+// The lobes on wo's side of the surface: f cos in rgb, density in w. Without a branch, for loops over samples.
+RT_FN vec4 evalPrincipledReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);
+    float grazing = schlick(c);
     float cosine = wi.z * kInvPi;
-    vec3 value = lobes.diffuse * cosine;
-    float pdf = lobes.diffuseShare * cosine;
-    if (!isMirror(lobes.alpha)) {
-        float facets = ggxDensity(h, lobes.alpha) * smithVisibility(wo.z, wi.z, lobes.alpha) * wi.z;
-        value += mix(lobes.f0, lobes.f90, schlick(c)) * facets;
-        pdf += lobes.specularShare * reflectionPdf(wo, h, lobes.alpha);
-        if (lobes.glass > 0.0f) {
-            float reflected = fresnel(c, lobes.eta).x;
-            value += vec3(lobes.glass * reflected * facets);
-            pdf += lobes.glassShare * reflected * visibleNormalPdf(wo, h, lobes.alpha) / max(4.0f * c, 1.0e-20f);
-        }
-    }
-    if (lobes.coat > 0.0f && !isMirror(lobes.coatAlpha)) {
-        float facets = ggxDensity(h, lobes.coatAlpha) * smithVisibility(wo.z, wi.z, lobes.coatAlpha) * wi.z;
-        value += vec3(lobes.coat * mix(kCoatReflectance, 1.0f, schlick(c)) * facets);
-        pdf += lobes.coatShare * reflectionPdf(wo, h, lobes.coatAlpha);
-    }
-    if (maxComponent(lobes.sheen) > 0.0f) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
-    return vec4(value, pdf);
+
+    float alpha = max(lobes.alpha, kLeastAlpha);
+    float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
+    float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
+    float reflected = fresnel(c, lobes.eta).x;
+    float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
+    float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(h, coatAlpha);
+    float coatFacets = coatDensity * smithVisibility(wo.z, wi.z, coatAlpha) * wi.z;
+
+    vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
+    value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
+    float uncoloured = lobes.glass * reflected * facets;
+    value += vec3(uncoloured + lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets);
+    float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
+    pdf += lobes.coatShare * coatDensity * reflectionJacobian(wo, coatAlpha);
+    // The normals of glass are all that are visible.
+    pdf += lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
+    bool isAbove = min(wo.z, wi.z) > 0.0f;
+    return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
 }
 
 // Through rough glass (Walter et al. 2007, section 4), or through a sheet of it, which mirrors what it would reflect to
@@ -86,16 +86,16 @@ RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
     return vec3(dot(f.tangent, w), dot(f.bitangent, w), dot(f.normal, w));
 }
 
-// As evalBsdf, of directions in the frame of the normal.
+// As evalBsdf, but on both sides, of directions in the frame of the normal.
 RT_FN vec4 evalPrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     if (!(wo.z > 0.0f)) return vec4(0.0f);
-    if (wi.z > 0.0f) return evalPrincipledReflection(m, wo, wi);
-    return wi.z < 0.0f ? evalPrincipledTransmission(m, wo, wi) : vec4(0.0f);
+    return wi.z < 0.0f ? evalPrincipledTransmission(m, wo, wi) : evalPrincipledReflection(m.lobes, wo, wi);
 }
 
+// Of reflection only: transmission is a matter of sampling.
 RT_FN vec4 evalPrincipled(uint, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     Frame frame = makeFrame(n);
-    return evalPrincipledLocal(m, toLocal(frame, wo), toLocal(frame, wi));
+    return evalPrincipledReflection(m.lobes, toLocal(frame, wo), toLocal(frame, wi));
 }
 
 // The mirror direction of a lobe that was chosen with probability `share`, of reflectance `f`.
@@ -107,8 +107,8 @@ RT_FN BsdfSample mirrorSample(vec3 wi, vec3 f, float share) {
     return s;
 }
 
-// One sample of one lobe, weighed by the density of all of them. In the frame of the normal.
-RT_FN BsdfSample samplePrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
+// One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
+RT_FN BsdfSample proposePrincipled(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
     vec3 mirrored = vec3(-wo.x, -wo.y, wo.z);
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
@@ -159,19 +159,23 @@ RT_FN BsdfSample samplePrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     BsdfSample s = absorbed();
     s.wi = wi;
     s.transmitted = transmitted;
-    bool leaks = transmitted != 0u ? !(wi.z < 0.0f) : !(wi.z > 0.0f);
-    if (leaks) return s;
-    vec4 f = evalPrincipledLocal(m, wo, wi);
-    s.pdf = f.w;
-    if (f.w > 0.0f) s.weight = vec3(f) / f.w;
     return s;
+}
+
+// Weighs a proposal by the density of all lobes; f is evalPrincipledLocal() of its direction.
+RT_FN void weighProposal(vec4 f, RT_INOUT(BsdfSample) s) {
+    bool leaks = s.transmitted != 0u ? !(s.wi.z < 0.0f) : !(s.wi.z > 0.0f);
+    if (s.delta != 0u || leaks || !(f.w > 0.0f)) return;
+    s.pdf = f.w;
+    s.weight = vec3(f) / f.w;
 }
 
 RT_FN BsdfSample samplePrincipled(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     Frame frame = makeFrame(n);
     vec3 local = toLocal(frame, wo);
     if (!(local.z > 0.0f)) return absorbed();
-    BsdfSample s = samplePrincipledLocal(m, local, u);
+    BsdfSample s = proposePrincipled(m, local, u);
+    weighProposal(evalPrincipledLocal(m, local, s.wi), s);
     s.wi = normalize(toWorld(frame, s.wi));
     return s;
 }
