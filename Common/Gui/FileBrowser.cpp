@@ -82,6 +82,10 @@ std::vector<std::size_t> FileBrowser::shown() const {
 
 void FileBrowser::press(Key key) {
     if (key == Key::Parent) return enter(folder_.parent_path());
+    if (key == Key::Accept) {
+        isAccepted_ = selected_ >= 0; // what is typed is the field's
+        return;
+    }
     const int count = static_cast<int>(shown().size());
     const int step = key == Key::Up ? -1 : key == Key::Down ? 1 : key == Key::PageUp ? -kPage : kPage;
     selected_ = count > 0 ? std::clamp(selected_ + step, 0, count - 1) : -1;
@@ -204,7 +208,9 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
         ImGui::SameLine(0, gap);
         const bool isReplacing = !question_.empty();
         const bool canAccept = !name_.empty() || selected_ >= 0;
-        if (button(isReplacing ? "Replace" : request_.action.c_str(), nullptr, canAccept, action) || entered) {
+        const bool isAccepted = std::exchange(isAccepted_, false);
+        if (button(isReplacing ? "Replace" : request_.action.c_str(), nullptr, canAccept, action) || entered ||
+            isAccepted) {
             if (auto path = accept()) chosen = path;
         }
         ImGui::SameLine(0, gap);

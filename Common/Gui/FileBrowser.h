@@ -27,7 +27,7 @@ class FileBrowser {
     bool isSettling() const { return isOpen_ && settling_ > 0; }
 
     // Keys that it takes before ImGui's fields do.
-    enum class Key { Up, Down, PageUp, PageDown, Parent };
+    enum class Key { Up, Down, PageUp, PageDown, Parent, Accept };
     void press(Key key);
 
     // Within a frame of ImGui, while it is open. `recent` files stand at the side. Returns what was chosen, which
@@ -55,7 +55,8 @@ class FileBrowser {
     std::string listed_; // what was typed when the selection was made
     int selected_ = -1;  // of shown(); -1: what was typed counts
     bool scrollToSelected_ = false;
-    std::string question_; // a file that exists: to be replaced when it is chosen again
+    bool isAccepted_ = false; // by the keyboard, in the next frame
+    std::string question_;    // a file that exists: to be replaced when it is chosen again
 };
 
 } // namespace rt::gui

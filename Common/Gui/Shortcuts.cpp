@@ -99,6 +99,10 @@ bool browseBy(FileBrowser& browser, const Window::KeyPress& press) {
         case GLFW_KEY_ESCAPE:
             browser.close();
             return true;
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            browser.press(Key::Accept); // arrows may have taken the keyboard from the field
+            return true;
         case GLFW_KEY_UP:
             browser.press((press.modifiers & GLFW_MOD_ALT) != 0 ? Key::Parent : Key::Up);
             return true;
