@@ -129,7 +129,6 @@ case $verb in
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}"
         configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
-        build_fuzz
         provide_device || fail "$no_device_reason"
         run_tests "$@"
         ;;
