@@ -64,7 +64,7 @@ Image toLinear(const Texels& texels) {
 }
 
 Texels toTexels(const Image& image) {
-    Texels texels{image.width, image.height, {}, {}};
+    Texels texels{image.width, image.height, {}, {}, {}};
     texels.linear.resize(std::size_t{image.width} * image.height * 3);
     for (std::size_t i = 0; i < texels.linear.size(); ++i)
         texels.linear[i] = image.data[image.channels == 3 ? i : i / 3];
@@ -133,6 +133,10 @@ Texels loadTexels(const fs::path& path) {
     Texels texels = toTexels(image);
     for (float& value : texels.linear) value = std::max(value, 0.0f);
     return texels;
+}
+
+Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name) {
+    return decodeStb(bytes, name);
 }
 
 void writeImage(const fs::path& path, const ImageRows& image, const std::string& description) try {

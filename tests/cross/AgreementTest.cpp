@@ -143,10 +143,9 @@ std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest,
-                         ::testing::Combine(::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
-                                            kBothEngines),
-                         sceneName);
+const auto kEveryScene = ::testing::Range(std::size_t{0}, scene::builtinScenes().size());
+INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Combine(kEveryScene, kFirstEngine), sceneName);
+INSTANTIATE_TEST_SUITE_P(Nightly, AgreementTest, ::testing::Combine(kEveryScene, kSecondEngine), sceneName);
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
 class SupersetTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
@@ -206,7 +205,8 @@ TEST_P(EllipsoidAgreementTest, SampleForSample) {
 
 // Every lobe, textures of numbers, a normal map, layers.
 class PrincipledAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
-INSTANTIATE_TEST_SUITE_P(Engines, PrincipledAgreementTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, PrincipledAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, PrincipledAgreementTest, kSecondEngine, engineName);
 
 TEST_P(PrincipledAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"), true, true);

@@ -157,10 +157,8 @@ TEST_P(AnalyticTest, IrradianceUnderPunctualLights) {
     std::vector<std::vector<ObjectDesc>> scenes = {manyPunctualLights(12), manyPunctualLights(40)};
     for (const ObjectDesc& light : punctualLights()) scenes.push_back({light});
     for (const std::vector<ObjectDesc>& lights : scenes) {
-        SceneDesc desc = floorScene();
-        desc.objects.insert(desc.objects.end(), lights.begin(), lights.end());
-        GpuRenders renders(desc);
-        app::RenderSettings settings = smallSettings(4, 1024);
+        GpuRenders renders(floorUnder(lights));
+        app::RenderSettings settings = smallSettings(4, 512);
         settings.maxDepth = 2;
         const dvec3 truth = punctualIrradiance(lights) * (kFloorAlbedo / std::numbers::pi);
         for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::Bsdf}) {

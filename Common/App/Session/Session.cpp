@@ -220,7 +220,7 @@ std::string HeadlessRender::rescue() const {
 void exportScene(const Options& options) {
     const ReadsBelow confined(options.assetsBelow, options.scene);
     scene::SceneDesc scene = loadScene(options.scene);
-    if (!options.camera.empty()) scene.camera = poseOf(options.camera, scene.camera);
+    if (!options.camera.empty()) scene.camera = cameraOf(options.camera, scene);
     writeText(options.exportFile, scene::toJson(scene));
 }
 

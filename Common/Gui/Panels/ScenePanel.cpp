@@ -67,7 +67,7 @@ void drawSceneCount(Gui& gui, const scene::BuiltinScene& scene) {
 }
 
 void drawFiles(Gui& gui) {
-    row("Open file", "A scene file (.json) or a model (.obj); files can also be dropped on the window (Ctrl+O)");
+    row("Open file", "A scene file (.json) or a model (.gltf, .glb, .obj); files can also be dropped on the window (Ctrl+O)");
     const float width = ImGui::CalcTextSize("Open").x + 2 * ImGui::GetStyle().FramePadding.x;
     ImGui::SetNextItemWidth(-width - ImGui::GetStyle().ItemInnerSpacing.x);
     if (std::exchange(gui.focusOpen, false)) {

@@ -24,8 +24,8 @@ struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
     std::optional<CameraDesc> camera; // in place of the scene's, which the compiled scene's origin stays at
-    // Reads an image file; throws InputError. A scene with image files needs it.
-    std::function<TexelData(const std::filesystem::path&)> loadTexels;
+    // Reads an image file, or the image of a number in a file of glTF; throws InputError. A scene with images needs it.
+    std::function<TexelData(const std::filesystem::path&, std::optional<std::uint32_t>)> loadTexels;
 };
 
 // Flattens groups and nested instances, finds the light table in the geometry, subtracts the camera's authored

@@ -152,7 +152,7 @@ TexelData TextureTable::load(const ImageTexture& source) {
         return makePlanetMap(source.standIn);
     }
     if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
-    return options_.loadTexels(*path);
+    return options_.loadTexels(*path, source.image);
 }
 
 std::uint32_t TextureTable::image(const ImageTexture& source) {

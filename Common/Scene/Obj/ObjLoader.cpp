@@ -8,13 +8,13 @@
 #include <system_error>
 #include <tiny_obj_loader.h>
 
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include <glm/common.hpp>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Obj/Polygon.h"
 #include "Common/Shared/Base/Types.h"
 
@@ -344,12 +344,7 @@ SceneDesc loadObjScene(const fs::path& path) {
         mesh.material = part.material;
         scene.objects.push_back({std::move(mesh)});
     }
-    const double radius = std::max(bounds.radius(), 1e-12);
-    CameraDesc& camera = scene.camera;
-    camera.verticalFov = 40;
-    camera.focusDistance = 1.05 * radius / std::sin(glm::radians(camera.verticalFov) / 2);
-    camera.lookAt = bounds.center();
-    camera.lookFrom = camera.lookAt + camera.focusDistance * glm::normalize(glm::dvec3(0.5, 0.35, 1));
+    scene.camera = framingCamera(bounds);
     return scene;
 }
 
