@@ -16,8 +16,11 @@
 #else
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 #endif
 #ifdef __linux__
@@ -25,6 +28,10 @@
 #endif
 
 #include "Common/Core/Error.h"
+
+#ifndef _WIN32
+extern char** environ; // POSIX names it, and leaves its declaration to the program
+#endif
 
 namespace rt::app {
 
@@ -98,6 +105,59 @@ FileLock::FileLock(const std::filesystem::path& file) {
 
 FileLock::~FileLock() {
     CloseHandle(reinterpret_cast<HANDLE>(handle_));
+}
+
+namespace {
+
+// As the C runtime of the program that is started takes command lines apart: backslashes count before quotes only.
+std::wstring quoted(const std::wstring& argument) {
+    std::wstring text = L"\"";
+    std::size_t backslashes = 0;
+    for (const wchar_t c : argument) {
+        if (c == L'"') text.append(backslashes + 1, L'\\');
+        backslashes = c == L'\\' ? backslashes + 1 : 0;
+        text += c;
+    }
+    return text.append(backslashes, L'\\') + L"\"";
+}
+
+} // namespace
+
+ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                           const std::filesystem::path& log) {
+    std::wstring line = quoted(program.wstring());
+    for (const std::string& argument : arguments) line += L" " + quoted(std::filesystem::path(argument).wstring());
+    SECURITY_ATTRIBUTES inherited{sizeof inherited, nullptr, TRUE};
+    const HANDLE output = CreateFileW(log.c_str(), GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited,
+                                      CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL, nullptr);
+    if (output == INVALID_HANDLE_VALUE) throw RenderError(log.string() + ": cannot be opened");
+    STARTUPINFOW start{};
+    start.cb = sizeof start;
+    start.dwFlags = STARTF_USESTDHANDLES;
+    start.hStdOutput = start.hStdError = output;
+    PROCESS_INFORMATION process{};
+    const bool started = CreateProcessW(program.c_str(), line.data(), nullptr, nullptr, TRUE, CREATE_NO_WINDOW, nullptr,
+                                        nullptr, &start, &process) != 0;
+    CloseHandle(output);
+    if (!started) throw RenderError(program.string() + ": cannot be started");
+    CloseHandle(process.hThread);
+    handle_ = reinterpret_cast<std::intptr_t>(process.hProcess);
+}
+
+std::optional<int> ChildProcess::exitCode() {
+    const HANDLE process = reinterpret_cast<HANDLE>(handle_);
+    if (exitCode_ || WaitForSingleObject(process, 0) != WAIT_OBJECT_0) return exitCode_;
+    DWORD code = 0;
+    GetExitCodeProcess(process, &code);
+    CloseHandle(process);
+    return exitCode_ = static_cast<int>(code);
+}
+
+void ChildProcess::end() {
+    if (exitCode()) return;
+    TerminateProcess(reinterpret_cast<HANDLE>(handle_), 1);
+    WaitForSingleObject(reinterpret_cast<HANDLE>(handle_), INFINITE);
+    exitCode();
 }
 
 #else
@@ -191,6 +251,44 @@ FileLock::FileLock(const std::filesystem::path& file) {
 
 FileLock::~FileLock() {
     close(static_cast<int>(handle_));
+}
+
+ChildProcess::ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                           const std::filesystem::path& log) {
+    std::vector<std::string> words = {program.string()};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_adddup2(&files, STDOUT_FILENO, STDERR_FILENO);
+    pid_t process = 0;
+    const int error = posix_spawn(&process, program.c_str(), &files, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0)
+        throw RenderError(program.string() + ": cannot be started: " + std::generic_category().message(error));
+    handle_ = process;
+}
+
+std::optional<int> ChildProcess::exitCode() {
+    if (exitCode_) return exitCode_;
+    int status = 0;
+    const pid_t ended = waitpid(static_cast<pid_t>(handle_), &status, WNOHANG);
+    if (ended == 0 || (ended < 0 && errno == EINTR)) return std::nullopt;
+    exitCode_ = ended < 0 ? 1 : WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return exitCode_;
+}
+
+void ChildProcess::end() {
+    if (exitCode()) return;
+    kill(static_cast<pid_t>(handle_), SIGKILL);
+    int status = 0;
+    while (waitpid(static_cast<pid_t>(handle_), &status, 0) < 0 && errno == EINTR) {
+    }
+    exitCode_ = 128 + SIGKILL;
 }
 
 #endif

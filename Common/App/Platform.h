@@ -4,6 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace rt::app {
 
@@ -49,6 +52,25 @@ class FileLock {
 
   private:
     std::intptr_t handle_;
+};
+
+// A program that runs beside this one, without input, its output and messages in a file. The destructor ends it.
+class ChildProcess {
+  public:
+    // Throws RenderError where it cannot be started.
+    ChildProcess(const std::filesystem::path& program, const std::vector<std::string>& arguments,
+                 const std::filesystem::path& log);
+    ~ChildProcess() { end(); }
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+
+    // None while it runs; 128 and the signal's number where a signal has ended it.
+    std::optional<int> exitCode();
+    void end(); // at once: it has no time to clean up
+
+  private:
+    std::intptr_t handle_ = 0;
+    std::optional<int> exitCode_;
 };
 
 // While it exists: when the window system ends or takes the window away, whereupon its library would end the program,

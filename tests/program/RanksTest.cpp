@@ -54,6 +54,24 @@ testing::AssertionResult endsWith(const Outcome& outcome, int exitCode, const st
     return testing::AssertionFailure() << "exit code " << outcome.exitCode << ", " << outcome.err;
 }
 
+// The benchmark starts them by itself; their picture has the error of one process to the last digit.
+TEST_F(Ranks, AreMeasured) {
+    writeFile("suite.json", R"({"version": 1, "experiments": [{"name": "ranks", "scene": "one-weekend-default",
+        "width": 32, "threads": 1, "ranks": [1, 2], "spp": [16, 32]}]})");
+    Environment environment = launcher();
+    environment["XDG_CACHE_HOME"] = path("cache");
+    const Outcome outcome = run("ray-tracing-bench", {"suite.json", "-q", "--report", "report"}, environment);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto rows = jsonOf("report/results.json")["rows"];
+    ASSERT_EQ(rows.size(), 4u) << outcome.out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(rows[i]["ranks"], 1);
+        EXPECT_EQ(rows[i + 2]["ranks"], 2);
+        for (const char* same : {"spp", "mse", "rays_per_sample"}) EXPECT_EQ(rows[i][same], rows[i + 2][same]) << same;
+        EXPECT_GT(rows[i + 2]["samples_per_second"], 0.0);
+    }
+}
+
 TEST_F(Ranks, MakeTheBitsOfOneProcess) {
     const Arguments odd = {"--width", "150", "--height", "101", "--spp", "37"};
     const std::string one = pixels(odd);
@@ -199,6 +217,12 @@ TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
     alone.insert(alone.end(), {"-o", "one.pfm"});
     ASSERT_EQ(run("ray-tracing-gpu", alone).exitCode, 0);
     EXPECT_TRUE(picture(2, size, "ray-tracing-gpu") == bytesOf("one.pfm"));
+    Arguments adaptive = size;
+    adaptive.insert(adaptive.end(), {"--adaptive", "on"});
+    const std::string shared = picture(2, adaptive, "ray-tracing-gpu");
+    adaptive.insert(adaptive.end(), {"-q", "-o", "adaptive.pfm"});
+    ASSERT_EQ(run("ray-tracing-gpu", adaptive).exitCode, 0);
+    EXPECT_TRUE(shared == bytesOf("adaptive.pfm"));
     for (const char* share : {"1/2", "2/2"}) {
         Arguments part = size;
         part.insert(part.end(), {"-q", "--tiles", share, "--checkpoint", std::string(1, *share) + ".rtc"});
