@@ -98,6 +98,11 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.normalTexture = shared::kNone;
     shared::vec3 ignored;
     if (!desc.normalTexture.empty()) p.normalTexture = textures_.resolve(desc.normalTexture, ignored);
+    if (p.normalTexture != shared::kNone && textures_.isGreyImage(p.normalTexture)) {
+        p.normalTexture = shared::kNone;
+        out_.notices.push_back("texture \"" + desc.normalTexture +
+                               "\" is grey, a map of heights and not of normals: left out");
+    }
     p.normalScale = static_cast<float>(desc.normalScale);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
     out_.principled.resize(out_.materials.size());
