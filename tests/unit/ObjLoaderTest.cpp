@@ -224,6 +224,7 @@ TEST_F(ObjLoader, MaterialsOfAFileServeAMeshWithoutOne) {
     EXPECT_NEAR(compiled->materials[compiled->meshes[1].material].albedo.x, 0.8, 1e-6);
     EXPECT_EQ(compiled->materials[compiled->meshes[2].material].kind, shared::kMaterialDielectric);
     EXPECT_EQ(compiled->meshes[2].triangleCount, 2u);
+    EXPECT_EQ(compiled->materialNames, (std::vector<std::string>{"plain", "red", "own"}));
 }
 
 } // namespace

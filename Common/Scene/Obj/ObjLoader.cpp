@@ -78,7 +78,7 @@ LeftOuts countLeftOut(std::string_view text) {
     return kinds;
 }
 
-// `6 lines and 2 points`; empty: there is none of them.
+// `6 lines, 2 points`; empty: there is none of them.
 std::string describe(const LeftOuts& kinds) {
     std::string text;
     for (const LeftOut& kind : kinds)
@@ -173,7 +173,10 @@ class Builder : public tinyobj::MaterialReader {
             const std::string* material = materials_.find(name);
             if (!material && !name.empty()) unknown.insert(name);
             std::vector<glm::uvec3>& triangles = material ? known[*material].triangles : plain.triangles;
-            triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+            if (triangles.empty())
+                triangles = std::move(part.triangles);
+            else
+                triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
         }
         if (!plain.triangles.empty()) model_.parts.push_back({{}, toMesh(plain.triangles)});
         for (auto& [material, part] : known) {
