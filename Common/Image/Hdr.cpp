@@ -1,10 +1,11 @@
-// Radiance HDR: text lines, an empty line, "-Y height +X width", then scanlines of RGBE pixels. Three mantissas m and an
-// exponent e stand for (m + 1/2) 2^(e - 136), the middle of what is cut down to m when written: so does Radiance's own
-// color.c (G. Ward, "Real Pixels", Graphics Gems II), and so does Blender. Whoever reads m 2^(e - 136), as stb and
-// OpenImageIO do, gets files of any writer darker by half a step. A scanline is flat, or starts with (2, 2, width) and has its four components
-// apart, each as runs: n > 128 repeats the next byte n - 128 times, 0 < n <= 128 copies n bytes. Written flat, in round
-// figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline looks like the other kind. Our own,
-// because stb 2.27 never returns from a file that ends within a run. The header's EXPOSURE is ignored.
+// Radiance HDR: text lines, an empty line, "-Y height +X width", then scanlines of RGBE pixels. Three mantissas m and
+// an exponent e stand for (m + 1/2) 2^(e - 136), the middle of what is cut down to m when written: so does Radiance's
+// own color.c (G. Ward, "Real Pixels", Graphics Gems II), and so does Blender. Whoever reads m 2^(e - 136), as stb and
+// OpenImageIO do, gets files of any writer darker by half a step. A scanline is flat, or starts with (2, 2, width) and
+// has its four components apart, each as runs: n > 128 repeats the next byte n - 128 times, 0 < n <= 128 copies n
+// bytes. Written flat, in round figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline looks
+// like the other kind. Our own, because stb 2.27 never returns from a file that ends within a run. The header's
+// EXPOSURE is ignored.
 #include <algorithm>
 #include <array>
 #include <cmath>

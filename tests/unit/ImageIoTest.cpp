@@ -167,8 +167,8 @@ TEST(ImageIo, PngClampsAndRounds) {
     for (std::size_t i = 0; i < texels.size(); ++i) EXPECT_EQ(texels[i], expected[i / 3]) << i;
 }
 
-// The convention of the format's own library: mantissas are cut off, and stand for the middle of what they were cut from.
-// Both directions against it, computed here: without bias, and never off by more than half a step.
+// The convention of the format's own library: mantissas are cut off, and stand for the middle of what they were cut
+// from. Both directions against it, computed here: without bias, and never off by more than half a step.
 TEST(ImageIo, HdrMantissasAreRadiances) {
     const test::TempFolder folder;
     constexpr std::size_t kPixels = 5000;

@@ -296,7 +296,8 @@ TEST_F(ObjMaterials, DamagedFilesDoNoHarm) {
     }
 }
 
-// Files nobody here wrote, from Debian's package assimp-testmodels: of 25 four have no face, and one refers to what is not there.
+// Files nobody here wrote, from Debian's package assimp-testmodels: of 25 four have no face, and one refers to what is
+// not there.
 TEST_F(ObjMaterials, FilesOfOthers) {
     const std::filesystem::path models = "/usr/share/assimp/models";
     if (!std::filesystem::exists(models)) GTEST_SKIP() << "assimp-testmodels is not installed";

@@ -25,8 +25,8 @@
 namespace rt::app {
 namespace {
 
-// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words. Values of 16 bits become
-// floats.
+// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words. Values of 16
+// bits become floats.
 scene::TexelData toTexelData(const image::Texels& texels) {
     scene::TexelData data;
     data.width = texels.width;

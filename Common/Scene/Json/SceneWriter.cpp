@@ -20,7 +20,8 @@ constexpr std::size_t kLineWidth = 120;
 
 // ---- layout --------------------------------------------------------------------------------------------------------
 
-// Whole numbers without their fraction. Only texts can be what JSON cannot hold: paths, as names have been made printable.
+// Whole numbers without their fraction. Only texts can be what JSON cannot hold: paths, as names have been made
+// printable.
 std::string scalar(const Json& value) {
     std::string text;
     try {

@@ -22,7 +22,8 @@ std::string lowerCase(std::string_view text) {
     return lower;
 }
 
-// The finite number that the whole text is, with a decimal point in any locale; what is too large is the largest there is.
+// The finite number that the whole text is, with a decimal point in any locale; what is too large is the largest there
+// is.
 std::optional<double> numberOf(std::string_view text) {
     if (text.empty() || text.find_first_not_of("+-.0123456789eE") != text.npos) return std::nullopt;
     std::istringstream stream{std::string(text)};

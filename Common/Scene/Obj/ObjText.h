@@ -17,7 +17,8 @@ std::string_view trimmed(std::string_view text);
 
 // An existing file that is named in a file of `folder`; backslashes separate as slashes do. Empty: there is none.
 std::filesystem::path findNamed(std::string_view name, const std::filesystem::path& folder);
-// The same, or else one in `folder` of that name without its path, as files are moved from the places they were made at.
+// The same, or else one in `folder` of that name without its path, as files are moved from the places they were made
+// at.
 std::filesystem::path findMoved(std::string_view name, const std::filesystem::path& folder);
 
 // `"a"`, `"a" and "b"`, `"a", "b", "c" and 7 others`; not of nothing.
