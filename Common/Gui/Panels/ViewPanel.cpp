@@ -59,7 +59,7 @@ void drawModes(Gui& gui) {
                    "%.2f", true);
     }
     ImGui::Checkbox("Inspect pixels", &view.inspect);
-    tooltip("Shows what the pixel under the pointer holds");
+    tooltip("Shows what the pixel under the pointer holds, and the material that it shows");
     ImGui::SameLine();
     if (button(gui.held ? "Unpin (B)" : "Pin for A/B (B)",
                "Keeps what is shown; it stays on the left of a line that the mouse moves, the picture is on the right",
