@@ -16,13 +16,14 @@
 
 namespace rt::image {
 
-// Texels as they are stored: exactly one of the two vectors holds width * height * 3 values, rows from the top.
+// Texels as they are stored: exactly one of the first three vectors holds width * height * 3 values, rows from the top.
 struct Texels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> srgb8; // sRGB-encoded RGB
-    std::vector<float> linear;       // RGB
-    std::vector<std::uint8_t> alpha8; // beside srgb8: one value a texel; empty: all are opaque
+    std::vector<std::uint8_t> srgb8;   // sRGB-encoded RGB
+    std::vector<std::uint16_t> srgb16; // the same of a PNG with 16 bits a channel and no opacity
+    std::vector<float> linear;         // RGB
+    std::vector<std::uint8_t> alpha8;  // beside srgb8: one value a texel; empty: all are opaque
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three

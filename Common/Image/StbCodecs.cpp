@@ -62,11 +62,20 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const bool hasAlpha = channels == STBI_grey_alpha || channels == STBI_rgb_alpha;
     const std::size_t stride = hasAlpha ? 4 : 3;
     checkDimensions(name, width, height, double(stride) * width * height, bytes.size());
+    Texels texels;
+    texels.width = static_cast<std::uint32_t>(width);
+    texels.height = static_cast<std::uint32_t>(height);
+    const std::size_t count = std::size_t{texels.width} * texels.height;
+    if (!hasAlpha && stbi_is_16_bit_from_memory(data, size)) {
+        const std::unique_ptr<stbi_us, FreePixels> wide(
+            stbi_load_16_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+        if (!wide) fail("damaged image: " + reason());
+        texels.srgb16.assign(wide.get(), wide.get() + 3 * count);
+        return texels;
+    }
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
     if (!pixels) fail("damaged image: " + reason());
-    Texels texels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}, {}, {}};
-    const std::size_t count = std::size_t{texels.width} * texels.height;
     if (!hasAlpha) {
         texels.srgb8.assign(pixels.get(), pixels.get() + 3 * count);
         return texels;

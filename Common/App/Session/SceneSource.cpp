@@ -25,11 +25,20 @@
 namespace rt::app {
 namespace {
 
-// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words.
+// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words. Values of 16
+// bits become floats.
 scene::TexelData toTexelData(const image::Texels& texels) {
     scene::TexelData data;
     data.width = texels.width;
     data.height = texels.height;
+    if (!texels.srgb16.empty()) {
+        data.format = shared::kTexelLinearF32;
+        data.isEncoded = true;
+        data.words.resize(texels.srgb16.size());
+        std::transform(texels.srgb16.begin(), texels.srgb16.end(), data.words.begin(),
+                       [](std::uint16_t value) { return shared::floatBitsToUint(float(value) / 65535.0f); });
+        return data;
+    }
     if (texels.srgb8.empty()) {
         data.format = shared::kTexelLinearF32;
         data.words.resize(texels.linear.size());
@@ -57,8 +66,8 @@ std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& 
     options.loadTexels = [&files](const std::filesystem::path& path, std::optional<std::uint32_t> image) {
         if (!image) return toTexelData(image::loadTexels(path));
         const scene::GltfImages& images = files.try_emplace(path, path).first->second;
-        return toTexelData(image::decodeTexels(images.encoded(*image),
-                                               path.string() + ": /images/" + std::to_string(*image)));
+        return toTexelData(
+            image::decodeTexels(images.encoded(*image), path.string() + ": /images/" + std::to_string(*image)));
     };
     return scene::compileScene(desc, options);
 }

@@ -14,6 +14,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Printable.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/FramingCamera.h"
@@ -67,7 +68,8 @@ Affine composed(const glm::dvec3& translate, const glm::dvec4& rotation, const g
 class Importer {
   public:
     explicit Importer(const std::filesystem::path& path) : file_(readGltf(path)), materials_(file_, scene_) {
-        scene_.id = scene_.title = path.filename().string();
+        scene_.id = path.filename().string();
+        scene_.title = printable(scene_.id);
     }
 
     SceneDesc run() {

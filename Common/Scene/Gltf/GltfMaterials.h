@@ -8,18 +8,9 @@
 
 #include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/SceneDesc.h"
+#include "Common/Scene/UniqueNames.h"
 
 namespace rt::scene {
-
-// A name that can be shown and is not taken: `name` as printable() has it, or `usual` and the number where it is empty.
-// What is taken grows a number.
-class UniqueNames {
-  public:
-    std::string unique(const std::string& name, const std::string& usual, std::size_t number);
-
-  private:
-    std::map<std::string, int> taken_;
-};
 
 class GltfMaterials {
   public:
