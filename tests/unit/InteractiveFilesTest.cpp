@@ -43,7 +43,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
         session.open(file.string());
         ++loads;
         ASSERT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == loads && isFinished(s); }))
-            << session.state().error;
+            << file;
         const SessionState state = session.state();
         EXPECT_EQ(state.source, file.string());
         EXPECT_EQ(state.scene->id, file.filename().string());
@@ -55,7 +55,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
     scene::GltfBuilder::write(folder_ / "broken.glb", gltf.binary().substr(0, 100));
     session.open((folder_ / "broken.glb").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
-    EXPECT_NE(session.state().error.find("broken.glb"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("broken.glb"), std::string::npos);
     EXPECT_EQ(session.state().scene->id, "c.obj");
 }
 
