@@ -5,10 +5,12 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
 build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
-                libtinyobjloader-dev libstb-dev libpng-dev libtbb-dev libvulkan-dev glslang-tools spirv-tools
+                libtinyobjloader-dev libtinygltf-dev libstb-dev libpng-dev libtbb-dev libvulkan-dev glslang-tools spirv-tools
                 libglfw3-dev libimgui-dev fonts-dejavu-core)
-test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev)
+test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
+               assimp-testmodels)
 bench_packages=(libbenchmark-dev libembree-dev)
+fuzz_packages=(clang)
 cluster_packages=(libopenmpi-dev openmpi-bin)
 
 preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
@@ -29,6 +31,8 @@ usage() {
                          render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
+./build.sh fuzz [SECONDS]
+                         build the fuzz targets with Clang and run all, 60 s together; finds are kept in build/fuzz/finds
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -91,6 +95,12 @@ run_tests() {
     return $status
 }
 
+# The fuzz targets are compiled apart, by Clang, into build/fuzz/.
+build_fuzz() {
+    preset=fuzz configure
+    preset=fuzz build
+}
+
 verb=${1:-build}
 shift $(($# > 0))
 case $verb in
@@ -121,6 +131,12 @@ case $verb in
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"
+        ;;
+    fuzz)
+        [[ ${1:-60} =~ ^[1-9][0-9]{0,6}$ ]] || fail "fuzz $1: must be a number of seconds, 1 to 9999999"
+        install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
+        build_fuzz
+        tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)"
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"

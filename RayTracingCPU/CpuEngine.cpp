@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <thread>
@@ -135,7 +136,7 @@ class CpuEngine final : public app::Engine {
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
         film_ = Film(app::filmDesc(settings));
         tiles_ = image::allTiles(film_);
-        spp_ = settings.spp;
+        limit_.reset();
         passEnd_ = 0;
         nextTile_ = kNoTile;
         counters_ = {};
@@ -150,7 +151,7 @@ class CpuEngine final : public app::Engine {
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
         image::unpackTiles(packed, film_);
         tiles_ = std::move(tiles);
-        spp_ = spp;
+        limit_ = spp;
         nextTile_ = kNoTile;
     }
 
@@ -248,23 +249,16 @@ class CpuEngine final : public app::Engine {
     }
 
     // Samples per pixel that passes lead to in the end, or before there is a plan.
-    std::uint64_t goal() const { return image::goalOf(film_, spp_); }
-
-    // The least that a pixel of the tiles has, if some lack any.
-    std::uint64_t nextSample() const {
-        if (film_.desc().adaptive) return film_.nextSample(goal()); // of all tiles, see renderOnly()
-        const std::uint64_t done = image::minSamples(film_, tiles_);
-        return tiles_.empty() || done >= spp_ ? Film::kNoSample : done;
-    }
+    std::uint64_t goal() const { return limit_ ? *limit_ : image::goalOf(film_, settings_.spp); }
 
     // Opens the next pass, which takes every pixel to passEnd_ samples, or to what the plan gives it: one more block of
     // each replicate, or more where the plan has left few pixels. False: all done.
     bool beginPass() {
-        std::uint64_t next = nextSample();
+        std::uint64_t next = image::nextSample(film_, tiles_, goal());
         if (next == Film::kNoSample) {
-            if (!film_.isPilot()) return false;
+            if (limit_ || !film_.isPilot()) return false;
             film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
-            next = nextSample();
+            next = image::nextSample(film_, tiles_, goal());
         }
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;
         const std::uint64_t blocks = film_.hasPlan() ? 1 + next / block / 2 : 1;
@@ -334,8 +328,9 @@ class CpuEngine final : public app::Engine {
 
     app::RenderStatus status() const {
         app::RenderStatus status;
-        status.samplesTotal = image::pixelCount(film_, tiles_) * spp_;
         status.samplesDone = image::totalSamples(film_, tiles_);
+        status.samplesTotal = limit_ ? status.samplesDone + image::missingSamples(film_, tiles_, *limit_)
+                                     : image::pixelCount(film_, tiles_) * settings_.spp;
         status.finished = status.samplesDone >= status.samplesTotal;
         return status;
     }
@@ -352,10 +347,10 @@ class CpuEngine final : public app::Engine {
     KernelContext context_;
 
     Film film_;
-    image::TileList tiles_;            // of the film, that are to be rendered
-    std::uint32_t spp_ = 0;            // up to so many samples per pixel
-    std::uint64_t passEnd_ = 0;        // samples per pixel that the pass in progress leads to
-    std::uint32_t nextTile_ = kNoTile; // position in tiles_ of the first tile that the pass has not handed out
+    image::TileList tiles_;              // of the film, that are to be rendered
+    std::optional<std::uint32_t> limit_; // samples per pixel that renderOnly() has asked for
+    std::uint64_t passEnd_ = 0;          // samples per pixel that the pass in progress leads to
+    std::uint32_t nextTile_ = kNoTile;   // position in tiles_ of the first tile that the pass has not handed out
 
     std::mutex countersMutex_;
     KernelCounters counters_;

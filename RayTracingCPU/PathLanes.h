@@ -52,7 +52,7 @@ struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoic
 template <>
 struct FieldsOf<Light> : Fields<FieldList<&Light::kind, &Light::position, &Light::edgeU, &Light::edgeV, &Light::normal,
                                           &Light::radius, &Light::area, &Light::emission, &Light::sides>,
-                                FieldList<&Light::material, &Light::selection, &Light::cdf>> {};
+                                FieldList<&Light::material, &Light::triangle, &Light::selection, &Light::cdf>> {};
 
 template <>
 struct FieldsOf<LightSample>

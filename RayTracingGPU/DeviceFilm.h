@@ -50,9 +50,9 @@ class DeviceFilm {
     // Room for `tiles` tiles of such a film, not initialised: load() comes first.
     DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles);
 
-    // Whether it can hold `tiles` tiles of such a film; one that has followed a plan cannot hold a pilot again.
-    bool fits(const image::FilmDesc& desc, std::uint32_t tiles) const {
-        return desc == desc_ && tiles * desc.replicates <= capacity_ && plan_.empty();
+    // Whether it can hold `tiles` tiles of the film; one that has followed a plan cannot hold a pilot again.
+    bool fits(const image::Film& film, std::uint32_t tiles) const {
+        return film.desc() == desc_ && tiles * desc_.replicates <= capacity_ && (plan_.empty() || film.hasPlan());
     }
     // Replaces the contents by as many of these tiles of the film as there is room for, from position `first` on.
     void load(const image::Film& film, const image::TileList& tiles, std::size_t first);

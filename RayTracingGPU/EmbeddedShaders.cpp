@@ -6,24 +6,24 @@ using std::uint32_t; // the generated headers say uint32_t
 
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
-#include <Cost.Projected.Time.comp.h>
-#include <Cost.Projected.Time.rgen.h>
-#include <Cost.Projected.comp.h>
-#include <Cost.Projected.rgen.h>
+#include <Cost.Full.Time.comp.h>
+#include <Cost.Full.Time.rgen.h>
+#include <Cost.Full.comp.h>
+#include <Cost.Full.rgen.h>
 #include <Cost.Time.comp.h>
 #include <Cost.Time.rgen.h>
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
 #include <FilmResolve.comp.h>
-#include <PathTrace.Projected.comp.h>
+#include <PathTrace.Full.comp.h>
 #include <PathTrace.comp.h>
 #include <Preview.comp.h>
 #include <Preview.frag.h>
 #include <Preview.vert.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
-#include <RayTracing.Projected.rgen.h>
+#include <RayTracing.Full.rgen.h>
 #include <RayTracing.Quad.rchit.h>
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>
@@ -37,32 +37,32 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
         case Shader::PathCompute:
             return PathTrace_comp;
-        case Shader::ProjectedPathCompute:
-            return PathTrace_Projected_comp;
+        case Shader::FullPathCompute:
+            return PathTrace_Full_comp;
         case Shader::AovCompute:
             return Aov_comp;
         case Shader::CostCompute:
             return Cost_comp;
-        case Shader::ProjectedCostCompute:
-            return Cost_Projected_comp;
+        case Shader::FullCostCompute:
+            return Cost_Full_comp;
         case Shader::TimeCompute:
             return Cost_Time_comp;
-        case Shader::ProjectedTimeCompute:
-            return Cost_Projected_Time_comp;
+        case Shader::FullTimeCompute:
+            return Cost_Full_Time_comp;
         case Shader::RayGeneration:
             return RayTracing_rgen;
-        case Shader::ProjectedRayGeneration:
-            return RayTracing_Projected_rgen;
+        case Shader::FullRayGeneration:
+            return RayTracing_Full_rgen;
         case Shader::AovGeneration:
             return Aov_rgen;
         case Shader::CostGeneration:
             return Cost_rgen;
-        case Shader::ProjectedCostGeneration:
-            return Cost_Projected_rgen;
+        case Shader::FullCostGeneration:
+            return Cost_Full_rgen;
         case Shader::TimeGeneration:
             return Cost_Time_rgen;
-        case Shader::ProjectedTimeGeneration:
-            return Cost_Projected_Time_rgen;
+        case Shader::FullTimeGeneration:
+            return Cost_Full_Time_rgen;
         case Shader::Miss:
             return RayTracing_rmiss;
         case Shader::TriangleHit:

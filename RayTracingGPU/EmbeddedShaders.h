@@ -7,19 +7,19 @@ namespace rt::gpu {
 
 enum class Shader {
     PathCompute,
-    ProjectedPathCompute, // with the code of lights by projected solid angle, as have others named so
+    FullPathCompute, // with all code of shared headers, as have others named so, see Shim.h
     AovCompute,
     CostCompute,
-    ProjectedCostCompute,
+    FullCostCompute,
     TimeCompute,
-    ProjectedTimeCompute,
+    FullTimeCompute,
     RayGeneration,
-    ProjectedRayGeneration,
+    FullRayGeneration,
     AovGeneration,
     CostGeneration,
-    ProjectedCostGeneration,
+    FullCostGeneration,
     TimeGeneration,
-    ProjectedTimeGeneration,
+    FullTimeGeneration,
     Miss,
     TriangleHit,
     QuadHit,

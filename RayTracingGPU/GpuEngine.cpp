@@ -99,7 +99,7 @@ class GpuEngine final : public app::Engine {
 
     Film film_;                          // the whole film, on the host
     image::TileList tiles_;              // of it, that are to be rendered
-    std::uint32_t spp_ = 0;              // up to so many samples per pixel
+    std::optional<std::uint32_t> limit_; // samples per pixel that renderOnly() has asked for
     std::unique_ptr<DeviceFilm> region_; // those on the device: all of them unless they are many
     bool dirty_ = false;                 // region_ is ahead of film_
     bool failed_ = false;                // the device did: nothing may be read from it any more
@@ -168,7 +168,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
     tiles_ = image::allTiles(film_);
-    spp_ = settings_.spp;
+    limit_.reset();
     loadTiles();
 }
 
@@ -176,23 +176,23 @@ void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<c
     if (dirty_) refresh();
     image::unpackTiles(packed, film_);
     tiles_ = std::move(tiles);
-    spp_ = spp;
+    limit_ = spp;
     loadTiles();
 }
 
 void GpuEngine::loadTiles() {
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(tiles_.size(), 1));
     const std::uint32_t tiles = std::min(count, std::max(1u, options_.regionSlots / settings_.replicates));
-    if (!region_ || !region_->fits(film_.desc(), tiles)) {
+    if (!region_ || !region_->fits(film_, tiles)) {
         region_ = nullptr; // its memory may be needed for the next one
         region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
     }
     region_->load(film_, tiles_, 0);
     samplesDone_ = image::totalSamples(film_, tiles_);
-    samplesTotal_ = image::pixelCount(film_, tiles_) * spp_;
-    goal_ = image::goalOf(film_, spp_);
-    // Of an adaptive film all tiles, see renderOnly().
-    begun_ = film_.desc().adaptive ? film_.nextSample(goal_) : image::minSamples(film_, tiles_);
+    samplesTotal_ = limit_ ? samplesDone_ + image::missingSamples(film_, tiles_, *limit_)
+                           : image::pixelCount(film_, tiles_) * settings_.spp;
+    goal_ = limit_ ? *limit_ : image::goalOf(film_, settings_.spp);
+    begun_ = image::nextSample(film_, tiles_, goal_);
     dirty_ = false;
     failed_ = false;
     pass_.reset();
@@ -233,7 +233,7 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
 }
 
 bool GpuEngine::beginPass() {
-    if (begun_ >= goal_ && film_.isPilot()) planSamples();
+    if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples();
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
     pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest());

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "Common/Shared/Base/Features.h"
+#include "Common/Shared/Material/Materials.h"
 #include "RayTracingGPU/ComputePipeline.h"
 #include "RayTracingGPU/RtPipeline.h"
 
@@ -17,22 +17,25 @@ struct Shaders {
     Shader compute;
 };
 
-// `projected`: lights are sampled by projected solid angle.
-Shaders shadersFor(KernelPurpose purpose, bool projected) {
+// What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
+constexpr std::uint32_t kFeaturesOfFull =
+    shared::kFeatureProjected | shared::kFeaturePrincipled | shared::kFeatureOpacity;
+
+Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {
         case KernelPurpose::FirstHits:
-            return {Shader::AovGeneration, Shader::AovCompute}; // no lights are sampled
+            return {Shader::AovGeneration, Shader::AovCompute}; // full as well
         case KernelPurpose::Rays:
-            return projected ? Shaders{Shader::ProjectedCostGeneration, Shader::ProjectedCostCompute}
-                             : Shaders{Shader::CostGeneration, Shader::CostCompute};
+            return full ? Shaders{Shader::FullCostGeneration, Shader::FullCostCompute}
+                        : Shaders{Shader::CostGeneration, Shader::CostCompute};
         case KernelPurpose::Time:
-            return projected ? Shaders{Shader::ProjectedTimeGeneration, Shader::ProjectedTimeCompute}
-                             : Shaders{Shader::TimeGeneration, Shader::TimeCompute};
+            return full ? Shaders{Shader::FullTimeGeneration, Shader::FullTimeCompute}
+                        : Shaders{Shader::TimeGeneration, Shader::TimeCompute};
         case KernelPurpose::Paths:
             break;
     }
-    return projected ? Shaders{Shader::ProjectedRayGeneration, Shader::ProjectedPathCompute}
-                     : Shaders{Shader::RayGeneration, Shader::PathCompute};
+    return full ? Shaders{Shader::FullRayGeneration, Shader::FullPathCompute}
+                : Shaders{Shader::RayGeneration, Shader::PathCompute};
 }
 
 } // namespace
@@ -40,7 +43,7 @@ Shaders shadersFor(KernelPurpose purpose, bool projected) {
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants) {
-    const Shaders shaders = shadersFor(purpose, shared::has(constants.features, shared::kFeatureProjected));
+    const Shaders shaders = shadersFor(purpose, shared::has(constants.features, kFeaturesOfFull));
     if (engine != app::GpuEngineKind::Compute) {
         return std::make_unique<RtPipeline>(context, cache, bindings, constants, shaders.rayGeneration);
     }

@@ -41,13 +41,9 @@ class Device {
     // The ranks of a host take devices like the best one in turn.
     std::string deviceOfRank() const {
         const rt::vulkan::Instance instance(false);
-        const bool rayTracing = needsRayTracing(options_.gpuEngine);
-        const std::vector<rt::vulkan::DeviceInfo> all = rt::vulkan::findDevices(instance);
-        const VkPhysicalDeviceType type = rt::vulkan::chooseDevice(all, "", rayTracing).type;
-        std::vector<std::size_t> alike;
-        for (std::size_t i = 0; i < all.size(); ++i)
-            if (all[i].type == type && (rayTracing ? all[i].tracesRays() : all[i].suitable())) alike.push_back(i);
-        return std::to_string(alike[static_cast<std::size_t>(ranks_->localRank()) % alike.size()]);
+        const std::vector<std::size_t> places =
+            rt::vulkan::devicesForRanks(rt::vulkan::findDevices(instance), needsRayTracing(options_.gpuEngine));
+        return std::to_string(places[static_cast<std::size_t>(ranks_->localRank()) % places.size()]);
     }
 
     const rt::app::Options& options_;

@@ -1,6 +1,7 @@
 // First-hit features through our own tree.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define RT_FULL // few pixels are traced once
 #include "Traverse.glsl"
 #include "FirstHit.glsl"
 

@@ -8,6 +8,8 @@ bool isTraceable(Ray ray, float tMax) {
     return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
 }
 
+#ifdef RT_FULL
+
 // As traceRay(), but for layers that the ray goes through; `number` as for goesThrough().
 Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
     if (!has(kFeatures, kFeatureOpacity)) return traceRay(ray, anyHit, tMax);
@@ -21,6 +23,14 @@ Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
     if (hit.t >= 0.0f) hit.t += r.from;
     return hit;
 }
+
+#else
+
+Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
+    return traceRay(ray, anyHit, tMax);
+}
+
+#endif
 
 // What the path's next ray hits; when `checking`, whether the shadow ray of the vertex before hits anything. A ray that
 // cannot be traced is counted; it ends the path, or lets no light through.

@@ -43,6 +43,9 @@ if(RT_SANITIZE)
     add_link_options(-fsanitize=${RT_SANITIZE})
     add_compile_definitions(RT_SANITIZED)
 endif()
+if(RT_BUILD_FUZZ)
+    add_compile_options(-fsanitize=fuzzer-no-link) # the coverage that guides mutations
+endif()
 
 # The instruction sets that kernels are compiled for on this architecture; the program chooses among them at run time.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" RT_PROCESSOR)

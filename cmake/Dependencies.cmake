@@ -55,6 +55,8 @@ rt_require(tinyobjloader libtinyobjloader-dev tinyobjloader PACKAGE tinyobjloade
            PKGCONFIG tinyobjloader)
 # Headers only: Common/Image compiles the parts that it uses, as Debian's library would bring all of them and vcpkg has none.
 rt_require(stb libstb-dev stb HEADER stb_image.h)
+# The header only, as with stb: Common/Scene/Gltf/TinyGltf.cpp compiles it.
+rt_require(tinygltf libtinygltf-dev tinygltf HEADER tiny_gltf.h)
 rt_require(png libpng-dev libpng PACKAGE PNG TARGETS PNG::PNG png_shared png_static PKGCONFIG libpng)
 
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.

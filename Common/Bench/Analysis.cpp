@@ -78,7 +78,8 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     if (last.threads > 0) {
         row.threadsUsed = last.threads;
         const double processor = median([](const Run&, const Snapshot& s) { return s.processorSeconds; });
-        if (seconds.median >= kLeastBusySeconds) row.busy = processor / (seconds.median * last.threads);
+        if (seconds.median >= kLeastBusySeconds && processor > 0)
+            row.busy = processor / (seconds.median * last.threads);
     }
     row.secondsDevice = median([](const Run&, const Snapshot& s) { return s.deviceSeconds; });
     row.secondsLoad = measured.secondsLoad;

@@ -29,6 +29,7 @@ void setFeatures(Config& config, Text value) {
 }
 
 constexpr std::uint32_t kMostThreads = 4096;
+constexpr std::uint32_t kMostRanks = 4096;
 constexpr std::uint32_t kMostVertices = 4096;
 constexpr std::uint32_t kMostPixels = 16384; // of a side
 
@@ -51,6 +52,8 @@ constexpr Axis kAxes[] = {
     {"engine", Says::Where, [](const Config& c) { return c.engine; }, setEngine},
     {"threads", Says::Where, [](const Config& c) { return std::to_string(c.threads); },
      [](Config& c, Text value) { c.threads = parseWhole("threads", value, 0, kMostThreads); }},
+    {"ranks", Says::Where, [](const Config& c) { return std::to_string(c.ranks); },
+     [](Config& c, Text value) { c.ranks = parseWhole("ranks", value, 1, kMostRanks); }},
     {"width", Says::Where, [](const Config& c) { return std::to_string(c.settings.width); },
      [](Config& c, Text value) { c.settings.width = parseWhole("width", value, 1, kMostPixels); }},
     {"height", Says::Where, [](const Config& c) { return std::to_string(c.settings.height); },

@@ -13,7 +13,8 @@ namespace rt::bench {
 struct Config {
     std::string scene = "cornell-box-lights"; // id or file
     std::string engine = "multi";
-    std::uint32_t threads = 0;    // CPU engines: 0 means all
+    std::uint32_t threads = 0;    // CPU engines: 0 means all; of a rank, where there are several
+    std::uint32_t ranks = 1;      // programs that render together, started by mpirun where there are several
     app::RenderSettings settings; // height 0: from the scene's aspect; spp and seed are no part of it
 
     Config() { settings.height = 0; }

@@ -21,6 +21,11 @@ std::string Engines::missing(const std::string& name) const {
     return kind->make ? "" : kind->missing;
 }
 
+std::uint32_t Engines::mostRanks(const std::string& name) const {
+    const EngineKind* kind = find(kinds_, name);
+    return kind == nullptr ? 0 : kind->mostRanks;
+}
+
 EnergyCounter Engines::energy(const std::string& name) const {
     const EngineKind* kind = find(kinds_, name);
     return kind == nullptr ? EnergyCounter() : kind->energy;

@@ -80,6 +80,7 @@ const std::vector<NumberAxis>& numberAxes() {
         {"pixels",
          {"width", "height"},
          [](const Row& r) { return double(r.config.settings.width) * r.config.settings.height; }},
+        {"ranks", {"ranks"}, [](const Row& r) { return r.config.ranks; }},
         {"threads", {"threads"}, [](const Row& r) { return r.threadsUsed.value_or(0); }},
     };
     return all;

@@ -164,6 +164,16 @@ std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experime
             notice("Engine " + config.engine + " is left out: " + why + ".");
             continue;
         }
+        if (config.ranks > 1 && hooks_.launcher.mpirun.empty()) {
+            notice("Rows of several ranks are left out: " + hooks_.launcher.missing + ".");
+            continue;
+        }
+        if (const std::uint32_t most = engines_.mostRanks(config.engine); config.ranks > std::max(1u, most)) {
+            notice("Engine " + config.engine + ": more than " + std::to_string(most) +
+                   (most == 1 ? " rank is" : " ranks are") +
+                   " left out, which would have nothing of their own to render on.");
+            continue;
+        }
         const auto same = [&](const Group& group) { return imageOf(group.measured.front().config) == imageOf(config); };
         auto place = std::find_if(groups.begin(), groups.end(), same);
         if (place == groups.end()) place = groups.insert(groups.end(), Group{config.scene, {}});
@@ -219,7 +229,7 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
     for (std::size_t i = 0; i < rows.size(); ++i)
         for (Row& row : rows[i]) {
             const auto ceiling = ceilings_.find({group.scene, row.config.engine});
-            if (ceiling != ceilings_.end() && ceiling->second && row.config.threads == 0)
+            if (ceiling != ceilings_.end() && ceiling->second && row.config.threads == 0 && row.config.ranks == 1)
                 row.ceiling = row.raysPerSecond.value_or(0) / *ceiling->second;
             all.push_back(row);
         }
@@ -267,12 +277,17 @@ void SuiteRunner::measureDeviceRate(Config config) {
 
 void SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {
     const std::string what = experiment.name + ": " + describe(experiment, measured.config);
-    app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
-    if (engine == nullptr) return;
-    if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured.config);
     const Ladder ladder = ladderFor(experiment, measured.config);
-    measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_,
-                                    engines_.energy(measured.config.engine)));
+    if (measured.config.ranks > 1) {
+        engines_.clear(); // its memory and threads are the ranks' now
+        measured.runs.push_back(measureRanks(hooks_.launcher, measured.config, ladder, repeat, stop_));
+    } else {
+        app::Engine* engine = engines_.prepare(measured.config, scene_, stop_);
+        if (engine == nullptr) return;
+        if (isGpuEngine(measured.config.engine)) measureDeviceRate(measured.config);
+        measured.runs.push_back(measure(*engine, *scene_, measured.config.settings, ladder, repeat, stop_,
+                                        engines_.energy(measured.config.engine)));
+    }
     const std::vector<Snapshot>& snapshots = measured.runs.back().snapshots;
     const std::size_t wanted = ladder.spp.size() + ladder.seconds.size();
     if (snapshots.empty()) {
@@ -314,6 +329,7 @@ const image::Reference* SuiteRunner::provideReference(const Group& group, std::v
     request.maxDepth = settings.maxDepth;
     request.maxSeconds = suite_.referenceSeconds;
     Config config = fastest->config;
+    config.ranks = 1;
     config.settings.features.reset();
     app::Engine* engine = engines_.prepare(config, scene_, stop_);
     if (engine == nullptr) return nullptr;

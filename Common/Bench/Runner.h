@@ -5,6 +5,7 @@
 #include <string>
 
 #include "Common/Bench/Engines.h"
+#include "Common/Bench/RankedRun.h"
 #include "Common/Bench/ReferenceStore.h"
 #include "Common/Bench/Results.h"
 #include "Common/Bench/Suite.h"
@@ -16,6 +17,7 @@ struct RunnerHooks {
     // Rays per second that the processor's hardware can do with this scene's rays alone, by another library, on all
     // threads; nothing where that is not known. May be empty.
     std::function<Figure(const scene::CompiledScene&)> rayCeiling;
+    RankLauncher launcher = {}; // of configurations of several ranks
 };
 
 // What was measured when `stop` becomes true is returned, with complete == false. Engines that are not there are left

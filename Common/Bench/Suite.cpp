@@ -126,6 +126,8 @@ Experiment readExperiment(const JsonNode& node) {
     std::sort(experiment.values.begin(), experiment.values.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     readKeys(node, experiment);
+    if (const auto ranks = node.find("ranks"); ranks && !experiment.seconds.empty())
+        ranks->fail("needs spp: ranks are not stopped after seconds");
     return experiment;
 }
 
@@ -160,7 +162,8 @@ std::vector<std::string>& valuesOf(Experiment& experiment, const char* name) {
 void removeMeaningless(Config& config, std::uint32_t hardwareThreads) {
     const app::RenderSettings defaults;
     app::RenderSettings& settings = config.settings;
-    if (config.engine != "multi" || config.threads == hardwareThreads) config.threads = 0;
+    const bool isAll = config.threads == hardwareThreads && config.ranks == 1; // ranks share them out
+    if (config.engine != "multi" || isAll) config.threads = 0;
     if (settings.lightSampling != app::LightSampling::Bsdf) return;
     settings.lightSelection = defaults.lightSelection;
     settings.sphereLight = defaults.sphereLight;

@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 #include <initializer_list>
+#include <sstream>
+#include <string>
 
 namespace rt {
 
@@ -23,6 +25,23 @@ fs::path firstOf(std::initializer_list<Place> places) {
 }
 
 } // namespace
+
+fs::path findProgram(const char* name) {
+#if defined(_WIN32)
+    constexpr char kSeparator = ';';
+#else
+    constexpr char kSeparator = ':';
+#endif
+    const char* folders = std::getenv("PATH");
+    std::istringstream list(folders ? folders : "");
+    for (std::string folder; std::getline(list, folder, kSeparator);) {
+        fs::path program = fs::path(folder) / name;
+        program += executablePath().extension();
+        std::error_code ignored;
+        if (!folder.empty() && fs::is_regular_file(program, ignored)) return program;
+    }
+    return {};
+}
 
 fs::path userCacheFolder() {
 #if defined(_WIN32)

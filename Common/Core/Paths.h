@@ -9,6 +9,9 @@ namespace rt {
 // Absolute path of the running program; empty where the platform does not tell.
 std::filesystem::path executablePath();
 
+// The program of this name in a folder of $PATH; empty where none has it.
+std::filesystem::path findProgram(const char* name);
+
 // $XDG_CACHE_HOME/ray-tracing or the platform's place for what can be made again; empty when the environment names
 // none.
 std::filesystem::path userCacheFolder();

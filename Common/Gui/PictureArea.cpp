@@ -6,6 +6,8 @@
 
 #include <imgui.h>
 
+#include "Common/App/Interactive/VisibleMaterial.h"
+#include "Common/Core/Printable.h"
 #include "Common/Gui/Theme.h"
 
 namespace rt::gui {
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double kRadiansPerPixel = 0.004;
 constexpr float kZoomStep = 1.2f, kLeastZoom = 0.02f, kMostZoom = 64;
+constexpr std::size_t kMostNameBytes = 60; // of a material
 
 } // namespace
 
@@ -91,6 +94,20 @@ std::optional<PictureArea::Pixel> PictureArea::pixelUnderPointer() const {
     return {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)}};
 }
 
+// Its name; empty where none is known.
+std::string PictureArea::materialAt(const Pixel& pixel, const image::Image& picture) {
+    const app::SessionState& state = gui_.state;
+    const Seen now{state.sceneSerial, gui_.camera.camera(), {pixel[0], pixel[1], picture.width, picture.height}};
+    if (!state.scene) return {};
+    if (now != seen_) {
+        seen_ = now;
+        const auto material =
+            app::visibleMaterial(*state.scene, now.camera, {picture.width, picture.height}, {pixel[0], pixel[1]});
+        seenMaterial_ = material ? state.scene->materialNames[*material] : "";
+    }
+    return seenMaterial_;
+}
+
 // What the inspector says of a pixel.
 void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected.clear();
@@ -121,6 +138,8 @@ void PictureArea::inspect(const std::optional<Pixel>& pixel) {
         gui_.inspected.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
     if (const float* samples = find(picture.samples))
         gui_.inspected.push_back({"samples", text("%.0f", *samples), "", ""});
+    const std::string material = materialAt(*pixel, *picture.radiance);
+    if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMostNameBytes), "", ""});
 }
 
 void PictureArea::handlePointer() {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "Common/Gui/FilmPass.h"
 #include "Common/Gui/Gui.h"
@@ -38,8 +39,20 @@ class PictureArea {
     void drag();
     void turnWheel();
 
+    std::string materialAt(const Pixel& pixel, const image::Image& picture);
+
+    // What the last pixel asked for was of, and the material it shows.
+    struct Seen {
+        std::uint64_t sceneSerial = 0;
+        scene::CameraDesc camera;
+        std::array<std::uint32_t, 4> place{}; // pixel and size
+        bool operator==(const Seen&) const = default;
+    };
+
     Gui& gui_;
     Rect area_, inner_;
+    Seen seen_;
+    std::string seenMaterial_;
     bool dragging_ = false; // a drag that began in the picture goes on outside of it
 };
 

@@ -93,18 +93,11 @@ void SessionLink::followFile() {
     constexpr double kSeconds = 0.5; // between two looks
     if (sinceLook_.seconds() < kSeconds) return;
     sinceLook_ = {};
-    namespace fs = std::filesystem;
-    std::error_code missing;
-    FileMark mark{gui_.state.source, fs::last_write_time(gui_.state.source, missing), 0};
-    if (missing || gui_.state.source.empty()) return; // a built-in scene, or a file between two of its lives
-    mark.bytes = fs::file_size(mark.source, missing);
+    const std::optional<app::FileMark> mark = app::markOf(gui_.state.source);
     const bool isSettled = std::exchange(seenMark_, mark) == mark;
-    if (mark.source != readMark_.source) {
-        readMark_ = mark;
-    } else if (isSettled && mark != readMark_) {
-        readMark_ = mark;
-        gui_.openScene(mark.source);
-    }
+    if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_) return;
+    askedMark_ = mark; // once, also where it does not load
+    gui_.openScene(mark->file);
 }
 
 void SessionLink::send() {

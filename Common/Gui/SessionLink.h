@@ -2,7 +2,6 @@
 // sent, each of it once.
 #pragma once
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -29,14 +28,7 @@ class SessionLink {
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
-    // By which a file is known to be as it was.
-    struct FileMark {
-        std::string source;
-        std::filesystem::file_time_type written{};
-        std::uintmax_t bytes = 0;
-        bool operator==(const FileMark&) const = default;
-    };
-    FileMark readMark_, seenMark_; // of the scene's file: as it was loaded; at the last look
+    std::optional<app::FileMark> seenMark_, askedMark_; // of the scene's file: at the last look; when it was read again
     app::Stopwatch sinceLook_;
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 

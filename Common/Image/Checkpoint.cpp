@@ -16,6 +16,7 @@ namespace {
 constexpr char kMagic[8] = {'R', 'T', 'C', 'H', 'E', 'C', 'K', '\n'};
 constexpr std::uint32_t kVersion = 1;
 constexpr std::uint32_t kMaxHeaderBytes = 1u << 20;
+constexpr int kMaxDepth = 64; // of values within values: copies of the header recurse
 
 std::uint64_t hashText(const std::string& text) {
     return hashBytes(std::as_bytes(std::span(text)));
@@ -67,7 +68,11 @@ nlohmann::json readHeader(Reader& in) {
     in.read(text.data(), size);
     if (in.number<std::uint64_t>() != hashText(text))
         in.fail("checkpoint is damaged: the header's hash does not fit it");
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text, [&in](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+        if (depth > kMaxDepth)
+            in.fail("checkpoint is damaged: its header is nested deeper than " + std::to_string(kMaxDepth));
+        return true;
+    });
 }
 
 } // namespace

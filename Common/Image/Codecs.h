@@ -32,7 +32,7 @@ std::optional<std::string> findExrText(std::span<const std::byte> bytes, const s
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 void encodeHdr(const ImageRows& rows, std::ostream& out);
 
-Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, JPEG, BMP, TGA: sRGB bytes
+Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, JPEG, BMP, TGA: sRGB
 void checkJpeg(std::span<const std::byte> bytes, const std::string& name);   // before decoding one by stb
 void encodePng(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 

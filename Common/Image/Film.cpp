@@ -82,13 +82,19 @@ std::uint64_t Film::samplesPerPixel() const {
     return totalSamples() / (std::uint64_t{desc_.width} * desc_.height);
 }
 
+std::uint64_t Film::nextSample(std::uint32_t tile, std::uint64_t spp) const {
+    std::uint64_t least = kNoSample;
+    for (std::uint32_t r = 0; r < desc_.replicates; ++r) {
+        if (hasPlan() && samples(tile, r) >= planEnd(tile, r)) continue;
+        const std::uint64_t next = std::uint64_t{samples(tile, r)} * desc_.replicates + r;
+        if (next < spp) least = std::min(least, next);
+    }
+    return least;
+}
+
 std::uint64_t Film::nextSample(std::uint64_t spp) const {
     std::uint64_t least = kNoSample;
-    for (std::size_t at = 0; at < slotCount(); ++at) {
-        if (hasPlan() && samples_[at] >= ends_[at]) continue;
-        const std::uint64_t next = std::uint64_t{samples_[at]} * desc_.replicates + at % desc_.replicates;
-        if (hasPlan() || next < spp) least = std::min(least, next);
-    }
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, nextSample(tile, spp));
     return least;
 }
 
@@ -98,6 +104,18 @@ void Film::setPlan(std::vector<std::uint32_t> plan) {
     plan_ = std::move(plan);
     setEnds();
     squares_ = {};
+}
+
+void Film::assignPlan(std::uint32_t tile, std::uint32_t replicate, std::span<const std::uint32_t> plan) {
+    if (!desc_.adaptive || plan.size() != kTilePixels) throw std::logic_error("the plan is not one of this film");
+    if (!hasPlan()) {
+        allocate(plan_, slotCount() * kTilePixels, desc_);
+        allocate(ends_, slotCount(), desc_);
+        squares_ = {};
+    }
+    const std::size_t at = slot(tile, replicate);
+    std::copy(plan.begin(), plan.end(), plan_.begin() + static_cast<std::ptrdiff_t>(at * kTilePixels));
+    ends_[at] = *std::max_element(plan.begin(), plan.end());
 }
 
 void Film::setEnds() {

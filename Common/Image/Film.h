@@ -68,15 +68,19 @@ class Film {
     std::uint64_t samplesPerPixel() const;
     // The replicates of an adaptive film make two halves.
     static constexpr std::uint32_t halfOf(std::uint32_t replicate) { return replicate % 2; }
-    // The least index of a sample that some pixel lacks of its first `spp`, or of what the plan gives it; kNoSample:
-    // none does.
+    // The least index, below `spp`, of a sample that some pixel lacks, of the tile or of all; with a plan, of those that
+    // it gives the pixel. kNoSample: there is none.
     // Sample s of a pixel is number s / replicates of replicate s mod replicates.
     static constexpr std::uint64_t kNoSample = ~std::uint64_t{0};
+    std::uint64_t nextSample(std::uint32_t tile, std::uint64_t spp) const;
     std::uint64_t nextSample(std::uint64_t spp) const;
 
     // Of an adaptive film, once its pilot is done: how many samples each pixel gets in all, kTilePixels a slot, the
     // slots of a tile's replicates side by side. The pilot's squares are dropped.
     void setPlan(std::vector<std::uint32_t> plan);
+    // The same for one tile and replicate, of a film that renders only some of its tiles: the others get no samples
+    // until they have a plan. Throws std::logic_error like setPlan() when the film is not adaptive.
+    void assignPlan(std::uint32_t tile, std::uint32_t replicate, std::span<const std::uint32_t> plan);
     bool hasPlan() const { return !plan_.empty(); }
     bool isPilot() const { return desc_.adaptive && !hasPlan(); }
     // What each pixel of the tile gets in the replicate; empty without a plan.

@@ -16,7 +16,7 @@ struct Header { // of a tile's state in one replicate
     std::uint32_t tile = 0;
     std::uint32_t replicate = 0;
     std::uint32_t samples = 0;
-    std::uint32_t unused = 0;
+    std::uint32_t isPlanned = 0; // 1: the plan of its pixels comes first
 };
 
 // Of a tile, inside of the image.
@@ -73,6 +73,28 @@ std::uint64_t minSamples(const Film& film, std::span<const std::uint32_t> tiles)
     return tiles.empty() ? 0 : least;
 }
 
+std::uint64_t nextSample(const Film& film, std::span<const std::uint32_t> tiles, std::uint64_t spp) {
+    std::uint64_t least = Film::kNoSample;
+    for (const std::uint32_t tile : tiles) least = std::min(least, film.nextSample(tile, spp));
+    return least;
+}
+
+std::uint64_t missingSamples(const Film& film, std::span<const std::uint32_t> tiles, std::uint64_t spp) {
+    const std::uint64_t replicates = film.desc().replicates;
+    std::uint64_t missing = 0;
+    for (const std::uint32_t tile : tiles) {
+        for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
+            Film::TileState state = film.state(tile, replicate);
+            const std::uint64_t had = samplesIn(extentOf(film, tile), state);
+            const std::uint64_t end = (spp + replicates - 1 - replicate) / replicates;
+            if (state.samples >= end) continue;
+            state.samples = static_cast<std::uint32_t>(end);
+            missing += samplesIn(extentOf(film, tile), state) - had;
+        }
+    }
+    return missing;
+}
+
 std::uint64_t pixelCount(const Film& film, std::span<const std::uint32_t> tiles) {
     std::uint64_t pixels = 0;
     for (const std::uint32_t tile : tiles) {
@@ -95,8 +117,9 @@ std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t
     for (const std::uint32_t tile : tiles) {
         for (std::uint32_t replicate = 0; replicate < film.desc().replicates; ++replicate) {
             const Film::TileState state = film.state(tile, replicate);
-            const Header header{tile, replicate, state.samples};
+            const Header header{tile, replicate, state.samples, film.hasPlan() ? 1u : 0u};
             append(bytes, std::span(&header, 1));
+            append(bytes, state.plan);
             if (state.samples == 0) continue;
             append(bytes, state.sums);
             append(bytes, state.squares);
@@ -109,15 +132,23 @@ std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t
 TileList unpackTiles(std::span<const std::byte> bytes, Film& film) {
     const FilmDesc& desc = film.desc();
     TileList tiles;
-    std::vector<double> sums(kTileValues), squares(desc.secondMoments ? kTileValues : 0);
+    std::vector<double> sums(kTileValues), squares;
     std::vector<float> open;
+    std::vector<std::uint32_t> plan(Film::kTilePixels);
     for (Reader reader(bytes); !reader.atEnd();) {
         Header header;
         reader.read(std::span(&header, 1));
-        if (header.tile >= film.tileCount() || header.replicate >= desc.replicates)
+        if (header.tile >= film.tileCount() || header.replicate >= desc.replicates ||
+            (header.isPlanned != 0 && !desc.adaptive))
             throw RenderError("tiles of another film were received");
         if (tiles.empty() || tiles.back() != header.tile) tiles.push_back(header.tile);
+        if (header.isPlanned != 0) {
+            reader.read(std::span(plan));
+            film.assignPlan(header.tile, header.replicate, plan);
+        }
         if (header.samples == 0) continue;
+        const bool hasSquares = desc.secondMoments || (desc.adaptive && header.isPlanned == 0);
+        squares.resize(hasSquares ? kTileValues : 0);
         open.resize(header.samples % Film::kBlock == 0 ? 0 : kTileValues);
         reader.read(std::span(sums));
         reader.read(std::span(squares));

@@ -1,9 +1,11 @@
-// Radiance HDR: text lines, an empty line, "-Y height +X width", then scanlines of RGBE pixels: three mantissas m and
-// an exponent e stand for m 2^(e - 136). A scanline is flat, or starts with (2, 2, width) and has its four components
-// apart, each as runs: n > 128 repeats the next byte n - 128 times, 0 < n <= 128 copies n bytes. Written flat, in round
-// figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline looks like the other kind. Our own,
-// because stb 2.27 never returns from a file that ends within a run, and rounds mantissas down. The header's EXPOSURE
-// is ignored.
+// Radiance HDR: text lines, an empty line, "-Y height +X width", then scanlines of RGBE pixels. Three mantissas m and
+// an exponent e stand for (m + 1/2) 2^(e - 136), the middle of what is cut down to m when written: so does Radiance's
+// own color.c (G. Ward, "Real Pixels", Graphics Gems II), and so does Blender. Whoever reads m 2^(e - 136), as stb and
+// OpenImageIO do, gets files of any writer darker by half a step. A scanline is flat, or starts with (2, 2, width) and
+// has its four components apart, each as runs: n > 128 repeats the next byte n - 128 times, 0 < n <= 128 copies n
+// bytes. Written flat, in round figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline looks
+// like the other kind. Our own, because stb 2.27 never returns from a file that ends within a run. The header's
+// EXPOSURE is ignored.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,22 +23,22 @@ namespace {
 using Rgbe = std::array<std::uint8_t, 4>;
 
 void expand(const Rgbe& rgbe, float* pixel) {
-    for (std::size_t c = 0; c < 3; ++c) pixel[c] = rgbe[3] == 0 ? 0.0f : std::ldexp(float(rgbe[c]), rgbe[3] - 136);
+    for (std::size_t c = 0; c < 3; ++c)
+        pixel[c] = rgbe[3] == 0 ? 0.0f : std::ldexp(float(rgbe[c]) + 0.5f, rgbe[3] - 136);
 }
 
-// The nearest of the colours that share an exponent with their largest component.
+// Mantissas for the exponent of the largest component.
 Rgbe compress(const float* pixel) {
-    constexpr float kLargest = 0x1.fep126f; // 255 2^(255 - 136)
-    constexpr float kLeast = 0x1p-128f;     // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
+    constexpr float kLargest = 0x1.fffffep126f; // just below 256 2^(255 - 136)
+    constexpr float kLeast = 0x1p-128f; // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
     std::array<float, 3> color;
     for (std::size_t c = 0; c < 3; ++c) color[c] = std::clamp(pixel[c], 0.0f, kLargest);
     const float largest = std::max({color[0], color[1], color[2]});
     if (largest < kLeast) return {};
     int exponent = 0;
-    const float fraction = std::frexp(largest, &exponent); // in [1/2, 1)
-    if (fraction * 256 >= 255.5f) ++exponent;              // it would be rounded to 256
+    static_cast<void>(std::frexp(largest, &exponent)); // the fraction is in [1/2, 1)
     Rgbe rgbe;
-    for (std::size_t c = 0; c < 3; ++c) rgbe[c] = static_cast<std::uint8_t>(std::ldexp(color[c], 8 - exponent) + 0.5f);
+    for (std::size_t c = 0; c < 3; ++c) rgbe[c] = static_cast<std::uint8_t>(std::ldexp(color[c], 8 - exponent));
     rgbe[3] = static_cast<std::uint8_t>(exponent + 128);
     return rgbe;
 }

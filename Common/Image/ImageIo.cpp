@@ -60,11 +60,15 @@ Image toLinear(const Texels& texels) {
     Image image(texels.width, texels.height);
     std::transform(texels.srgb8.begin(), texels.srgb8.end(), image.data.begin(),
                    [](std::uint8_t b) { return table[b]; });
+    std::transform(texels.srgb16.begin(), texels.srgb16.end(), image.data.begin(),
+                   [](std::uint16_t v) { return shared::srgbDecode(float(v) / 65535.0f); });
     return image;
 }
 
 Texels toTexels(const Image& image) {
-    Texels texels{image.width, image.height, {}, {}};
+    Texels texels;
+    texels.width = image.width;
+    texels.height = image.height;
     texels.linear.resize(std::size_t{image.width} * image.height * 3);
     for (std::size_t i = 0; i < texels.linear.size(); ++i)
         texels.linear[i] = image.data[image.channels == 3 ? i : i / 3];
@@ -133,6 +137,10 @@ Texels loadTexels(const fs::path& path) {
     Texels texels = toTexels(image);
     for (float& value : texels.linear) value = std::max(value, 0.0f);
     return texels;
+}
+
+Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name) {
+    return decodeStb(bytes, name);
 }
 
 void writeImage(const fs::path& path, const ImageRows& image, const std::string& description) try {

@@ -4,9 +4,11 @@
 //   .hdr                    linear, shared exponent: 8 significant bits, nothing negative
 //   .jpg .jpeg .bmp .tga    like .png, read only
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,12 +16,14 @@
 
 namespace rt::image {
 
-// Texels as they are stored: exactly one of the two vectors holds width * height * 3 values, rows from the top.
+// Texels as they are stored: exactly one of the first three vectors holds width * height * 3 values, rows from the top.
 struct Texels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> srgb8; // sRGB-encoded RGB
-    std::vector<float> linear;       // RGB
+    std::vector<std::uint8_t> srgb8;   // sRGB-encoded RGB
+    std::vector<std::uint16_t> srgb16; // the same of a PNG with 16 bits a channel and no opacity
+    std::vector<float> linear;         // RGB
+    std::vector<std::uint8_t> alpha8;  // beside srgb8: one value a texel; empty: all are opaque
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
@@ -28,6 +32,9 @@ Image readImage(const std::filesystem::path& path);
 
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
 Texels loadTexels(const std::filesystem::path& path);
+
+// Of a PNG or JPEG in memory; errors name it `name`.
+Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name);
 
 // Writes 1 or 3 channels, a row at a time, replacing the file atomically. NaN is written as 0 and an infinity, or what
 // a format cannot hold, as the nearest value that it can. Throws UsageError for an extension that is unknown,

@@ -1,4 +1,4 @@
-// PNG, written row by row by libpng: 8 bits, sRGB-encoded.
+// PNG, written row by row by libpng: 8 bits, sRGB-encoded and marked as such.
 #include <algorithm>
 #include <csetjmp>
 #include <new>
@@ -60,6 +60,7 @@ class PngWriter {
             png_set_IHDR(png_, info_, rows.width, rows.height, 8,
                          rows.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                          PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+            png_set_sRGB_gAMA_and_cHRM(png_, info_, PNG_sRGB_INTENT_PERCEPTUAL);
             if (!description.empty()) png_set_text(png_, info_, &text, 1);
             png_write_info(png_, info_);
         });

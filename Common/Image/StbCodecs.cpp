@@ -59,12 +59,33 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     checkPngSize(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
-    checkDimensions(name, width, height, 3.0 * width * height, bytes.size());
+    const bool hasAlpha = channels == STBI_grey_alpha || channels == STBI_rgb_alpha;
+    const std::size_t stride = hasAlpha ? 4 : 3;
+    checkDimensions(name, width, height, double(stride) * width * height, bytes.size());
+    Texels texels;
+    texels.width = static_cast<std::uint32_t>(width);
+    texels.height = static_cast<std::uint32_t>(height);
+    const std::size_t count = std::size_t{texels.width} * texels.height;
+    if (!hasAlpha && stbi_is_16_bit_from_memory(data, size)) {
+        const std::unique_ptr<stbi_us, FreePixels> wide(
+            stbi_load_16_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+        if (!wide) fail("damaged image: " + reason());
+        texels.srgb16.assign(wide.get(), wide.get() + 3 * count);
+        return texels;
+    }
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
-        stbi_load_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+        stbi_load_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
     if (!pixels) fail("damaged image: " + reason());
-    Texels texels{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), {}, {}};
-    texels.srgb8.assign(pixels.get(), pixels.get() + std::size_t{texels.width} * texels.height * 3);
+    if (!hasAlpha) {
+        texels.srgb8.assign(pixels.get(), pixels.get() + 3 * count);
+        return texels;
+    }
+    texels.srgb8.reserve(3 * count);
+    texels.alpha8.reserve(count);
+    for (const stbi_uc* pixel = pixels.get(); pixel != pixels.get() + 4 * count; pixel += 4) {
+        texels.srgb8.insert(texels.srgb8.end(), pixel, pixel + 3);
+        texels.alpha8.push_back(pixel[3]);
+    }
     return texels;
 }
 

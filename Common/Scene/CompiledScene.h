@@ -27,7 +27,8 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
     CameraDesc camera;      // authored, in world units as authored (not relative to globals.origin)
     glm::dvec3 origin{0.0}; // globals.origin before rounding
     RenderDefaults defaults;
-    std::vector<std::string> notices; // one line each: dropped primitives, stand-ins for missing assets
+    std::vector<std::string> materialNames; // of each material, as the scene or its model has it
+    std::vector<std::string> notices;       // one line each: dropped primitives, stand-ins for missing assets
 };
 
 } // namespace rt::scene

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -32,15 +33,19 @@ using namespace rt;
 
 constexpr const char* kProgram = "ray-tracing-bench";
 
+constexpr std::uint32_t kRanksOfThread = 2; // so many take turns on a processor: what is left of its speed then?
+
 bench::EngineKind cpuKind(const char* name, cpu::Policy policy) {
-    return {name,
-            [policy](std::uint32_t threads) {
-                cpu::CpuEngineOptions options;
-                options.policy = policy;
-                options.threads = threads;
-                return cpu::makeCpuEngine(options);
-            },
-            ""};
+    bench::EngineKind kind{name,
+                           [policy](std::uint32_t threads) {
+                               cpu::CpuEngineOptions options;
+                               options.policy = policy;
+                               options.threads = threads;
+                               return cpu::makeCpuEngine(options);
+                           },
+                           ""};
+    if (policy == cpu::Policy::Par) kind.mostRanks = kRanksOfThread * std::max(1u, std::thread::hardware_concurrency());
+    return kind;
 }
 
 // The engines of this machine, and the device that some of them share.
@@ -74,6 +79,7 @@ class EngineList {
             return;
         }
         energy_.emplace(context_->limits().uuid);
+        const std::vector<vulkan::DeviceInfo> devices = vulkan::findDevices(vulkan::Instance(false));
         facts_.push_back({"GPU", context_->info().name});
         facts_.push_back({"GPU driver", context_->info().driver});
         for (const auto& [name, kind] : kGpuKinds) {
@@ -84,6 +90,9 @@ class EngineList {
                 added.make = [this, engine = kind](std::uint32_t) {
                     return gpu::makeGpuEngine(*context_, {.engine = engine});
                 };
+                if (options.device.empty()) // ranks choose among all
+                    added.mostRanks = static_cast<std::uint32_t>(
+                        vulkan::devicesForRanks(devices, kind == app::GpuEngineKind::Pipeline).size());
             }
             kinds_.push_back(std::move(added));
         }
@@ -134,6 +143,7 @@ int measure(const bench::BenchOptions& options) {
         if (!options.quiet) std::cerr << text << std::endl;
     };
     hooks.rayCeiling = bench::embreeRaysPerSecond;
+    hooks.launcher = bench::findRankLauncher();
     interrupt.defer(); // from here on there may be something to keep
     bench::Results results = runSuite(suite, engines, references, hooks, interrupt.requested());
     std::vector<bench::Fact> facts = bench::machineFacts();

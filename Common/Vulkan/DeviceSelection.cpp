@@ -251,4 +251,13 @@ DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::strin
     return *chosen;
 }
 
+std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, bool rayTracing) {
+    const VkPhysicalDeviceType type = chooseDevice(devices, "", rayTracing).type;
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        if (devices[i].type == type && (rayTracing ? devices[i].tracesRays() : devices[i].suitable()))
+            places.push_back(i);
+    return places;
+}
+
 } // namespace rt::vulkan

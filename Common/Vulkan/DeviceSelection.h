@@ -47,4 +47,7 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices);
 // naming what there is.
 DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing);
 
+// The places of all devices of the best one's type: what the ranks of a host take in turn. Throws as chooseDevice().
+std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, bool rayTracing);
+
 } // namespace rt::vulkan

@@ -54,8 +54,13 @@ std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
     return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest, ::testing::Range(std::size_t{0}, scene::builtinScenes().size()),
-                         sceneName);
+// The CPU's estimators are compared on all scenes, and the engines with each other on all: half of the scenes suffice at
+// every change.
+constexpr std::size_t kSecond = 2;
+INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest,
+                         ::testing::Range(std::size_t{0}, scene::builtinScenes().size(), kSecond), sceneName);
+INSTANTIATE_TEST_SUITE_P(Nightly, EstimatorsTest,
+                         ::testing::Range(std::size_t{1}, scene::builtinScenes().size(), kSecond), sceneName);
 
 } // namespace
 } // namespace rt::test

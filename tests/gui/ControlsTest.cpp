@@ -211,7 +211,7 @@ TEST_P(ControlsTest, ExportsRunsAndChart) {
     ASSERT_TRUE(eventually([&] { return fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"); })) << log();
     for (const auto& [file, x] : {std::pair{"ray-tracing-history.csv", 557}, {"ray-tracing-errors.png", 659}}) {
         EXPECT_TRUE(eventually([&, file = file, x = x] {
-            act("mousemove " + std::to_string(x) + " 572 sleep 0.3 click 1 sleep 0.3");
+            act("mousemove " + std::to_string(x) + " 587 sleep 0.3 click 1 sleep 0.3");
             return fs::exists(folder_ / "pictures" / file);
         })) << file
             << log();

@@ -38,8 +38,16 @@ TEST_P(DropTest, GoodFilesOpenAndBadOnesLeaveTheScene) {
     std::ofstream(triangle) << "v 0 0 x\n"; // no longer loads
     ASSERT_TRUE(drop({triangle}));
     EXPECT_TRUE(eventually([&] { return log().find(triangle) != std::string::npos; })) << log();
+    const std::string gltf = (folder_ / "model.gltf").string(); // a triangle, its nine floats in base64
+    std::ofstream(gltf) << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": 3}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+    ASSERT_TRUE(drop({gltf}));
+    EXPECT_TRUE(eventually([&] { return title().find("model.gltf") == 0; })) << title() << log();
     expectCleanEnd();
-    EXPECT_EQ(settings()["recent"], Files{good});
+    EXPECT_EQ(settings()["recent"], (Files{gltf, good}));
 }
 
 } // namespace

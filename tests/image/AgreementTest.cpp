@@ -20,9 +20,7 @@ class Agreement : public ::testing::TestWithParam<std::string> {};
 // weight or a light that one estimator does not know are discoveries. Seeds are fixed; with 81 comparisons of two
 // chances each a clean build would fail once in some sixty changes of the random numbers.
 void expectAgreement(const scene::SceneDesc& desc) {
-    scene::CompileOptions options;
-    options.generatedAssets = true;
-    const auto scene = scene::compileScene(desc, options);
+    const auto scene = app::compile(desc, true, true);
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     const auto reference = independentImages(*engine, *scene, app::LightSampling::Mis, kSide, kSpp, 3000);

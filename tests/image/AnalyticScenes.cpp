@@ -122,6 +122,14 @@ std::vector<ObjectDesc> manyPunctualLights(std::uint32_t count) {
     return objects;
 }
 
+SceneDesc floorUnder(const std::vector<ObjectDesc>& lights) {
+    SceneDesc desc = floorScene();
+    desc.camera.lookFrom = {0.3, 4, 0.5};
+    desc.objects = {{QuadDesc{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, "floor"}}};
+    desc.objects.insert(desc.objects.end(), lights.begin(), lights.end());
+    return desc;
+}
+
 dvec3 punctualIrradiance(const std::vector<ObjectDesc>& objects) {
     dvec3 sum(0);
     const auto add = [&sum](const dvec3& position, const dvec3& intensity) {

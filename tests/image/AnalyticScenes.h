@@ -40,6 +40,9 @@ double polygonIrradiance(std::span<const glm::dvec3> vertices);
 std::vector<scene::ObjectDesc> punctualLights();
 // `count` of all kinds, above, below and beside the floor.
 std::vector<scene::ObjectDesc> manyPunctualLights(std::uint32_t count);
+// floorScene() under them, small and seen from above: rounding hardly moves the point that is lit, so that the
+// irradiance is that of the origin within 1e-5.
+scene::SceneDesc floorUnder(const std::vector<scene::ObjectDesc>& lights);
 // Irradiance at the origin of a surface with the normal +y from those of `objects` that are punctual lights, with
 // nothing in between.
 glm::dvec3 punctualIrradiance(const std::vector<scene::ObjectDesc>& objects);

@@ -76,9 +76,8 @@ TEST(Irradiance, UnderATriangle) {
 }
 
 // The radiance of the floor, by every estimator, which all sample punctual lights.
-void expectPunctual(SceneDesc desc, const std::vector<ObjectDesc>& lights, std::uint32_t spp) {
-    desc.objects.insert(desc.objects.end(), lights.begin(), lights.end());
-    const auto scene = compileScene(desc);
+void expectPunctual(const std::vector<ObjectDesc>& lights, std::uint32_t spp) {
+    const auto scene = compileScene(floorUnder(lights));
     const dvec3 truth = punctualIrradiance(lights) * (kFloorAlbedo / std::numbers::pi);
     for (app::RenderSettings settings : allEstimators(smallSettings(4, spp))) {
         settings.maxDepth = 2;
@@ -90,12 +89,12 @@ TEST(Irradiance, UnderAPunctualLight) {
     for (const ObjectDesc& light : punctualLights()) {
         SCOPED_TRACE(light.shape.index());
         ASSERT_GT(punctualIrradiance({light}).y, 0);
-        expectPunctual(floorScene(), {light}, 256);
+        expectPunctual({light}, 256);
     }
 }
 
 TEST(Irradiance, UnderSomePunctualLightsAndUnderSoManyThatATreeChooses) {
-    for (const std::uint32_t count : {12u, 40u, 300u}) expectPunctual(floorScene(), manyPunctualLights(count), 2048);
+    for (const std::uint32_t count : {12u, 40u, 300u}) expectPunctual(manyPunctualLights(count), 512);
 }
 
 // A lamp and a point light: scattering finds the one, next-event estimation alone the other.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "Common/Image/Checkpoint.h"
+#include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
 
 namespace rt::test {
@@ -28,6 +29,18 @@ class Ranks : public ProgramTest {
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return bytesOf("ranks.pfm");
     }
+    // c.rtc holds samples, from which three ranks get to the bits of a whole render.
+    void expectToGoOn(const Arguments& size) const {
+        const image::Film film = image::readCheckpoint(path("c.rtc")).film;
+        std::uint64_t most = 0;
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
+        EXPECT_GT(most, 0u);
+        Arguments rest = size;
+        rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
+        Arguments resumed = rest;
+        resumed.insert(resumed.end(), {"--resume", "c.rtc"});
+        EXPECT_TRUE(picture(3, resumed) == pixels(rest));
+    }
 };
 
 // One message of ours, whatever the launcher adds to it.
@@ -41,6 +54,24 @@ testing::AssertionResult endsWith(const Outcome& outcome, int exitCode, const st
     return testing::AssertionFailure() << "exit code " << outcome.exitCode << ", " << outcome.err;
 }
 
+// The benchmark starts them by itself; their picture has the error of one process to the last digit.
+TEST_F(Ranks, AreMeasured) {
+    writeFile("suite.json", R"({"version": 1, "experiments": [{"name": "ranks", "scene": "one-weekend-default",
+        "width": 32, "threads": 1, "ranks": [1, 2], "spp": [16, 32]}]})");
+    Environment environment = launcher();
+    environment["XDG_CACHE_HOME"] = path("cache");
+    const Outcome outcome = run("ray-tracing-bench", {"suite.json", "-q", "--report", "report"}, environment);
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto rows = jsonOf("report/results.json")["rows"];
+    ASSERT_EQ(rows.size(), 4u) << outcome.out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(rows[i]["ranks"], 1);
+        EXPECT_EQ(rows[i + 2]["ranks"], 2);
+        for (const char* same : {"spp", "mse", "rays_per_sample"}) EXPECT_EQ(rows[i][same], rows[i + 2][same]) << same;
+        EXPECT_GT(rows[i + 2]["samples_per_second"], 0.0);
+    }
+}
+
 TEST_F(Ranks, MakeTheBitsOfOneProcess) {
     const Arguments odd = {"--width", "150", "--height", "101", "--spp", "37"};
     const std::string one = pixels(odd);
@@ -50,6 +81,15 @@ TEST_F(Ranks, MakeTheBitsOfOneProcess) {
     EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
     const Arguments region = {"--width", "150", "--height", "101", "--spp", "9", "--region", "21,13,100,50"};
     EXPECT_TRUE(picture(2, region) == pixels(region));
+}
+
+TEST_F(Ranks, MakeTheBitsOfOneProcessWithAdaptiveSamples) {
+    const Arguments odd = {"--width", "150", "--height", "101", "--spp", "37", "--adaptive", "on"};
+    const std::string one = pixels(odd);
+    for (const int ranks : {2, 3, 5}) EXPECT_TRUE(picture(ranks, odd) == one) << ranks;
+    const Arguments rounds = {"--width",      "64", "--height",     "64",  "--spp",      "150",
+                              "--replicates", "4",  "--time-limit", "600", "--adaptive", "on"};
+    EXPECT_TRUE(picture(3, rounds) == pixels(rounds));
 }
 
 TEST_F(Ranks, StatisticsNameThem) {
@@ -83,27 +123,87 @@ TEST_F(Ranks, MustHaveOneScene) {
 
 #ifndef _WIN32
 
-TEST_F(Ranks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
-    const std::string program = programPath("ray-tracing-cpu");
-    const Arguments common = {"-q", "--headless", "--width", "24", "--height", "24", "--threads", "1"};
-    Arguments endless = common;
-    endless.insert(endless.end(), {"--spp", "2147483647", "--checkpoint", "c.rtc", "--save-every", "0.05"});
-    Arguments all = {"-n", "2", program};
-    all.insert(all.end(), endless.begin(), endless.end());
-    all.insert(all.end(), {":", "-n", "1", "sh", "-c",
-                           "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; kill -9 $!; exit 9", program});
-    all.insert(all.end(), endless.begin(), endless.end());
-    EXPECT_NE(run(RT_MPIEXEC, all, launcher()).exitCode, 0);
+// Rank 0 has about a second, with Open MPI; the exit code is the launcher's own.
+TEST_F(Ranks, SignalsToTheLauncherKeepWhatThereIs) {
+    const Arguments size = {"--width", "24", "--height", "24", "--threads", "1"};
+    for (const char* signal : {"INT", "TERM"}) {
+        std::filesystem::remove(path("c.rtc"));
+        Arguments command = {
+            "-c",
+            "\"$0\" \"$@\" & until [ -s c.rtc ]; do sleep 0.02; done; kill -" + std::string(signal) + " $!; wait $!",
+            RT_MPIEXEC,
+            "-n",
+            "2",
+            programPath("ray-tracing-cpu"),
+            "-q",
+            "--headless",
+            "--spp",
+            "2147483647",
+            "--time-limit", // in rounds: all tiles are alike far
+            "600",
+            "--checkpoint",
+            "c.rtc",
+            "--save-every",
+            "0.05",
+            "--stats",
+            "s.json",
+            "-o",
+            "interrupted.pfm"};
+        command.insert(command.end(), size.begin(), size.end());
+        run("/bin/sh", command, launcher());
+        EXPECT_EQ(jsonOf("s.json")["stopped_by"], "interrupted");
+        EXPECT_EQ(image::readImage(path("interrupted.pfm")).width, 24u);
+        expectToGoOn(size);
+    }
+}
 
-    const image::Film film = image::readCheckpoint(path("c.rtc")).film;
-    std::uint64_t most = 0;
-    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
-    EXPECT_GT(most, 0u);
-    Arguments rest = common;
-    rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
-    Arguments resumed = rest;
-    resumed.insert(resumed.end(), {"--resume", "c.rtc"});
-    EXPECT_TRUE(picture(2, resumed) == pixels(rest));
+// Rank 1 of two dies, or stops, once there is a checkpoint.
+class EndedRanks : public Ranks {
+  protected:
+    Outcome runUntil(const std::string& checkpoint, const std::string& end, Arguments arguments) const {
+        const std::string program = programPath("ray-tracing-cpu");
+        arguments.insert(arguments.begin(), {"--headless", "--width", "24", "--height", "24", "--threads", "1",
+                                             "--checkpoint", "c.rtc", "--save-every", "0.05"});
+        Arguments all = {"-n", "1", program};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        all.insert(all.end(), {":", "-n", "1", "sh", "-c",
+                               "\"$0\" \"$@\" & until " + checkpoint + "; do sleep 0.02; done; " + end, program});
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        return run(RT_MPIEXEC, all, launcher());
+    }
+    static constexpr const char* kExists = "[ -s c.rtc ]";
+    Arguments size(const std::string& spp) const {
+        return {"--width", "24", "--height", "24", "--threads", "1", "--spp", spp};
+    }
+};
+
+TEST_F(EndedRanks, AKilledOneCostsLittleAndAnyNumberGoesOn) {
+    EXPECT_NE(runUntil(kExists, "kill -9 $!; exit 9", {"--spp", "2147483647"}).exitCode, 0);
+    expectToGoOn({"--width", "24", "--height", "24", "--threads", "1"});
+}
+
+// From the pilot, and from what follows the plan, whose checkpoint is smaller as it lacks the pilot's squares.
+TEST_F(EndedRanks, AdaptiveSamplesGoOnToo) {
+    Arguments rest = size("4000");
+    rest.insert(rest.end(), {"--adaptive", "on"});
+    const std::string one = pixels(rest);
+    rest.insert(rest.end(), {"--resume", "c.rtc"});
+    for (const char* checkpoint : {kExists, "[ -s c.rtc ] && [ $(wc -c < c.rtc) -lt 50000 ]"}) {
+        std::filesystem::remove(path("c.rtc"));
+        EXPECT_NE(runUntil(checkpoint, "kill -9 $!; exit 9", {"--spp", "4000", "--adaptive", "on"}).exitCode, 0);
+        EXPECT_TRUE(picture(3, rest) == one) << checkpoint;
+        EXPECT_TRUE(pixels(rest) == one) << checkpoint;
+    }
+}
+
+// The files are written, all end by themselves, and the exit code says so.
+TEST_F(EndedRanks, OneThatStopsForEverHoldsNobodyUp) {
+    const Outcome outcome =
+        runUntil(kExists, "kill -STOP $!; wait", {"--spp", "3000", "-o", "stopped.pfm", "--stats", "s.json"});
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("rank 1 does not answer"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(bytesOf("stopped.pfm") == pixels(size("3000")));
+    EXPECT_EQ(jsonOf("s.json")["spp_done"], 3000);
 }
 
 #endif
@@ -117,6 +217,12 @@ TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
     alone.insert(alone.end(), {"-o", "one.pfm"});
     ASSERT_EQ(run("ray-tracing-gpu", alone).exitCode, 0);
     EXPECT_TRUE(picture(2, size, "ray-tracing-gpu") == bytesOf("one.pfm"));
+    Arguments adaptive = size;
+    adaptive.insert(adaptive.end(), {"--adaptive", "on"});
+    const std::string shared = picture(2, adaptive, "ray-tracing-gpu");
+    adaptive.insert(adaptive.end(), {"-q", "-o", "adaptive.pfm"});
+    ASSERT_EQ(run("ray-tracing-gpu", adaptive).exitCode, 0);
+    EXPECT_TRUE(shared == bytesOf("adaptive.pfm"));
     for (const char* share : {"1/2", "2/2"}) {
         Arguments part = size;
         part.insert(part.end(), {"-q", "--tiles", share, "--checkpoint", std::string(1, *share) + ".rtc"});

@@ -118,6 +118,7 @@ TEST(BenchSuite, ErrorsNameFilePlaceAndWhatIsAllowed) {
     expect(R"({"version": 1, "experiments": [{"name": "", "spp": 1}]})", "/experiments/0/name", "empty");
     expect(suiteWith(R"("scene": "furnace")"), "/experiments/0", "spp or seconds");
     expect(suiteWith(R"("spp": 1, "seconds": 1)"), "/experiments/0", "spp or seconds");
+    expect(suiteWith(R"("seconds": 1, "ranks": [1, 2])"), "/experiments/0/ranks", "spp");
     expect(suiteWith(R"("spp": 1, "sampler": ["sobol", "halton"])"), "/experiments/0/sampler/1", "stratified");
     expect(suiteWith(R"("spp": 1, "engine": [])"), "/experiments/0/engine", "empty");
     expect(suiteWith(R"("spp": 1, "smapler": "sobol")"), "/experiments/0/smapler", "sampler");

@@ -119,6 +119,19 @@ TEST(FilmCheckpoint, ErrorsSayWhatIsWrong) {
     EXPECT_THROW(writeCheckpoint(test::TempFolder() / "missing" / "a.rtc", kRender, makeFilm()), RenderError);
 }
 
+// A copy of a value recurses: nested without end it would leave the stack.
+TEST(FilmCheckpoint, AHeaderIsNotNestedWithoutEnd) {
+    const auto nested = [](int depth) {
+        nlohmann::json render = kRender;
+        for (int i = 0; i < depth; ++i) render = nlohmann::json::array({std::move(render)});
+        std::ostringstream out;
+        writeCheckpoint(out, render, makeFilm());
+        return errorOf(out.str());
+    };
+    EXPECT_EQ(nested(50), "");
+    EXPECT_EQ(nested(100), "render.rtc: checkpoint is damaged: its header is nested deeper than 64");
+}
+
 TEST(FilmCheckpoint, AHugeImageInASmallFileCostsNoMemory) {
     std::istringstream in("short");
     const FilmDesc huge{kMaxImageSide, kMaxImageSide, 0xffffffffu, true}; // would throw RenderError when allocated

@@ -57,6 +57,10 @@ TEST(FilmTiles, PartsMakeTheWholeInAnyOrder) {
         EXPECT_EQ(totalSamples(film, odd) + totalSamples(film, even), film.totalSamples());
         EXPECT_EQ(pixelCount(film, allTiles(film)), 33u * 20u);
         EXPECT_EQ(minSamples(film, odd), 5u * desc.replicates);
+        EXPECT_EQ(nextSample(film, odd, 1000), 5u * desc.replicates);
+        EXPECT_EQ(missingSamples(film, odd, 0), 0u);
+        const std::uint64_t end = 100u * desc.replicates;
+        EXPECT_EQ(missingSamples(film, odd, end) + totalSamples(film, odd), pixelCount(film, odd) * end);
     }
 }
 
@@ -67,6 +71,41 @@ TEST(FilmTiles, FewerSamplesNeverReplaceMore) {
     const TileList all = allTiles(film);
     EXPECT_EQ(unpackTiles(packTiles(Film(desc), all), film), all);
     EXPECT_TRUE(sameBits(film, before));
+}
+
+// Of each tile, what its number says.
+std::vector<std::uint32_t> makePlan(const Film& film) {
+    std::vector<std::uint32_t> plan;
+    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile)
+        plan.insert(plan.end(), film.desc().replicates * Film::kTilePixels, 8 * tile + 3);
+    return plan;
+}
+
+TEST(FilmTiles, PlansTravelWithTheirTiles) {
+    const FilmDesc desc{16, 16, 2, false, true};
+    const TileList some = {1, 3};
+    Film joined(desc);
+    Film planned = makeFilm(desc); // 0, 5, 10 and 15 samples, in each replicate
+    const auto late = packTiles(planned, some);
+    planned.setPlan(makePlan(planned));
+    unpackTiles(packTiles(planned, some), joined);
+    ASSERT_TRUE(joined.hasPlan());
+    for (const std::uint32_t tile : some) {
+        EXPECT_EQ(joined.planEnd(tile, 1), 8 * tile + 3);
+        EXPECT_TRUE(std::ranges::equal(joined.plan(tile, 1), planned.plan(tile, 1)));
+    }
+    EXPECT_EQ(totalSamples(joined, some), totalSamples(planned, some));
+    // Tile 1 gets 11 samples and has 5, tile 3 gets 27 and has 15, in 64 pixels and two replicates each.
+    EXPECT_EQ(missingSamples(joined, some, 1000), (6u + 12u) * 64 * 2);
+    EXPECT_EQ(missingSamples(joined, some, 2 * 16), (6u + 1u) * 64 * 2);
+    EXPECT_EQ(nextSample(joined, some, 1000), 10u);
+    EXPECT_EQ(joined.nextSample(3, 1000), 30u);
+    EXPECT_EQ(joined.nextSample(3, 30), Film::kNoSample);
+    EXPECT_EQ(joined.nextSample(0, 1000), Film::kNoSample); // which has no plan
+    unpackTiles(late, joined);                              // of the pilot, which is over
+    EXPECT_EQ(missingSamples(joined, some, 1000), (6u + 12u) * 64 * 2);
+    Film uniform({16, 16, 2, false, false});
+    EXPECT_THROW(unpackTiles(packTiles(planned, some), uniform), RenderError);
 }
 
 TEST(FilmTiles, BytesOfOtherFilmsAreRefused) {

@@ -3,7 +3,9 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <png.h>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -19,6 +21,11 @@ constexpr float kLargest = std::numeric_limits<float>::max();
 
 std::filesystem::path dataFile(const std::string& name) {
     return std::filesystem::path(RT_TEST_DATA_DIR) / "images" / name;
+}
+
+std::string bytesOf(const std::filesystem::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::vector<std::uint32_t> bitsOf(const Image& image) {
@@ -71,6 +78,84 @@ TEST(ImageIo, PngHoldsAll256Levels) {
     for (std::size_t i = 0; i < 768; ++i) EXPECT_NEAR(back.data[i], image.data[i], 1e-6f);
 }
 
+// An encoder of 16 bits a channel, sRGB as they are, for the test alone.
+std::string encodePng16(std::uint32_t width, std::uint32_t height, int colorType,
+                        const std::vector<std::uint16_t>& values) {
+    std::string png;
+    png_structp writer = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(writer);
+    png_set_write_fn(
+        writer, &png,
+        [](png_structp p, png_bytep data, png_size_t size) {
+            static_cast<std::string*>(png_get_io_ptr(p))->append(reinterpret_cast<const char*>(data), size);
+        },
+        [](png_structp) {});
+    png_set_IHDR(writer, info, width, height, 16, colorType, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(writer, info);
+    std::vector<png_byte> row(2 * values.size() / height);
+    for (std::uint32_t y = 0; y < height; ++y) {
+        for (std::size_t i = 0; i < row.size() / 2; ++i) {
+            const std::uint16_t value = values[y * row.size() / 2 + i];
+            row[2 * i] = static_cast<png_byte>(value >> 8);
+            row[2 * i + 1] = static_cast<png_byte>(value & 255);
+        }
+        png_write_row(writer, row.data());
+    }
+    png_write_end(writer, nullptr);
+    png_destroy_write_struct(&writer, &info);
+    return png;
+}
+
+TEST(ImageIo, PngOf16BitsKeepsThem) {
+    const test::TempFolder folder;
+    std::vector<std::uint16_t> values(3 * 256 * 4);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = static_cast<std::uint16_t>(i * 65535 / (values.size() - 1));
+    std::ofstream(folder / "rgb.png", std::ios::binary) << encodePng16(256, 4, PNG_COLOR_TYPE_RGB, values);
+    const Texels texels = loadTexels(folder / "rgb.png");
+    EXPECT_EQ(texels.srgb16, values);
+    EXPECT_TRUE(texels.srgb8.empty() && texels.linear.empty());
+    const Image image = readImage(folder / "rgb.png");
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double encoded = values[i] / 65535.0;
+        const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+        EXPECT_NEAR(image.data[i], linear, 1e-6);
+    }
+    std::ofstream(folder / "grey.png", std::ios::binary) << encodePng16(2, 1, PNG_COLOR_TYPE_GRAY, {1, 65534});
+    EXPECT_EQ(loadTexels(folder / "grey.png").srgb16, (std::vector<std::uint16_t>{1, 1, 1, 65534, 65534, 65534}));
+    // With opacity, 8 bits of them are what texels hold.
+    std::ofstream(folder / "rgba.png", std::ios::binary)
+        << encodePng16(1, 1, PNG_COLOR_TYPE_RGB_ALPHA, {0x1234, 0x5678, 0x9abc, 0x80ff});
+    const Texels rgba = loadTexels(folder / "rgba.png");
+    EXPECT_EQ(rgba.srgb8, (std::vector<std::uint8_t>{0x12, 0x56, 0x9a}));
+    EXPECT_EQ(rgba.alpha8, (std::vector<std::uint8_t>{0x80}));
+}
+
+// Content of a chunk that stands between header and rows; empty: there is none.
+std::string chunkOf(const std::string& png, const std::string& type) {
+    const std::size_t at = png.find(type);
+    if (at == std::string::npos || at > png.find("IDAT")) return {};
+    const auto length = static_cast<unsigned char>(png[at - 1]);
+    return png.substr(at + 4, length);
+}
+
+TEST(ImageIo, PngSaysThatItIsSrgb) {
+    const test::TempFolder folder;
+    writeImage(folder / "a.png", Image(2, 1), "text");
+    const std::string png = bytesOf(folder / "a.png");
+    EXPECT_EQ(chunkOf(png, "sRGB"), std::string(1, '\0')) << "perceptual intent";
+    // What stands for it where sRGB is unknown, times 100 000: 1 / 2.2, and white, red, green and blue of Rec. 709.
+    const auto numbers = [](const std::vector<std::uint32_t>& values) {
+        std::string bytes;
+        for (const std::uint32_t v : values)
+            for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(v >> shift & 255u);
+        return bytes;
+    };
+    EXPECT_EQ(chunkOf(png, "gAMA"), numbers({45455}));
+    EXPECT_EQ(chunkOf(png, "cHRM"), numbers({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000}));
+}
+
 TEST(ImageIo, PngClampsAndRounds) {
     const test::TempFolder folder;
     const auto linear = [](double level) { return float(std::pow((level / 255 + 0.055) / 1.055, 2.4)); };
@@ -82,25 +167,52 @@ TEST(ImageIo, PngClampsAndRounds) {
     for (std::size_t i = 0; i < texels.size(); ++i) EXPECT_EQ(texels[i], expected[i / 3]) << i;
 }
 
-TEST(ImageIo, HdrRoundsToNearest) {
+// The convention of the format's own library: mantissas are cut off, and stand for the middle of what they were cut
+// from. Both directions against it, computed here: without bias, and never off by more than half a step.
+TEST(ImageIo, HdrMantissasAreRadiances) {
     const test::TempFolder folder;
+    constexpr std::size_t kPixels = 5000;
     Image image(100, 50);
     std::mt19937 random(5);
     for (float& value : image.data)
         value = std::ldexp(1 + static_cast<float>(random() >> 8) * 0x1p-24f, static_cast<int>(random() % 3));
     writeImage(folder / "a.hdr", image);
-    const Image back = readImage(folder / "a.hdr");
-    double bias = 0;
-    for (std::size_t i = 0; i < image.data.size(); i += 3) {
-        const float largest = std::max({image.data[i], image.data[i + 1], image.data[i + 2]});
-        const float step = std::ldexp(1.0f, std::ilogb(largest) - 7); // of a mantissa of 8 bits
-        for (std::size_t c = i; c < i + 3; ++c) {
-            EXPECT_LE(std::abs(back.data[c] - image.data[c]), step); // half of it, but where the largest rounds up
-            bias += (back.data[c] - image.data[c]) / step;
+    const std::string ours = bytesOf(folder / "a.hdr");
+    const std::string header = ours.substr(0, ours.size() - 4 * kPixels);
+
+    std::string theirs = header;
+    double writing = 0, reading = 0, withoutHalf = 0; // in steps
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const float* rgb = &image.data[3 * i];
+        int exponent = 0;
+        std::frexp(std::max({rgb[0], rgb[1], rgb[2]}), &exponent);
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double exact = std::ldexp(double(rgb[c]), 8 - exponent);
+            const double written = static_cast<unsigned char>(ours[header.size() + 4 * i + c]);
+            EXPECT_LE(std::abs(written + 0.5 - exact), 0.5) << i;
+            writing += written + 0.5 - exact;
+            withoutHalf += written - exact;
+            theirs += static_cast<char>(static_cast<unsigned char>(exact));
+        }
+        EXPECT_EQ(static_cast<unsigned char>(ours[header.size() + 4 * i + 3]), exponent + 128);
+        theirs += static_cast<char>(exponent + 128);
+    }
+    std::ofstream(folder / "theirs.hdr", std::ios::binary) << theirs;
+    const Image back = readImage(folder / "theirs.hdr");
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const float* rgb = &image.data[3 * i];
+        const double step = std::ldexp(1.0, std::ilogb(std::max({rgb[0], rgb[1], rgb[2]})) - 7);
+        for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
+            const double error = (double(back.data[c]) - double(image.data[c])) / step;
+            EXPECT_LE(std::abs(error), 0.5) << c;
+            reading += error;
         }
     }
-    const auto count = static_cast<double>(image.data.size());
-    EXPECT_LT(std::abs(bias / count), 4 * std::sqrt(1.0 / 12 / count)); // rounding down would give -1/2
+    constexpr double kCount = 3 * kPixels;
+    const double fourSigma = 4 * std::sqrt(1.0 / 12 / kCount); // of errors uniform over a step
+    EXPECT_LT(std::abs(writing / kCount), fourSigma);
+    EXPECT_LT(std::abs(reading / kCount), fourSigma);
+    EXPECT_LT(std::abs(withoutHalf / kCount + 0.5), fourSigma) << "the bias that the test would see";
 }
 
 TEST(ImageIo, HdrExtremes) {
@@ -112,20 +224,24 @@ TEST(ImageIo, HdrExtremes) {
     writeImage(folder / "a.hdr", image);
     const Image back = readImage(folder / "a.hdr");
     EXPECT_EQ(std::vector<float>(back.data.begin(), back.data.begin() + 9),
-              (std::vector<float>{0, 0, 0, 1, 1, 1, 255, 1, 0}));
-    EXPECT_EQ(back.data[9], 0x1.fep126f);
-    EXPECT_EQ(back.data[12], 0.0f);
-    EXPECT_EQ(back.data[13], 2.0f);
-    EXPECT_NEAR(back.data[15], 1e-38f, 1e-38f / 128);
+              (std::vector<float>{0, 0, 0, 128.5f / 128, 128.5f / 128, 128.5f / 128, 255.5f, 1.5f, 0.5f}));
+    EXPECT_EQ(back.data[9], 0x1.ffp126f);
+    EXPECT_EQ(back.data[12], 0.5f / 64); // negative: 0
+    EXPECT_EQ(back.data[13], 128.5f / 64);
+    EXPECT_NEAR(back.data[15], 1e-38f, 1e-38f / 256);
     EXPECT_EQ(back.data[18], 0.0f);
-    EXPECT_EQ(back.data[21], 1.0f); // rounds up to the next exponent
-    EXPECT_EQ(back.data[22], 0.5f);
-    EXPECT_EQ(back.data[24], 1.0f);
+    EXPECT_EQ(back.data[21], 255.5f / 256);
+    EXPECT_EQ(back.data[22], 128.5f / 256);
+    EXPECT_EQ(back.data[24], 255.5f / 256);
+    writeImage(folder / "again.hdr", back);
+    EXPECT_EQ(readImage(folder / "again.hdr").data, back.data) << "what was read is written as it was";
 
     Image grey(2, 1, 1);
     grey.data = {3.0f, 0.25f};
     writeImage(folder / "grey.hdr", grey);
-    EXPECT_EQ(readImage(folder / "grey.hdr").data, (std::vector<float>{3, 3, 3, 0.25f, 0.25f, 0.25f}));
+    const float three = 192.5f / 64, quarter = 128.5f / 512;
+    EXPECT_EQ(readImage(folder / "grey.hdr").data,
+              (std::vector<float>{three, three, three, quarter, quarter, quarter}));
 }
 
 TEST(ImageIo, WritesNothingThatIsNotFinite) {
@@ -141,7 +257,7 @@ TEST(ImageIo, WritesNothingThatIsNotFinite) {
     EXPECT_EQ(loadTexels(folder / "a.png").srgb8[0], 0);
     EXPECT_EQ(loadTexels(folder / "a.png").srgb8[1], 255);
     writeImage(folder / "a.hdr", image);
-    EXPECT_EQ(readImage(folder / "a.hdr").data[0], 0.0f);
+    EXPECT_EQ(readImage(folder / "a.hdr").data[0], 0x1p118f); // half a step beside an infinity
 }
 
 // Written by tinyexr and stb: R = x/16, G = y/16, B = xy/256.

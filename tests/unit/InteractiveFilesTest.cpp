@@ -1,9 +1,11 @@
 // What a window writes, and what it compares its films with.
 #include <filesystem>
+#include <fstream>
 
 #include <gtest/gtest.h>
 
 #include "Common/Image/ImageIo.h"
+#include "tests/unit/GltfBuilder.h"
 #include "tests/unit/InteractiveFixture.h"
 
 namespace rt::app {
@@ -22,6 +24,39 @@ TEST_F(InteractiveFilesTest, SavesWhatItShows) {
     session.save({.files = {(folder_ / "no/such/folder/a.png").string()}});
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
     EXPECT_EQ(session.state().activity, Activity::Finished);
+}
+
+// As dropping does it, with the path that the window system hands over.
+TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
+    InteractiveSession session(setup(4));
+    ASSERT_TRUE(reaches(session, isFinished));
+    scene::GltfBuilder gltf;
+    nlohmann::json primitive = gltf.triangle();
+    primitive["material"] = gltf.add("materials", {{"pbrMetallicRoughness", {{"metallicFactor", 1}}}});
+    gltf.addNode({{"mesh", gltf.addMesh(primitive)}});
+    std::filesystem::create_directories(folder_ / "h\xc3\xa4user & mehr");
+    const std::filesystem::path glb = gltf.save(folder_ / "h\xc3\xa4user & mehr/a.GLB");
+    const std::filesystem::path text = gltf.saveWithBuffer(folder_ / "b.gltf", "b.bin", folder_ / "b.bin");
+    std::ofstream(folder_ / "c.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl unknown\nf 1 2 3\n";
+    std::uint64_t loads = 1;
+    for (const std::filesystem::path& file : {glb, text, folder_ / "c.obj"}) {
+        session.open(file.string());
+        ++loads;
+        ASSERT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == loads && isFinished(s); }))
+            << file;
+        const SessionState state = session.state();
+        EXPECT_EQ(state.source, file.string());
+        EXPECT_EQ(state.scene->id, file.filename().string());
+        EXPECT_EQ(state.scene->triangles.size(), 1u);
+        EXPECT_EQ(state.scene->materials.at(0).kind,
+                  file.extension() == ".obj" ? shared::kMaterialLambertian : shared::kMaterialPrincipled);
+    }
+    EXPECT_EQ(session.state().scene->notices.size(), 1u) << "which the panel of the scene shows";
+    scene::GltfBuilder::write(folder_ / "broken.glb", gltf.binary().substr(0, 100));
+    session.open((folder_ / "broken.glb").string());
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
+    EXPECT_NE(session.state().errors.back().text.find("broken.glb"), std::string::npos);
+    EXPECT_EQ(session.state().scene->id, "c.obj");
 }
 
 // Asked for at any time, also where one film ends and the next one begins.

@@ -118,7 +118,6 @@ TEST_F(ObjLoader, SplitsByMaterialAndUnderstandsThem) {
 }
 
 TEST_F(ObjLoader, ErrorsNameFileAndLine) {
-    write("model.mtl", "newmtl red\nKd 1 0 0\nnewmtl mapped\nmap_Kd gone.png\n");
     EXPECT_EQ(errorOf(kSquare + "f 1 2 9\n").rfind("model.obj:5: vertex index 9: there are 4 so far", 0), 0u);
     EXPECT_EQ(errorOf(kSquare + "\n# comment\nf 1 2 -5\n").rfind("model.obj:7: vertex index -5", 0), 0u);
     EXPECT_EQ(errorOf("f 1 2 3\n" + kSquare).rfind("model.obj:1: vertex index 1: there are 0 so far", 0), 0u);
@@ -128,14 +127,47 @@ TEST_F(ObjLoader, ErrorsNameFileAndLine) {
     EXPECT_EQ(errorOf(kSquare + "f 1//1 2//1 3//1\n").rfind("model.obj:5: normal index 1", 0), 0u);
     EXPECT_EQ(errorOf(kSquare + "f 1 2\n").rfind("model.obj:5: a face of 2 corners", 0), 0u);
     EXPECT_EQ(errorOf("v 1e999 0 0\n").rfind("model.obj:1: a coordinate is too large", 0), 0u);
-    EXPECT_EQ(errorOf(kSquare + "usemtl red\nf 1 2 3\n").rfind("model.obj:5: material \"red\" is in none", 0), 0u);
-    EXPECT_EQ(errorOf("mtllib gone.mtl\n" + kSquare).rfind("model.obj:1: no such material file", 0), 0u);
-    EXPECT_NE(errorOf("mtllib model.mtl\n" + kSquare + "usemtl red\nf 1 2 3\n").find("no such image file"),
-              std::string::npos);
     for (const char* empty : {"", "\n", "# nothing\n", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "garbage\n\x01\x02"})
         EXPECT_NE(errorOf(empty).find("there is no face in it"), std::string::npos) << empty;
     EXPECT_THROW(loadObj(folder_ / "gone.obj", true), InputError);
     EXPECT_THROW(loadObj(folder_, true), InputError);
+}
+
+TEST_F(ObjLoader, WhatIsNoFaceIsLeftOutByName) {
+    EXPECT_NE(errorOf(kSquare + "l 1 2\np 1\nl 3 4\n")
+                  .find("there is no face in it, and nothing else can be rendered: "
+                        "2 lines, 1 points"),
+              std::string::npos);
+    const ObjModel model = load("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 0 1 0\n l 1 2\nf 1 2 3\nf\n");
+    ASSERT_EQ(model.notices.size(), 2u);
+    EXPECT_NE(model.notices[0].find("1 lines, 1 faces without corners"), std::string::npos);
+    EXPECT_NE(model.notices[1].find("colours of vertices"), std::string::npos);
+    EXPECT_TRUE(load("v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nf 1 2 3\n").notices.empty()) << "w is no colour";
+}
+
+TEST_F(ObjLoader, Utf16AndByteOrderMarksAreRead) {
+    const std::string text =
+        kSquare + "usemtl \xc3\xa4\xf0\x9f\x98\x80\nf 1 2 3\n"; // an umlaut and a character of four bytes
+    const std::u16string wide = [] {
+        std::u16string characters;
+        for (const char c : kSquare + "usemtl ") characters += static_cast<char16_t>(c);
+        return characters + u"\u00e4\U0001f600\nf 1 2 3\n";
+    }();
+    std::string big = "\xfe\xff", little = "\xff\xfe";
+    for (const char16_t c : wide) {
+        big += {static_cast<char>(c >> 8), static_cast<char>(c & 255)};
+        little += {static_cast<char>(c & 255), static_cast<char>(c >> 8)};
+    }
+    const ObjModel plain = load(text);
+    ASSERT_EQ(plain.notices.size(), 1u);
+    EXPECT_NE(plain.notices[0].find("\"\xc3\xa4\xf0\x9f\x98\x80\""), std::string::npos);
+    for (const std::string& encoded : {"\xef\xbb\xbf" + text, big, little}) {
+        const ObjModel model = load(encoded);
+        EXPECT_EQ(model.parts.at(0).mesh, plain.parts[0].mesh);
+        EXPECT_EQ(model.notices, plain.notices);
+    }
+    EXPECT_NE(errorOf("\xff\xfe").find("no face"), std::string::npos);
+    EXPECT_NE(errorOf("\xfe\xff\xd8").find("no face"), std::string::npos);
 }
 
 TEST_F(ObjLoader, AMaterialFileThatIsNoneIsANotice) {
@@ -192,6 +224,7 @@ TEST_F(ObjLoader, MaterialsOfAFileServeAMeshWithoutOne) {
     EXPECT_NEAR(compiled->materials[compiled->meshes[1].material].albedo.x, 0.8, 1e-6);
     EXPECT_EQ(compiled->materials[compiled->meshes[2].material].kind, shared::kMaterialDielectric);
     EXPECT_EQ(compiled->meshes[2].triangleCount, 2u);
+    EXPECT_EQ(compiled->materialNames, (std::vector<std::string>{"plain", "red", "own"}));
 }
 
 } // namespace

@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(Counts, PunctualChoice, testing::Values(24u, 60u, 400u)
 TEST(Sky, TurnsAboutTheVertical) {
     constexpr std::uint32_t width = 64, height = 32;
     CompileOptions options;
-    options.loadTexels = [](const std::filesystem::path&) {
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) {
         TexelData data{width, height, shared::kTexelLinearF32, {}};
         Uniforms uniform(6);
         for (std::uint32_t i = 0; i < width * height * 3; ++i)

@@ -144,6 +144,29 @@ bool isFinite(const shared::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// 16 bits a channel arrive as floats, and only the texture knows whether they are encoded.
+TEST(SceneCompiler, ColorSpacesDecodeWhatIsEncoded) {
+    constexpr float kEncoded = 0.5f + 1.0f / 65536; // no multiple of 1 / 255
+    SceneDesc scene = withMaterials();
+    ImageTexture image{RT_SOURCE_DIR "/Assets/scene.schema.json", {}}; // any file that exists
+    scene.textures["srgb"] = image;
+    image.colorSpace = ColorSpace::Linear;
+    scene.textures["linear"] = image;
+    for (const char* name : {"srgb", "linear"}) {
+        scene.materials[name].albedo = name;
+        add(scene, sphere({0, 0, -5}, 1, name));
+    }
+    CompileOptions options;
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) {
+        const std::uint32_t word = shared::floatBitsToUint(kEncoded);
+        return TexelData{1, 1, shared::kTexelLinearF32, {word, word, word}, true};
+    };
+    const auto compiled = compileScene(scene, options);
+    ASSERT_EQ(compiled->texels.size(), 6u);
+    EXPECT_NEAR(shared::uintBitsToFloat(compiled->texels[0]), std::pow((kEncoded + 0.055) / 1.055, 2.4), 1e-7);
+    EXPECT_EQ(shared::uintBitsToFloat(compiled->texels[3]), kEncoded);
+}
+
 TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {
     constexpr double kInf = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
     const double bad[] = {kInf, -kInf, kNan, 1e300, -1e39};

@@ -99,7 +99,7 @@ TEST(SceneLights, TargetsFollowTheLights) {
 TEST(SceneLights, SkyImagesAreSampledByBrightness) {
     constexpr std::uint32_t width = 8, height = 4;
     CompileOptions options;
-    options.loadTexels = [](const std::filesystem::path&) {
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) {
         TexelData data{width, height, shared::kTexelLinearF32, std::vector<std::uint32_t>(width * height * 3, 0u)};
         const auto set = [&](std::uint32_t x, std::uint32_t y, float value) {
             for (std::uint32_t c = 0; c < 3; ++c) data.words[3 * (y * width + x) + c] = shared::floatBitsToUint(value);
@@ -145,7 +145,7 @@ TEST(SceneLights, SkyImagesAreSampledByBrightness) {
 TEST(SceneLights, SkyImagesRunToTheRightAsSeenFromInside) {
     constexpr std::uint32_t width = 4, height = 2;
     CompileOptions options;
-    options.loadTexels = [](const std::filesystem::path&) {
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) {
         TexelData data{width, height, shared::kTexelLinearF32, {}};
         for (std::uint32_t y = 0; y < height; ++y)
             for (const float channel : {1, 0, 0, /**/ 0, 1, 0, /**/ 0, 0, 1, /**/ 1, 1, 1})

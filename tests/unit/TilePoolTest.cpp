@@ -133,6 +133,69 @@ TEST(TilePool, RoundsKeepTheImageEven) {
     EXPECT_EQ(simulation.film().minSamples(), 1000u);
 }
 
+// An adaptive film's pilot and what its plan adds, with a rank that keeps its tiles of the pilot for ever.
+TEST(TilePool, GoesOnToAPlan) {
+    constexpr std::uint32_t kPilot = 16; // samples of both halves
+    Film film({32, 32, 2, false, true});
+    film.reserveOpenBlocks();
+    const image::TileList all = image::allTiles(film);
+    const std::vector<double> sums(Film::kTilePixels * 3);
+    const std::vector<float> open(Film::kTilePixels * 3);
+    const auto render = [&](const Lease& lease) {
+        for (const std::uint32_t tile : lease.tiles) {
+            for (std::uint32_t r = 0; r < 2; ++r) {
+                std::uint32_t end = lease.spp / 2;
+                if (film.hasPlan()) end = std::min(end, film.planEnd(tile, r));
+                film.assign(tile, r, {end, sums, film.hasPlan() ? std::span<const double>{} : sums, open});
+            }
+        }
+        return static_cast<std::uint64_t>(lease.tiles.size());
+    };
+    TilePool pool(film, {all, kPilot, false}, 2);
+    const auto stuck = pool.lease(0, 2, 0);
+    ASSERT_TRUE(stuck);
+    double now = 100; // when the other rank finds it overdue
+    const auto work = [&] {
+        while (!pool.isDone()) {
+            const auto lease = pool.lease(1, 2, now);
+            ASSERT_TRUE(lease);
+            pool.giveBack(1, render(*lease), 1);
+        }
+    };
+    work();
+    EXPECT_EQ(film.nextSample(kPilot), Film::kNoSample);
+
+    std::vector<std::uint32_t> plan;
+    for (const std::uint32_t tile : all) plan.insert(plan.end(), 2 * Film::kTilePixels, kPilot / 2 + tile % 3);
+    film.setPlan(plan);
+    pool.goOn({all, 2 * (kPilot / 2 + 2), false});
+    EXPECT_FALSE(pool.isDone());
+    EXPECT_TRUE(pool.isLeased(0)); // it gets no other before it answers
+    work();
+    for (const std::uint32_t tile : all) EXPECT_EQ(film.samples(tile, 1), kPilot / 2 + tile % 3) << tile;
+    pool.giveBack(0, 0, 200);
+    EXPECT_FALSE(pool.lease(0, 2, now));
+    EXPECT_TRUE(pool.isDone());
+}
+
+// Recalls, as for checkpoints, interrupt who does the work of a rank that hangs.
+TEST(TilePool, CopiesThatComeBackUnfinishedAreMadeAnew) {
+    Film film({32, 32, 1, false});
+    TilePool pool(film, {image::allTiles(film), 64, false}, 2);
+    const std::vector<double> sums(Film::kTilePixels * 3);
+    ASSERT_TRUE(pool.lease(0, 4, 0)); // and never comes back
+    for (int recalls = 0; !pool.isDone(); ++recalls) {
+        ASSERT_LT(recalls, 1000);
+        const auto lease = pool.lease(1, 4, 100);
+        ASSERT_TRUE(lease);
+        const std::uint32_t tile = lease->tiles[static_cast<std::size_t>(recalls) % lease->tiles.size()];
+        const std::uint32_t samples = film.samples(tile, 0) + (film.samples(tile, 0) < lease->spp ? Film::kBlock : 0);
+        film.assign(tile, 0, {samples, sums, {}, {}});
+        pool.giveBack(1, Film::kBlock * Film::kTilePixels, 0.2);
+    }
+    EXPECT_EQ(film.minSamples(), 64u);
+}
+
 TEST(TilePool, LeasesDoNotOverlap) {
     const Film film({kTilesX * Film::kTile, kTilesY * Film::kTile, 1, false});
     TilePool pool(film, {image::allTiles(film), 16, false}, 3);

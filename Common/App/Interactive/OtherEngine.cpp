@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <random>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -15,6 +14,7 @@
 #include "Common/App/Options/Names.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/OwnFolder.h"
 #include "Common/Core/Paths.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/Metrics.h"
@@ -27,30 +27,6 @@ using Phase = OtherState::Phase;
 
 constexpr auto kLook = std::chrono::milliseconds(50); // between two looks at the program
 constexpr const char* kProgressSeconds = "0.25";      // between two lines of its progress
-
-// A folder that nobody else has, gone with this.
-class OwnFolder {
-  public:
-    OwnFolder() {
-        std::random_device random;
-        std::error_code error;
-        do path_ = fs::temp_directory_path() / ("ray-tracing-" + std::to_string(random()));
-        while (!fs::create_directory(path_, error) && !error);
-        if (error) throw RenderError(path_.string() + ": cannot be made: " + error.message());
-        fs::permissions(path_, fs::perms::owner_all, error);
-    }
-    ~OwnFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    OwnFolder(const OwnFolder&) = delete;
-    OwnFolder& operator=(const OwnFolder&) = delete;
-
-    fs::path operator/(const char* name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
-};
 
 std::string textOf(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);

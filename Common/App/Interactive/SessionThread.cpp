@@ -148,6 +148,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.stage.clear();
         state.scene = loaded_.scene;
         state.source = loaded_.request.source;
+        state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
         state.sceneSerial = sceneSerial_;

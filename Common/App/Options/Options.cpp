@@ -64,15 +64,17 @@ void addScene(FlagSet& flags, Parsed& parsed) {
     Options& options = parsed.options;
     flags.group("Scene");
     flags
-        .add("--scene", "S", "id of --list-scenes, a .json scene or an .obj file",
+        .add("--scene", "S", "id of --list-scenes, a .json scene, an .obj, .gltf or .glb file",
              [&options](const std::string& flag, const std::string& text) {
-                 if (text.empty()) refuseValue(flag, text, "an id of --list-scenes, a .json scene or an .obj file");
+                 if (text.empty()) refuseValue(flag, text, "an id of --list-scenes, a .json scene, an .obj, .gltf or .glb file");
                  options.scene = text;
              })
         ->default_str(options.scene);
-    flags.add("--camera", "POSE", "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...",
-              [&options](const std::string&, const std::string& text) {
-                  (void)poseOf(text, {}); // the scene may say the rest
+    flags.add("--camera", "POSE", "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...; or the name of one "
+              "of the scene's cameras",
+              [&options](const std::string& flag, const std::string& text) {
+                  if (text.empty()) refuseValue(flag, text, "a pose as JSON, or the name of a camera");
+                  if (isPose(text)) (void)poseOf(text, {}); // the scene may say the rest
                   options.camera = text;
               });
     flags.addFile("--assets-below", options.assetsBelow, "DIR: no file of the scene may lie elsewhere");
@@ -260,7 +262,9 @@ void settleErrorEstimate(Options& options) {
 void settleFiles(Options& options) {
     if (!options.aovs.empty() && options.outputs.empty()) throw UsageError("--aov: needs --output");
     if (options.settings.adaptive && (options.region || options.tiles))
-        throw UsageError("--adaptive on: plans the samples of a whole image; not with --region or --tiles");
+        throw UsageError(
+            "--adaptive on: not with --region or --tiles, as its plan needs a pilot of the whole image; mpirun shares "
+            "that out too");
     if (options.targetError && (options.region || options.tiles))
         throw UsageError("--target-error: is that of a whole image; not with --region or --tiles");
     if ((!options.saveEvery && !options.tiles) || !options.checkpoint.empty()) return;

@@ -1,16 +1,17 @@
 #include "Common/App/Ranks/RankedEngine.h"
 
 #include <algorithm>
+#include <functional>
 #include <thread>
 #include <utility>
 
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Ranks/TilePool.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
+#include "Common/Image/SamplePlan.h"
 
 namespace rt::app {
 namespace {
@@ -39,10 +40,14 @@ class RankedEngine final : public Engine {
     }
 
     void reset(const scene::CameraDesc& camera, const RenderSettings& settings) override;
-    void restore(image::Film film) override { film_ = std::move(film); }
+    void restore(image::Film film) override {
+        film_ = std::move(film);
+        plan_.spp = goal();
+    }
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
         image::unpackTiles(packed, film_);
         plan_ = {std::move(tiles), spp, plan_.evenly};
+        isPart_ = true;
     }
     RenderStatus renderSome(const Budget& budget) override;
     const image::Film& film() override;
@@ -54,7 +59,8 @@ class RankedEngine final : public Engine {
 
   private:
     struct RankState {
-        bool isReady = false; // for leases
+        bool isReady = false;  // for leases
+        bool isSilent = false; // it has not answered a recall in time, nor said anything since: it may hang
         EngineReport report;
         RankFigures figures;
     };
@@ -66,6 +72,8 @@ class RankedEngine final : public Engine {
     void takeResult(std::size_t rank, const Message& message);
     void fail(std::size_t rank, const Error& error);
     void lease(std::size_t rank);
+    std::uint32_t goal() const { return static_cast<std::uint32_t>(image::goalOf(film_, settings_.spp)); }
+    bool planSamples();
     RenderStatus status() const;
 
     std::unique_ptr<Engine> local_;
@@ -74,6 +82,7 @@ class RankedEngine final : public Engine {
     RenderSettings settings_;
     image::Film film_;
     TilePlan plan_;
+    bool isPart_ = false;          // of the image: renderOnly() has said which
     std::optional<TilePool> pool_; // from the first samples on
     Stopwatch clock_;
     double sampling_ = 0; // seconds
@@ -83,13 +92,12 @@ class RankedEngine final : public Engine {
 };
 
 void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& settings) {
-    if (isAdaptive(settings))
-        throw UsageError("--adaptive on: plans the samples of a whole image; not with several ranks");
     local_->reset(camera, settings); // whose failures are seen before anybody waits
     settings_ = settings;
     film_ = image::Film(local_->film().desc());
     if (settings.spp % image::Film::kBlock != 0 || settings.replicates > 1) film_.reserveOpenBlocks();
-    plan_ = {image::allTiles(film_), settings.spp, !settings.sppIsKnown};
+    plan_ = {image::allTiles(film_), goal(), !settings.sppIsKnown};
+    isPart_ = false;
     pool_.reset();
     localRank_.emplace(*local_, *scene_, settings_);
 }
@@ -97,7 +105,7 @@ void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& 
 RenderStatus RankedEngine::renderSome(const Budget& budget) {
     if (!pool_) pool_.emplace(film_, plan_, states_.size());
     const Stopwatch watch;
-    while (!pool_->isDone()) {
+    while (!pool_->isDone() || planSamples()) {
         if (budget.cancel != nullptr && budget.cancel->load(std::memory_order_relaxed)) break;
         const bool isBusy = receiveAll();
         if (failure_) throw *failure_;
@@ -109,13 +117,30 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
     return status();
 }
 
+// Decides on the samples of an adaptive film, whose pilot is done. False: there is nothing to decide.
+bool RankedEngine::planSamples() {
+    if (isPart_ || !film_.isPilot()) return false;
+    film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+    plan_.spp = goal();
+    for (std::size_t rank = 0; rank < states_.size(); ++rank) // who was overdue; others have done its tiles
+        if (pool_->isLeased(rank)) send(rank, {MessageKind::Recall, nullptr, {}});
+    pool_->goOn(plan_);
+    return true;
+}
+
 const image::Film& RankedEngine::film() {
     if (!pool_ || pool_->isDone()) return film_;
-    for (std::size_t rank = 0; rank < states_.size(); ++rank)
-        if (pool_->isLeased(rank)) send(rank, {MessageKind::Recall, nullptr, {}});
+    const auto isAwaited = [this](std::size_t rank) { return pool_->isLeased(rank) && !states_[rank].isSilent; };
+    std::vector<std::size_t> awaited;
+    for (std::size_t rank = 0; rank < states_.size(); ++rank) {
+        if (!isAwaited(rank)) continue;
+        send(rank, {MessageKind::Recall, nullptr, {}});
+        awaited.push_back(rank);
+    }
     const Stopwatch watch;
-    while (pool_->isLeased() && watch.seconds() < kRecall)
+    while (std::erase_if(awaited, std::not_fn(isAwaited)), !awaited.empty() && watch.seconds() < kRecall)
         if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
+    for (const std::size_t rank : awaited) states_[rank].isSilent = true;
     return film_;
 }
 
@@ -145,6 +170,7 @@ bool RankedEngine::receiveAll() {
 }
 
 void RankedEngine::receive(std::size_t rank, const Message& message) {
+    states_[rank].isSilent = false;
     if (message.kind == MessageKind::Ready) greet(rank, message.fields);
     if (message.kind == MessageKind::Result) takeResult(rank, message);
     if (message.kind != MessageKind::Failure) return;
@@ -206,8 +232,10 @@ void RankedEngine::lease(std::size_t rank) {
 }
 
 RenderStatus RankedEngine::status() const {
-    return {!pool_ || pool_->isDone(), image::totalSamples(film_, plan_.tiles),
-            image::pixelCount(film_, plan_.tiles) * plan_.spp};
+    const bool isDone = pool_->isDone() && (isPart_ || !film_.isPilot());
+    const std::uint64_t done = image::totalSamples(film_, plan_.tiles);
+    const std::uint64_t total = image::pixelCount(film_, plan_.tiles) * (isPart_ ? plan_.spp : settings_.spp);
+    return {isDone, done, total};
 }
 
 // Sums over the ranks; what they must have in common is that of rank 0.

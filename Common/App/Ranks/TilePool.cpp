@@ -1,7 +1,6 @@
 #include "Common/App/Ranks/TilePool.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace rt::app {
@@ -19,16 +18,49 @@ constexpr std::size_t kMostSlots = 1u << 16; // of a lease: 100 MB, or 200 MB wi
 TilePool::TilePool(const image::Film& film, TilePlan plan, std::size_t ranks)
     : film_(film), plan_(std::move(plan)), ranks_(ranks), holders_(film.tileCount(), 0) {
     refill();
-    isDone_ = image::minSamples(film_, plan_.tiles) >= plan_.spp || plan_.tiles.empty();
+    updateDone();
+}
+
+void TilePool::goOn(TilePlan plan) {
+    plan_ = std::move(plan);
+    for (Rank& rank : ranks_) {
+        if (!rank.lease) continue;
+        for (const std::uint32_t tile : rank.lease->tiles) --holders_[tile];
+        rank.lease->tiles.clear();
+    }
+    isDrained_ = false;
+    refill();
+    updateDone();
+}
+
+void TilePool::updateDone() {
+    isDone_ = waiting_.empty() && image::nextSample(film_, plan_.tiles, plan_.spp) == image::Film::kNoSample;
+}
+
+// If nobody holds it and it lacks samples of this round.
+void TilePool::enqueue(std::uint32_t tile, End end) {
+    const std::uint64_t samples = holders_[tile] > 0 ? 0 : image::missingSamples(film_, {&tile, 1}, round_);
+    if (samples == 0) return;
+    waiting_.insert(end == End::Front ? waiting_.begin() : waiting_.end(), {tile, samples});
+    waitingSamples_ += samples;
+}
+
+// Samples per pixel that a lease of these tiles leads to.
+std::uint32_t TilePool::lengthOf(const image::TileList& tiles) const {
+    if (!film_.hasPlan()) return round_;
+    std::uint32_t end = 0;
+    for (const std::uint32_t tile : tiles)
+        for (std::uint32_t r = 0; r < film_.desc().replicates; ++r) end = std::max(end, film_.planEnd(tile, r));
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(round_, std::uint64_t{end} * film_.desc().replicates));
 }
 
 // With the tiles of the next round that has any. Its length is that of whole blocks, for which no rank keeps an open
 // one.
 void TilePool::refill() {
-    std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t fewest = image::Film::kNoSample;
     for (const std::uint32_t tile : plan_.tiles)
-        if (holders_[tile] == 0) fewest = std::min(fewest, film_.samples(tile));
-    if (fewest >= plan_.spp) return;
+        if (holders_[tile] == 0) fewest = std::min(fewest, film_.nextSample(tile, plan_.spp));
+    if (fewest == image::Film::kNoSample) return;
     const std::uint64_t block = std::uint64_t{image::Film::kBlock} * film_.desc().replicates;
     std::uint64_t end = plan_.spp;
     if (plan_.evenly) {
@@ -36,8 +68,7 @@ void TilePool::refill() {
         while (end <= fewest) end *= 2;
     }
     round_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, plan_.spp));
-    for (const std::uint32_t tile : plan_.tiles)
-        if (holders_[tile] == 0 && film_.samples(tile) < round_) waiting_.push_back(tile);
+    for (const std::uint32_t tile : plan_.tiles) enqueue(tile, End::Back);
 }
 
 double TilePool::totalRate() const {
@@ -55,7 +86,6 @@ void TilePool::keep(std::size_t rank, Lease lease, double now) {
     for (const std::uint32_t tile : lease.tiles) ++holders_[tile];
     Rank& holder = ranks_[rank];
     holder.since = now;
-    holder.isCopied = false;
     holder.lease = std::move(lease);
 }
 
@@ -67,43 +97,48 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
         if (copy) keep(rank, *copy, now);
         return copy;
     }
-    constexpr double kTilePixels = image::Film::kTilePixels;
-    const double tileSamples =
-        kTilePixels *
-        static_cast<double>(round_ - std::min<std::uint64_t>(film_.samples(waiting_.front()), round_ - 1));
-    const double rate = ranks_[rank].rate, all = totalRate();
-    double wanted = least; // until its rate is known, as few as possible
-    if (rate > 0)
-        wanted =
-            std::max(std::min(kPart * rate / all * static_cast<double>(waiting_.size()), kLongest * rate / tileSamples),
-                     std::min<double>(least, kLongestLeast * rate / tileSamples));
-    const std::size_t most = std::min(waiting_.size(), std::max<std::size_t>(1, kMostSlots / film_.desc().replicates));
-    const std::size_t count = std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, most);
-    const double expected = rate > 0 ? static_cast<double>(count) * tileSamples / rate : kLongest / kPatience;
-    Lease lease{{}, round_, kPatience * expected + kLeastPatience};
-    const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
-    lease.tiles.assign(waiting_.begin(), end);
-    waiting_.erase(waiting_.begin(), end);
+    const double rate = ranks_[rank].rate;
+    double wanted = 0, atLeast = 0; // samples; of `least` tiles no more than these
+    if (rate > 0) {
+        wanted = std::min(kPart * rate / totalRate() * static_cast<double>(waitingSamples_), kLongest * rate);
+        atLeast = kLongestLeast * rate;
+    }
+    const std::size_t most = std::max<std::size_t>(1, kMostSlots / film_.desc().replicates);
+    Lease lease{{}, 0, 0};
+    double samples = 0;
+    while (!waiting_.empty() && lease.tiles.size() < most) {
+        const Waiting& next = waiting_.front();
+        const double more = samples + static_cast<double>(next.samples);
+        const bool isLeast = lease.tiles.size() < least && (rate <= 0 || more <= atLeast);
+        if (!lease.tiles.empty() && !isLeast && more > wanted) break;
+        samples = more;
+        waitingSamples_ -= next.samples;
+        lease.tiles.push_back(next.tile);
+        waiting_.pop_front();
+    }
+    lease.spp = lengthOf(lease.tiles);
+    const double expected = rate > 0 ? samples / rate : kLongest / kPatience;
+    lease.seconds = kPatience * expected + kLeastPatience;
     std::sort(lease.tiles.begin(), lease.tiles.end());
     keep(rank, lease, now);
     return lease;
 }
 
-std::optional<Lease> TilePool::copyOverdue(double now) {
-    Rank* latest = nullptr;
+// Of the rank that is most overdue, the tiles that nobody else holds. A copy that comes back unfinished is made anew.
+std::optional<Lease> TilePool::copyOverdue(double now) const {
+    std::optional<Lease> copy;
     double most = 0;
-    for (Rank& rank : ranks_) {
-        if (!rank.lease || rank.isCopied) continue;
-        const double late = now - rank.since - rank.lease->seconds;
+    for (const Rank& rank : ranks_) {
+        const double late = rank.lease ? now - rank.since - rank.lease->seconds : 0;
         if (late <= most) continue;
+        Lease lease = *rank.lease;
+        std::erase_if(lease.tiles, [&](std::uint32_t tile) {
+            return holders_[tile] > 1 || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
+        });
+        if (lease.tiles.empty()) continue;
         most = late;
-        latest = &rank;
+        copy = std::move(lease);
     }
-    if (latest == nullptr) return std::nullopt;
-    latest->isCopied = true;
-    Lease copy = *latest->lease;
-    std::erase_if(copy.tiles, [&](std::uint32_t tile) { return film_.samples(tile) >= copy.spp; });
-    if (copy.tiles.empty()) return std::nullopt;
     return copy;
 }
 
@@ -113,15 +148,11 @@ void TilePool::giveBack(std::size_t rank, std::uint64_t samples, double busy) {
     if (samples > 0 && busy > 0) holder.rate = static_cast<double>(samples) / busy;
     for (const std::uint32_t tile : holder.lease->tiles) {
         --holders_[tile];
-        if (holders_[tile] == 0 && film_.samples(tile) < round_) waiting_.push_front(tile);
+        enqueue(tile, End::Front);
     }
     holder.lease.reset();
     isDrained_ = false;
-    isDone_ = waiting_.empty() && image::minSamples(film_, plan_.tiles) >= plan_.spp;
-}
-
-bool TilePool::isLeased() const {
-    return std::any_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) { return rank.lease.has_value(); });
+    updateDone();
 }
 
 } // namespace rt::app

@@ -15,8 +15,8 @@ struct Lease {
     double seconds = 0;    // after which they are to be given back, done or not
 };
 
-// What has to be done: these tiles, to `spp` samples per pixel. `evenly`: in rounds that double the samples, because a
-// limit may end the render at any time.
+// What has to be done: these tiles, to `spp` samples per pixel, or where the film has a plan to what that gives of
+// these. `evenly`: in rounds that double the samples, because a limit may end the render at any time.
 struct TilePlan {
     image::TileList tiles;
     std::uint32_t spp = 0;
@@ -28,6 +28,9 @@ class TilePool {
   public:
     TilePool(const image::Film& film, TilePlan plan, std::size_t ranks);
 
+    // Begins another plan, when all is done. What ranks still hold is of no use any more, whenever they give it back.
+    void goOn(TilePlan plan);
+
     // For a rank that holds none, if there is anything for it to do. Leases take a rank about as long as a fraction of
     // what is left takes all ranks, so that they shrink towards the end; of fewer than `least` tiles a rank does not
     // make the best. When no tile is left to be handed out, those of a rank that takes far longer than it was expected
@@ -37,19 +40,26 @@ class TilePool {
     void giveBack(std::size_t rank, std::uint64_t samples, double busy);
 
     bool isDone() const { return isDone_; } // every tile has its samples
-    bool isLeased() const;
     bool isLeased(std::size_t rank) const { return ranks_[rank].lease.has_value(); }
 
   private:
     struct Rank {
         std::optional<Lease> lease;
-        double since = 0;      // when it was made
-        bool isCopied = false; // its tiles have been handed out again
-        double rate = 0;       // samples a second; 0: not known yet
+        double since = 0; // when it was made
+        double rate = 0;  // samples a second; 0: not known yet
+    };
+
+    struct Waiting {
+        std::uint32_t tile = 0;
+        std::uint64_t samples = 0; // that it lacks of this round
     };
 
     void refill();
-    std::optional<Lease> copyOverdue(double now);
+    enum class End { Front, Back };
+    void enqueue(std::uint32_t tile, End end);
+    std::uint32_t lengthOf(const image::TileList& tiles) const;
+    void updateDone();
+    std::optional<Lease> copyOverdue(double now) const;
     void keep(std::size_t rank, Lease lease, double now);
     double totalRate() const;
 
@@ -57,7 +67,8 @@ class TilePool {
     TilePlan plan_;
     std::vector<Rank> ranks_;
     std::vector<std::uint16_t> holders_; // of each tile of the film
-    std::deque<std::uint32_t> waiting_;  // nobody holds them, and they lack samples of this round
+    std::deque<Waiting> waiting_;        // nobody holds these tiles, and they lack samples of this round
+    std::uint64_t waitingSamples_ = 0;   // of all of them
     std::uint32_t round_ = 0;            // leads to so many samples
     bool isDrained_ = false;             // no tile can be waiting before one is given back
     bool isDone_ = false;

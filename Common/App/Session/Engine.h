@@ -106,8 +106,9 @@ struct Engine {
     // After reset: goes on from this film, whose desc() must be that of the new one.
     virtual void restore(image::Film film) = 0;
     // After reset and restore: from now on only these tiles, and of them `spp` samples per pixel, at most those of the
-    // settings; none of the bits depends on it. The film first takes over what `packed` holds (FilmTiles.h).
-    // An adaptive film takes all tiles.
+    // settings; none of the bits depends on it. The film first takes over what `packed` holds (FilmTiles.h), plans
+    // included: an adaptive film makes none of its own any more, and `spp` is at most its pilot's samples, or with a
+    // plan what it gives any pixel.
     virtual void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed = {}) = 0;
     virtual RenderStatus renderSome(const Budget& budget) = 0;
     // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <map>
 #include <optional>
 #include <span>
 
@@ -11,22 +12,33 @@
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
+#include "Common/Scene/Gltf/GltfFile.h"
+#include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Obj/ObjLoader.h"
 
 namespace rt::app {
 namespace {
 
-// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words.
-scene::TexelData readTexels(const std::filesystem::path& path) {
-    const image::Texels texels = image::loadTexels(path);
+// What the scene compiler wants of an image file: sRGB bytes packed into words, or floats as words. Values of 16
+// bits become floats.
+scene::TexelData toTexelData(const image::Texels& texels) {
     scene::TexelData data;
     data.width = texels.width;
     data.height = texels.height;
+    if (!texels.srgb16.empty()) {
+        data.format = shared::kTexelLinearF32;
+        data.isEncoded = true;
+        data.words.resize(texels.srgb16.size());
+        std::transform(texels.srgb16.begin(), texels.srgb16.end(), data.words.begin(),
+                       [](std::uint16_t value) { return shared::floatBitsToUint(float(value) / 65535.0f); });
+        return data;
+    }
     if (texels.srgb8.empty()) {
         data.format = shared::kTexelLinearF32;
         data.words.resize(texels.linear.size());
@@ -37,7 +49,8 @@ scene::TexelData readTexels(const std::filesystem::path& path) {
     data.words.resize(texels.srgb8.size() / 3);
     for (std::size_t i = 0; i < data.words.size(); ++i) {
         const std::uint8_t* rgb = &texels.srgb8[3 * i];
-        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16 | 0xff000000u;
+        const std::uint32_t alpha = texels.alpha8.empty() ? 0xffu : texels.alpha8[i];
+        data.words[i] = rgb[0] | std::uint32_t{rgb[1]} << 8 | std::uint32_t{rgb[2]} << 16 | alpha << 24;
     }
     return data;
 }
@@ -49,7 +62,13 @@ std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& 
     options.oneSidedLights = oneSidedLights;
     options.generatedAssets = generatedAssets;
     options.camera = camera;
-    options.loadTexels = readTexels;
+    std::map<std::filesystem::path, scene::GltfImages> files; // read once each
+    options.loadTexels = [&files](const std::filesystem::path& path, std::optional<std::uint32_t> image) {
+        if (!image) return toTexelData(image::loadTexels(path));
+        const scene::GltfImages& images = files.try_emplace(path, path).first->second;
+        return toTexelData(
+            image::decodeTexels(images.encoded(*image), path.string() + ": /images/" + std::to_string(*image)));
+    };
     return scene::compileScene(desc, options);
 }
 
@@ -60,10 +79,16 @@ scene::SceneDesc loadScene(const std::string& source) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension != ".json" && extension != ".obj") return scene::findBuiltinScene(source);
+    using Load = scene::SceneDesc (*)(const std::filesystem::path&);
+    static const std::map<std::string, Load> loaders = {{".json", scene::loadSceneFile},
+                                                        {".obj", scene::loadObjScene},
+                                                        {".gltf", scene::loadGltfScene},
+                                                        {".glb", scene::loadGltfScene}};
+    const auto loader = loaders.find(extension);
+    if (loader == loaders.end()) return scene::findBuiltinScene(source);
     std::error_code none;
     if (path.is_relative() && !std::filesystem::exists(path, none)) path = findAsset("scenes" / path).value_or(path);
-    return extension == ".json" ? scene::loadSceneFile(path) : scene::loadObjScene(path);
+    return loader->second(path);
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
@@ -75,7 +100,7 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
     const ReadsBelow confined(request.assetsBelow, request.source);
     const scene::SceneDesc desc = loadScene(request.source);
     std::optional<scene::CameraDesc> camera;
-    if (!request.pose.empty()) camera = poseOf(request.pose, desc.camera);
+    if (!request.pose.empty()) camera = cameraOf(request.pose, desc);
     return compileWith(desc, request.oneSidedLights, false, camera);
 }
 
@@ -85,6 +110,22 @@ scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scene
     throw UsageError("--camera " + pose +
                      ": allowed is a JSON object of look_from, look_at and up, each three numbers, vertical_fov, "
                      "defocus_angle and focus_distance, as a window copies its pose");
+}
+
+scene::CameraDesc cameraOf(const std::string& text, const scene::SceneDesc& scene) {
+    if (isPose(text)) return poseOf(text, scene.camera);
+    const auto found = scene.cameras.find(text);
+    if (found != scene.cameras.end()) return found->second;
+    std::string names;
+    for (const auto& [name, camera] : scene.cameras) names += (names.empty() ? "" : ", ") + name;
+    throw UsageError("--camera " + printable(text) + ": " +
+                     (names.empty() ? "the scene has no cameras with names; allowed is a pose as JSON"
+                                    : "allowed is a pose as JSON, or one of the scene's cameras: " + names));
+}
+
+bool isPose(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r\n");
+    return first != text.npos && text[first] == '{';
 }
 
 std::string listScenes(bool json) {

@@ -8,8 +8,8 @@
 
 namespace rt::app {
 
-// A .json scene file or an .obj file, by a path of its own or within the assets' folder "scenes", or the id of a
-// built-in scene. Throws InputError.
+// A .json scene file, an .obj, .gltf or .glb file, by a path of its own or within the assets' folder "scenes", or the id
+// of a built-in scene. Throws InputError.
 scene::SceneDesc loadScene(const std::string& source);
 
 // With its textures; with generated ones in place of files that have a stand-in, where asked for. Throws InputError.
@@ -20,7 +20,7 @@ std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc
 struct SceneRequest {
     std::string source; // id or file, as --scene takes it
     bool oneSidedLights = true;
-    std::string pose = {};        // of the camera, as --camera takes it; empty: the scene's own
+    std::string pose = {};        // or name of the camera, as --camera takes it; empty: the scene's own
     std::string assetsBelow = {}; // the folder that the scene's files must lie in; empty: anywhere
     bool operator==(const SceneRequest&) const = default;
 };
@@ -28,6 +28,12 @@ std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request)
 
 // The camera of a pose that may leave parts of it to the scene. Throws UsageError.
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes);
+
+// Whether --camera takes the text for a pose, and not for the name of a camera.
+bool isPose(const std::string& text);
+
+// What --camera names: a pose, or one of the scene's cameras by its name. Throws UsageError.
+scene::CameraDesc cameraOf(const std::string& text, const scene::SceneDesc& scene);
 
 // Ids and titles, one a line or as JSON: [{"id": …, "title": …, "description": …}].
 std::string listScenes(bool json);

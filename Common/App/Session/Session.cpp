@@ -220,7 +220,8 @@ std::string HeadlessRender::rescue() const {
 void exportScene(const Options& options) {
     const ReadsBelow confined(options.assetsBelow, options.scene);
     scene::SceneDesc scene = loadScene(options.scene);
-    if (!options.camera.empty()) scene.camera = poseOf(options.camera, scene.camera);
+    if (!options.camera.empty()) scene.camera = cameraOf(options.camera, scene);
+    for (const std::string& notice : scene.notices) logWarning(scene.id + ": " + notice);
     writeText(options.exportFile, scene::toJson(scene));
 }
 

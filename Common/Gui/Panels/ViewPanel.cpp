@@ -33,10 +33,11 @@ void drawViewOptions(Gui& gui) {
                    "tells",
                    view.scale, 0.1, 100, "%.2f", true);
     }
-    checkbox("Inspect pixels",
-             "Shows what the pixel under the pointer holds; beside a pinned picture of both, and their "
-             "difference",
-             view.inspect);
+    checkbox(
+        "Inspect pixels",
+        "Shows what the pixel under the pointer holds and the material that it shows; beside a pinned picture what "
+        "both hold, and their difference",
+        view.inspect);
 }
 
 void drawSplit(Gui& gui) {

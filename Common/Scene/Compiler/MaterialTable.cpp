@@ -18,7 +18,9 @@ constexpr double kLeastAttenuation = 1e-6; // of attenuation colours: black woul
 
 MaterialTable::MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out,
                              TextureTable& textures)
-    : desc_(desc), options_(options), out_(out), textures_(textures) {}
+    : desc_(desc), options_(options), out_(out), textures_(textures) {
+    for (const auto& [name, material] : desc.materials) names_[&material] = name;
+}
 
 const MaterialDesc& MaterialTable::find(const std::string& name) const {
     const auto found = desc_.materials.find(name);
@@ -51,6 +53,7 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
     }
     if (desc.kind == MaterialKind::Principled) addPrincipled(desc.principled);
     out_.materials.push_back(material);
+    out_.materialNames.push_back(names_[&desc]);
     if (!out_.principled.empty()) out_.principled.resize(out_.materials.size());
     meanEmission_.push_back(mean);
     return entry->second;
@@ -98,6 +101,11 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.normalTexture = shared::kNone;
     shared::vec3 ignored;
     if (!desc.normalTexture.empty()) p.normalTexture = textures_.resolve(desc.normalTexture, ignored);
+    if (p.normalTexture != shared::kNone && textures_.isGreyImage(p.normalTexture)) {
+        p.normalTexture = shared::kNone;
+        out_.notices.push_back("texture \"" + desc.normalTexture +
+                               "\" is grey, a map of heights and not of normals: left out");
+    }
     p.normalScale = static_cast<float>(desc.normalScale);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
     out_.principled.resize(out_.materials.size());

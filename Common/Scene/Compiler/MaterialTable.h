@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "Common/Scene/Compiler/TextureTable.h"
@@ -19,6 +20,9 @@ class MaterialTable {
     const MaterialDesc& find(const std::string& name) const;
     // The record of a description, which must stay where it is.
     std::uint32_t index(const MaterialDesc& desc);
+
+    // What people call a description that is none of the scene's own.
+    void setName(const MaterialDesc& desc, std::string name) { names_[&desc] = std::move(name); }
 
     // Whether texture coordinates matter to the material.
     bool mayShowImage(const MaterialDesc& desc) const;
@@ -35,6 +39,7 @@ class MaterialTable {
     CompiledScene& out_;
     TextureTable& textures_;
     std::unordered_map<const MaterialDesc*, std::uint32_t> indices_;
+    std::unordered_map<const MaterialDesc*, std::string> names_;
     std::map<float, std::uint32_t> glass_; // by index of refraction: first of glassAlbedos
     std::vector<glm::dvec3> meanEmission_;
 };

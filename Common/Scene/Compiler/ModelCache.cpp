@@ -6,8 +6,10 @@
 namespace rt::scene {
 
 ModelCache::ModelCache(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures,
-                       const MaterialTable& materials)
-    : desc_(desc), options_(options), out_(out), textures_(textures), materials_(materials) {}
+                       MaterialTable& materials)
+    : desc_(desc), options_(options), out_(out), textures_(textures), materials_(materials) {
+    materials_.setName(plain_, "plain");
+}
 
 const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
     const std::string key = source.file + '\n' + source.standIn + (withMaterials ? "\n+" : "\n-");
@@ -16,6 +18,8 @@ const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
     if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id)) {
         entry->second = loadObj(*path, withMaterials, source.file + "/");
         textures_.add(entry->second.textures);
+        for (const auto& [name, material] : entry->second.materials)
+            materials_.setName(material, name.substr(source.file.size() + 1));
         const std::vector<std::string>& notices = entry->second.notices;
         out_.notices.insert(out_.notices.end(), notices.begin(), notices.end());
     } else {

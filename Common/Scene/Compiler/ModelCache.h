@@ -14,7 +14,7 @@ namespace rt::scene {
 class ModelCache {
   public:
     ModelCache(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures,
-               const MaterialTable& materials);
+               MaterialTable& materials);
 
     struct Part {
         const MeshData* mesh;
@@ -31,7 +31,7 @@ class ModelCache {
     const CompileOptions& options_;
     CompiledScene& out_;
     TextureTable& textures_;
-    const MaterialTable& materials_;
+    MaterialTable& materials_;
     const MaterialDesc plain_ = plainMaterial();
     std::map<std::string, ObjModel> models_;
 };

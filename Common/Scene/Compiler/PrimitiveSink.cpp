@@ -296,7 +296,11 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
         }
         out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
         out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
-        if (hasLights) appendLight(triangleLight(positions[t.x], positions[t.y], positions[t.z]), mesh.material);
+        if (hasLights) {
+            shared::Light record = triangleLight(positions[t.x], positions[t.y], positions[t.z]);
+            record.triangle = static_cast<std::uint32_t>(out_.triangles.size() - 1);
+            appendLight(record, mesh.material);
+        }
     }
     if (!data.uvs2.empty()) {
         mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());

@@ -13,19 +13,21 @@
 namespace rt::scene {
 
 // An image as kernels fetch it: rows from the top, words as the format (shared::kTexelSrgb8 or kTexelLinearF32) says.
+// Whether an image that is not linear is sRGB-encoded, its texture knows.
 struct TexelData {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t format = shared::kTexelSrgb8;
     std::vector<std::uint32_t> words;
+    bool isEncoded = false; // of kTexelLinearF32: they have yet to be decoded
 };
 
 struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
     std::optional<CameraDesc> camera; // in place of the scene's, which the compiled scene's origin stays at
-    // Reads an image file; throws InputError. A scene with image files needs it.
-    std::function<TexelData(const std::filesystem::path&)> loadTexels;
+    // Reads an image file, or the image of a number in a file of glTF; throws InputError. A scene with images needs it.
+    std::function<TexelData(const std::filesystem::path&, std::optional<std::uint32_t>)> loadTexels;
 };
 
 // Flattens groups and nested instances, finds the light table in the geometry, subtracts the camera's authored

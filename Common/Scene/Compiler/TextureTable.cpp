@@ -13,14 +13,16 @@ namespace rt::scene {
 
 namespace {
 
-// IEC 61966-2-1, of every byte.
+// IEC 61966-2-1.
+double srgbDecode(double s) {
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
+// Of every byte.
 const std::array<double, 256>& srgbTable() {
     static const auto table = [] {
         std::array<double, 256> linear{};
-        for (int i = 0; i < 256; ++i) {
-            const double s = i / 255.0;
-            linear[static_cast<std::size_t>(i)] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-        }
+        for (int i = 0; i < 256; ++i) linear[static_cast<std::size_t>(i)] = srgbDecode(i / 255.0);
         return linear;
     }();
     return table;
@@ -152,7 +154,7 @@ TexelData TextureTable::load(const ImageTexture& source) {
         return makePlanetMap(source.standIn);
     }
     if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
-    return options_.loadTexels(*path);
+    return options_.loadTexels(*path, source.image);
 }
 
 std::uint32_t TextureTable::image(const ImageTexture& source) {
@@ -160,7 +162,7 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
                             (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
     const auto [entry, isNew] = images_.try_emplace(key, shared::kNone);
     if (!isNew) return entry->second;
-    const TexelData data = load(source);
+    TexelData data = load(source);
     shared::Image image{};
     image.firstTexel = static_cast<std::uint32_t>(out_.texels.size());
     image.width = data.width;
@@ -168,6 +170,9 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
     image.format = data.format;
     if (source.colorSpace == ColorSpace::Linear && image.format == shared::kTexelSrgb8)
         image.format = shared::kTexelLinear8;
+    if (source.colorSpace == ColorSpace::Srgb && data.isEncoded)
+        for (std::uint32_t& word : data.words)
+            word = shared::floatBitsToUint(static_cast<float>(srgbDecode(shared::uintBitsToFloat(word))));
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
     if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
@@ -185,6 +190,24 @@ bool TextureTable::mayShowImage(const std::string& name, int depth) const {
         return showsImage(checker->even) || showsImage(checker->odd);
     }
     return std::holds_alternative<ImageTexture>(found->second);
+}
+
+bool TextureTable::isGreyImage(std::uint32_t index) const {
+    constexpr std::size_t kMostTexels = 1 << 16; // looked at
+    constexpr double kMostDifference = 0.02;     // in the mean: compression colours what is grey
+    const shared::Texture& texture = out_.textures[index];
+    if (texture.kind != shared::kTextureImage) return false;
+    const shared::Image& image = out_.images[texture.first];
+    const std::size_t count = std::size_t{image.width} * image.height;
+    const std::size_t step = std::max<std::size_t>(1, count / kMostTexels);
+    double difference = 0;
+    std::size_t seen = 0;
+    for (std::size_t i = 0; i < count; i += step, ++seen) {
+        const glm::dvec3 c = texelColor(out_, image, static_cast<std::uint32_t>(i % image.width),
+                                        static_cast<std::uint32_t>(i / image.width));
+        difference += std::abs(c.x - c.y) + std::abs(c.y - c.z);
+    }
+    return difference <= kMostDifference * static_cast<double>(seen);
 }
 
 glm::dvec3 TextureTable::mean(std::uint32_t index) const {

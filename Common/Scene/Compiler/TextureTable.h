@@ -25,6 +25,8 @@ class TextureTable {
     // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
     // `depth`).
     bool mayShowImage(const std::string& name, int depth = shared::kMaxCheckerDepth) const;
+    // Whether a texture shows an image whose channels are alike: as a map of normals it would be one of heights.
+    bool isGreyImage(std::uint32_t texture) const;
     // Mean colour of a texture: exact over an image or a checker, 0.5 of the tint for noise.
     glm::dvec3 mean(std::uint32_t texture) const;
 

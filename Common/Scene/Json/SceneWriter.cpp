@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 #include "Common/Scene/Json/PrincipledType.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Scene/Json/TextureTypes.h"
@@ -18,9 +20,16 @@ constexpr std::size_t kLineWidth = 120;
 
 // ---- layout --------------------------------------------------------------------------------------------------------
 
-// Whole numbers without their fraction.
+// Whole numbers without their fraction. Only texts can be what JSON cannot hold: paths, as names have been made
+// printable.
 std::string scalar(const Json& value) {
-    std::string text = value.dump();
+    std::string text;
+    try {
+        text = value.dump();
+    } catch (const Json::type_error&) {
+        throw InputError("a scene file cannot hold \"" + printable(value.get_ref<const std::string&>()) +
+                         "\": it must be valid UTF-8");
+    }
     const bool isWhole = value.is_number_float() && text.size() > 2 && text.compare(text.size() - 2, 2, ".0") == 0;
     if (isWhole && text != "-0.0") text.resize(text.size() - 2);
     return text;
@@ -37,7 +46,7 @@ bool writeInline(const Json& value, std::size_t limit, std::string& out) {
     for (auto member = value.begin(); member != value.end(); ++member) {
         if (!first) out += ", ";
         first = false;
-        if (value.is_object()) out += Json(member.key()).dump() + ": ";
+        if (value.is_object()) out += scalar(Json(member.key())) + ": ";
         if (!writeInline(*member, limit, out)) return false;
     }
     out += value.is_object() ? '}' : ']';
@@ -79,7 +88,7 @@ void write(const Json& value, const std::string& indent, std::string& out) {
         for (auto member = value.begin(); member != value.end(); ++member) {
             out += (first ? "\n" : ",\n") + inner;
             first = false;
-            if (value.is_object()) out += Json(member.key()).dump() + ": ";
+            if (value.is_object()) out += scalar(Json(member.key())) + ": ";
             write(*member, inner, out);
         }
     }

@@ -1,21 +1,23 @@
 #include "Common/Scene/Obj/ObjLoader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <istream>
+#include <set>
 #include <streambuf>
 #include <string_view>
-#include <system_error>
 #include <tiny_obj_loader.h>
-
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
-#include "Common/Core/ReadFile.h"
+#include "Common/Core/Printable.h"
 #include "Common/Scene/Compiler/Bounds.h"
+#include "Common/Scene/FramingCamera.h"
+#include "Common/Scene/Obj/MtlMaterials.h"
+#include "Common/Scene/Obj/ObjText.h"
 #include "Common/Scene/Obj/Polygon.h"
+#include "Common/Scene/Tangents.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::scene {
@@ -23,8 +25,6 @@ namespace rt::scene {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{16} << 30;
 
 // A file in memory as a stream that knows how far it has been read.
 class MemoryBuffer : public std::streambuf {
@@ -48,74 +48,49 @@ class MemoryBuffer : public std::streambuf {
     }
 };
 
-std::string trimmed(std::string text) {
-    text.erase(text.find_last_not_of(" \t\r") + 1);
+std::size_t countWords(std::string_view text) {
+    std::size_t count = 0;
+    for (std::string_view rest = trimmed(text.substr(0, text.find_first_of("\r\n"))); !rest.empty(); ++count)
+        rest = trimmed(rest.substr(std::min(rest.find_first_of(" \t"), rest.size())));
+    return count;
+}
+
+// Statements that the parser passes over.
+struct LeftOut {
+    const char* keyword;
+    const char* name;
+    std::size_t count = 0;
+};
+using LeftOuts = std::array<LeftOut, 5>;
+LeftOuts countLeftOut(std::string_view text) {
+    LeftOuts kinds{{{"l", "lines"},
+                    {"p", "points"},
+                    {"curv", "curves"},
+                    {"surf", "free-form surfaces"},
+                    {"f", "faces without corners"}}};
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
+        for (LeftOut& kind : kinds) kind.count += keyword == kind.keyword && (keyword != "f" || keyword == line);
+    }
+    return kinds;
+}
+
+// `6 lines, 2 points`; empty: there is none of them.
+std::string describe(const LeftOuts& kinds) {
+    std::string text;
+    for (const LeftOut& kind : kinds)
+        if (kind.count > 0) text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " " + kind.name;
     return text;
 }
-
-// ---- materials -----------------------------------------------------------------------------------------------------
-
-glm::dvec3 color(const float (&rgb)[3], double high) {
-    return glm::clamp(glm::dvec3(rgb[0], rgb[1], rgb[2]), 0.0, high);
-}
-
-// An image that a material names, as a texture of the model; returns its name.
-std::string addImage(const std::string& name, const glm::dvec3& tint, const std::string& key, const fs::path& folder,
-                     ObjModel& model, const std::string& place) {
-    std::string portable = name;
-    std::replace(portable.begin(), portable.end(), '\\', '/');
-    const fs::path path = folder / fs::path(portable);
-    std::error_code ignored;
-    if (!fs::is_regular_file(path, ignored)) throw InputError(place + ": no such image file: " + path.generic_string());
-    model.textures[key] = ImageTexture{fs::absolute(path).lexically_normal().generic_string(), {}, tint};
-    return key;
-}
-
-MaterialDesc toMaterial(const tinyobj::material_t& source, const std::string& key, const fs::path& folder,
-                        ObjModel& model, const std::string& file) {
-    MaterialDesc material;
-    const glm::dvec3 diffuse = color(source.diffuse, 1);
-    const std::string place = file + ": material \"" + source.name + "\"";
-    material.albedo = diffuse;
-    if (!source.diffuse_texname.empty())
-        material.albedo = addImage(source.diffuse_texname, diffuse, key + "/map_Kd", folder, model, place);
-    switch (source.illum) { // the reflection models of the format's specification
-        case 3:
-        case 5:
-        case 8:
-            material.kind = MaterialKind::Metal;
-            material.albedo = color(source.specular, 1);
-            material.parameters[shared::kMetalFuzz] = std::clamp(double(source.roughness), 0.0, 1.0);
-            break;
-        case 4:
-        case 6:
-        case 7:
-        case 9: {
-            const glm::dvec3 filter = color(source.transmittance, 1);
-            material.kind = MaterialKind::Dielectric;
-            material.albedo = filter == glm::dvec3(0) ? glm::dvec3(1) : filter; // the format's default is 0 here
-            material.parameters[shared::kDielectricIor] = source.ior > 1 ? double(source.ior) : 1.5;
-            break;
-        }
-        default:
-            break;
-    }
-    material.emission = color(source.emission, 1e30);
-    if (!source.emissive_texname.empty()) {
-        if (material.emission == glm::dvec3(0)) material.emission = glm::dvec3(1);
-        material.emissionTexture =
-            addImage(source.emissive_texname, glm::dvec3(1), key + "/map_Ke", folder, model, place);
-    }
-    return material;
-}
-
-// ---- geometry ------------------------------------------------------------------------------------------------------
 
 // Receives the parser's events.
 class Builder : public tinyobj::MaterialReader {
   public:
     Builder(const fs::path& path, const MemoryBuffer& buffer, const std::string& prefix)
-        : path_(path), buffer_(buffer), prefix_(prefix) {}
+        : path_(path), buffer_(buffer), materials_(path.parent_path(), prefix, model_) {}
 
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(path_.string() + ":" + std::to_string(buffer_.line()) + ": " + message);
@@ -125,6 +100,7 @@ class Builder : public tinyobj::MaterialReader {
         interruptionPoint();
         checkNumbers(3);
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail("a coordinate is too large");
+        if (positions_.empty()) hasColors_ = countWords(buffer_.text()) >= 1 + 3 + 3;
         positions_.emplace_back(x, y, z);
         firstVertex_.push_back(shared::kNone);
     }
@@ -156,38 +132,71 @@ class Builder : public tinyobj::MaterialReader {
             for (const glm::uvec3& t : cutPolygon(outline_)) triangles.emplace_back(face_[t.x], face_[t.y], face_[t.z]);
     }
 
-    // MaterialReader: one file of materials.
-    bool operator()(const std::string& name, std::vector<tinyobj::material_t>* materials,
-                    std::map<std::string, int>* ids, std::string* warnings, std::string* errors) override {
-        const fs::path file = path_.parent_path() / fs::path(trimmed(name));
-        std::error_code ignored;
-        if (!fs::is_regular_file(file, ignored)) fail("no such material file: " + file.string());
-        std::vector<std::byte> bytes = readFile(file, kMaxFileBytes);
-        MemoryBuffer buffer(bytes);
-        std::istream stream(&buffer);
-        tinyobj::LoadMtl(ids, materials, &stream, warnings, errors);
-        const auto isNamed = [](const tinyobj::material_t& material) { return !material.name.empty(); };
-        if (std::none_of(materials->begin(), materials->end(), isNamed)) // the parser makes one of nothing
-            model_.notices.push_back(file.string() + ": there is no material in it");
-        for (const tinyobj::material_t& material : *materials)
-            if (!material.name.empty()) {
-                const std::string key = prefix_ + material.name;
-                model_.materials[key] = toMaterial(material, key, path_.parent_path(), model_, file.string());
-            }
+    // MaterialReader: asked for each word of a line, whose words may be files or, together, the name of one.
+    bool operator()(const std::string&, std::vector<tinyobj::material_t>*, std::map<std::string, int>*, std::string*,
+                    std::string*) override {
+        std::string_view names = trimmed(buffer_.text().substr(0, buffer_.text().find_first_of("\r\n")));
+        names = trimmed(names.substr(std::string_view("mtllib").size()));
+        const fs::path folder = path_.parent_path();
+        if (const fs::path whole = findNamed(names, folder); !whole.empty()) {
+            addMaterials(whole);
+            return true;
+        }
+        std::vector<fs::path> files;
+        std::set<std::string> missing;
+        for (std::string_view rest = names; !rest.empty();) {
+            const std::string_view name = rest.substr(0, rest.find_first_of(" \t"));
+            rest = trimmed(rest.substr(name.size()));
+            files.push_back(findMoved(name, folder));
+            if (files.back().empty()) missing.emplace(name);
+        }
+        if (const fs::path moved = findMoved(names, folder); !missing.empty() && !moved.empty()) {
+            files = {moved};
+            missing.clear();
+        }
+        for (const fs::path& file : files)
+            if (!file.empty()) addMaterials(file);
+        missingFiles_.merge(missing);
         return true;
     }
 
-    void useMaterial(const std::string& name) {
-        const std::string key = prefix_ + trimmed(name);
-        if (model_.materials.count(key) == 0)
-            fail("material \"" + trimmed(name) + "\" is in none of its material files");
-        part_ = &parts_[key];
-    }
+    void useMaterial(std::string_view name) { part_ = &parts_[std::string(trimmed(name))]; }
 
-    ObjModel finish() {
-        for (auto& [material, part] : parts_)
-            if (!part.triangles.empty()) model_.parts.push_back({material, toMesh(part.triangles)});
-        if (model_.parts.empty()) throw InputError(path_.string() + ": there is no face in it");
+    // Materials are looked up now, as their files may be named anywhere.
+    ObjModel finish(std::string_view text) {
+        const std::string leftOut = describe(countLeftOut(text));
+        Part plain;
+        std::map<std::string, Part> known;
+        std::set<std::string> unknown;
+        for (auto& [name, part] : parts_) {
+            if (part.triangles.empty()) continue;
+            const std::string* material = materials_.find(name);
+            if (!material && !name.empty()) unknown.insert(name);
+            std::vector<glm::uvec3>& triangles = material ? known[*material].triangles : plain.triangles;
+            if (triangles.empty())
+                triangles = std::move(part.triangles);
+            else
+                triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
+        }
+        if (!plain.triangles.empty()) model_.parts.push_back({{}, toMesh(plain.triangles)});
+        for (auto& [material, part] : known) {
+            model_.parts.push_back({material, toMesh(part.triangles)});
+            MeshData& mesh = model_.parts.back().mesh;
+            const bool hasMap = !model_.materials.at(material).principled.normalTexture.empty();
+            if (hasMap && !mesh.uvs.empty()) addTangents(mesh, 0);
+        }
+        if (model_.parts.empty())
+            throw InputError(path_.string() + ": there is no face in it" +
+                             (leftOut.empty() ? "" : ", and nothing else can be rendered: " + leftOut));
+        if (!leftOut.empty())
+            model_.notices.push_back(path_.string() + ": left out, as only faces are rendered: " + leftOut);
+        if (!missingFiles_.empty())
+            model_.notices.push_back(path_.string() + ": material files that do not exist: " + listed(missingFiles_));
+        if (!unknown.empty())
+            model_.notices.push_back(
+                path_.string() + ": materials that none of its material files has, grey instead: " + listed(unknown));
+        if (hasColors_) model_.notices.push_back(path_.string() + ": the colours of vertices are left out");
+        materials_.appendNotices();
         return std::move(model_);
     }
 
@@ -218,6 +227,10 @@ class Builder : public tinyobj::MaterialReader {
     struct Part {
         std::vector<glm::uvec3> triangles; // indices into vertices_
     };
+
+    void addMaterials(const fs::path& file) {
+        if (files_.insert(file).second) materials_.addFile(file);
+    }
 
     Part& current() {
         if (!part_) part_ = &parts_[""];
@@ -280,13 +293,16 @@ class Builder : public tinyobj::MaterialReader {
 
     const fs::path& path_;
     const MemoryBuffer& buffer_;
-    const std::string& prefix_;
     ObjModel model_;
+    MtlMaterials materials_;
+    std::set<fs::path> files_; // of materials, read
+    std::set<std::string> missingFiles_;
+    bool hasColors_ = false; // red, green and blue behind each position, as some programs write
     std::vector<glm::vec3> positions_, normals_;
     std::vector<glm::vec2> uvs_;
     std::vector<Vertex> vertices_;
     std::vector<std::uint32_t> firstVertex_; // of each position
-    std::map<std::string, Part> parts_;      // by material
+    std::map<std::string, Part> parts_;      // by name of the material in the file
     Part* part_ = nullptr;
     std::vector<std::uint32_t> face_; // scratch
     std::vector<glm::dvec3> outline_;
@@ -306,7 +322,7 @@ MaterialDesc plainMaterial() {
 }
 
 ObjModel loadObj(const fs::path& path, bool withMaterials, const std::string& prefix) {
-    std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    std::vector<std::byte> bytes = readText(path);
     MemoryBuffer buffer(bytes);
     std::istream stream(&buffer);
     Builder target(path, buffer, prefix);
@@ -320,13 +336,14 @@ ObjModel loadObj(const fs::path& path, bool withMaterials, const std::string& pr
     const bool isRead =
         tinyobj::LoadObjWithCallback(stream, events, &target, withMaterials ? &target : nullptr, &warnings, &errors);
     if (!isRead || !errors.empty()) target.fail(errors.substr(0, errors.find('\n')));
-    return target.finish();
+    return target.finish({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 SceneDesc loadObjScene(const fs::path& path) {
     ObjModel model = loadObj(path, true);
     SceneDesc scene;
-    scene.id = scene.title = path.filename().string();
+    scene.id = path.filename().string();
+    scene.title = printable(scene.id);
     scene.background = GradientBackground{};
     scene.notices = std::move(model.notices);
     scene.materials = std::move(model.materials);
@@ -344,12 +361,7 @@ SceneDesc loadObjScene(const fs::path& path) {
         mesh.material = part.material;
         scene.objects.push_back({std::move(mesh)});
     }
-    const double radius = std::max(bounds.radius(), 1e-12);
-    CameraDesc& camera = scene.camera;
-    camera.verticalFov = 40;
-    camera.focusDistance = 1.05 * radius / std::sin(glm::radians(camera.verticalFov) / 2);
-    camera.lookAt = bounds.center();
-    camera.lookFrom = camera.lookAt + camera.focusDistance * glm::normalize(glm::dvec3(0.5, 0.35, 1));
+    scene.camera = framingCamera(bounds);
     return scene;
 }
 

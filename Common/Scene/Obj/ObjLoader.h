@@ -19,16 +19,17 @@ struct ObjModel {
     std::vector<ObjPart> parts; // none is empty
     std::map<std::string, MaterialDesc> materials;
     std::map<std::string, TextureDesc> textures;
-    std::vector<std::string> notices; // one line each: material files that are none
+    std::vector<std::string> notices; // one line each: what is missing or left out
 };
 
 // What a surface without a material looks like.
 MaterialDesc plainMaterial();
 
 // Reads a file: polygons are cut into triangles, normals and texture coordinates kept where every corner of a part has
-// them. Kd becomes a lambertian, Ke emission, illum 3, 5 and 8 a metal (Ks, fuzz Pr), illum 4, 6, 7 and 9 glass (Ni,
-// Tf), map_Kd and map_Ke image textures; the names of materials and textures start with `prefix`. Without
-// `withMaterials` the file's materials are ignored and there is one part. Throws InputError with file and line.
+// them, tangents computed where a map of normals needs them. What becomes of materials MtlMaterials.h says; the names
+// of materials and textures start with `prefix`, and are printable. A material file or an image that does not exist, or
+// a material that is in no file, is a notice. Without `withMaterials` the file's materials are ignored and there is one
+// part. Throws InputError with file and line.
 ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const std::string& prefix = {});
 
 // A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.

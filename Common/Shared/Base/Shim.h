@@ -6,6 +6,9 @@
 //   RT_CALL          the same for a function that is worth a call: never inlined in C++.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
+//   RT_FULL          not defined where the code of few scenes and settings is left out: in shaders but those variants
+//                    that are chosen for such (RayTracingGPU/Kernels.cpp). Drivers take long over code that a
+//                    specialization constant leaves unused (docs/gpu-engine.md); C++ compilers drop it.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
 #define RT_SHARED_SHIM_H
@@ -42,7 +45,7 @@
 #define RT_OUT(T) T&
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
-#define RT_PROJECTED // see ProjectedLights.h; C++ compilers drop what a kernel does not use
+#define RT_FULL
 
 RT_SHARED_BEGIN
 

@@ -172,6 +172,7 @@ struct Light {
     vec3 emission; // radiance, mean over the surface if textured; point: radiant intensity; spot: that on its axis;
                    // directional: irradiance of a surface across its direction
     uint sides;    // kSidesFront or kSidesBoth
+    uint triangle; // of a mesh's triangle: into triangles
     float selection; // probability under power-proportional selection
     float cdf;       // sum of selection up to and including this light; exactly 1 for the last that can be chosen
 };

@@ -1,6 +1,8 @@
 // One layered surface with the parameters of glTF 2.0: a metal, or a dielectric coat over a diffuse base or around
 // glass; over them sheen and a clear coat. Here are the lobes that the layers come down to for one outgoing direction,
 // which PrincipledSurface.h finds.
+//
+// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_H
 #define RT_SHARED_PRINCIPLED_H
 #include "Common/Shared/Base/Random.h"
@@ -8,6 +10,12 @@
 #include "Common/Shared/Material/Microfacets.h"
 
 RT_SHARED_BEGIN
+
+RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
+    return false; // few are, and the choice among their lobes tells
+}
+
+#ifdef RT_FULL
 
 const float kLeastSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
 const float kCoatReflectance = 0.04f; // of a clear coat at normal incidence
@@ -23,10 +31,6 @@ RT_FN float schlick(float cosine) {
 
 RT_FN bool isMirror(float alpha) {
     return alpha < kLeastAlpha;
-}
-
-RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
-    return false; // few are, and the choice among their lobes tells
 }
 
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
@@ -179,6 +183,17 @@ RT_FN BsdfSample samplePrincipled(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, ve
     s.wi = normalize(toWorld(frame, s.wi));
     return s;
 }
+
+#else
+
+vec4 evalPrincipled(uint features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
+    return vec4(0.0f);
+}
+BsdfSample samplePrincipled(uint features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
+    return absorbed();
+}
+
+#endif
 
 RT_SHARED_END
 

@@ -1,5 +1,7 @@
 // From a principled material and a hit to the lobes of Principled.h: textures, normal map, what the layers leave to
 // those below them, and the choice among lobes.
+//
+// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_SURFACE_H
 #define RT_SHARED_PRINCIPLED_SURFACE_H
 #include "Common/Shared/Material/Bsdf.h"
@@ -15,6 +17,8 @@ static_assert(kFeatureDetail == kFeaturePrincipled, "surfaces give principled ma
 RT_FN bool isPrincipled(uint features, RT_IN(Material) m) {
     return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
 }
+
+#ifdef RT_FULL
 
 // ---- directional albedo --------------------------------------------------------------------------------------------
 
@@ -180,6 +184,23 @@ RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled)
     lobes.glassShare = lobes.glass * scale;
     return lobes;
 }
+
+#else
+
+float surfaceOpacity(uint features, SceneRef scene, Principled p, Surface s) {
+    return 1.0f;
+}
+vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
+    return n;
+}
+vec3 mappedNormal(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing) {
+    return shading;
+}
+PrincipledLobes makeLobes(uint features, SceneRef scene, Principled p, Surface s, vec3 albedo, float cosine, bool front) {
+    return noLobes();
+}
+
+#endif
 
 RT_SHARED_END
 

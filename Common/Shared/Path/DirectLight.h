@@ -53,8 +53,15 @@ RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) ligh
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
     }
-    sampled.radiance =
-        emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, sampled.uv, sampled.uv);
+    vec2 uv = sampled.uv;
+    vec2 uv2 = uv;
+    if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
+        uvec3 index = loadTriangle(scene, light.triangle);
+        RT_IN(Mesh) mesh = loadMesh(scene, loadTriangleMesh(scene, light.triangle));
+        if (mesh.firstUv != kNone) uv = meshUv(scene, mesh, mesh.firstUv, index, sampled.uv);
+        uv2 = mesh.firstUv2 != kNone ? meshUv(scene, mesh, mesh.firstUv2, index, sampled.uv) : uv;
+    }
+    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, uv, uv2);
 }
 
 RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,

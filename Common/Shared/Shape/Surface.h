@@ -87,13 +87,18 @@ RT_FN Surface quadSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     return s;
 }
 
+// Texture coordinates at a place of a triangle: of the set that begins at `first`, of the vertices `index`, with the
+// weights of vertices 1 and 2.
+RT_FN vec2 meshUv(SceneRef scene, RT_IN(Mesh) mesh, uint first, uvec3 index, vec2 weights) {
+    uvec3 t = index + (first - mesh.firstVertex);
+    float w = 1.0f - weights.x - weights.y;
+    return loadUv(scene, t.x) * w + loadUv(scene, t.y) * weights.x + loadUv(scene, t.z) * weights.y;
+}
+
 RT_FN void addMeshDetail(SceneRef scene, RT_IN(Mesh) mesh, uvec3 index, RT_IN(Hit) hit, RT_INOUT(Surface) s) {
     float w = 1.0f - hit.u - hit.v;
     addDetail(s.uv, vec4(0.0f, 0.0f, 0.0f, 0.0f), s);
-    if (mesh.firstUv2 != kNone) {
-        uvec3 t = index + (mesh.firstUv2 - mesh.firstVertex);
-        s.uv2 = loadUv(scene, t.x) * w + loadUv(scene, t.y) * hit.u + loadUv(scene, t.z) * hit.v;
-    }
+    if (mesh.firstUv2 != kNone) s.uv2 = meshUv(scene, mesh, mesh.firstUv2, index, vec2(hit.u, hit.v));
     if (mesh.firstColor != kNone) {
         uvec3 c = index + (mesh.firstColor - mesh.firstVertex);
         s.color = loadColor(scene, c.x) * w + loadColor(scene, c.y) * hit.u + loadColor(scene, c.z) * hit.v;
@@ -131,8 +136,7 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
         if (dot(s.shading, s.normal) < 0.0f) s.shading = -s.shading;
     }
     if (has(features, kFeatureImages) && mesh.firstUv != kNone) {
-        uvec3 t = index + (mesh.firstUv - mesh.firstVertex);
-        s.uv = loadUv(scene, t.x) * w + loadUv(scene, t.y) * hit.u + loadUv(scene, t.z) * hit.v;
+        s.uv = meshUv(scene, mesh, mesh.firstUv, index, vec2(hit.u, hit.v));
     }
     if (has(features, kFeatureDetail)) addMeshDetail(scene, mesh, index, hit, s);
     s.material = mesh.material;

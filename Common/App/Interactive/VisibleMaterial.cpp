@@ -1,0 +1,152 @@
+#include "Common/App/Interactive/VisibleMaterial.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include <glm/common.hpp>
+
+#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Shared/Camera.h"
+#include "Common/Shared/Medium/Media.h"
+#include "Common/Shared/Shape/Shapes.h"
+
+namespace rt::app {
+
+namespace {
+
+constexpr float kTime = 0.5f;
+constexpr std::uint64_t kMostTests = 4'000'000; // of shapes: 20 ms or so
+
+struct Box {
+    shared::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
+    void add(const shared::vec3& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+};
+
+class Search {
+  public:
+    Search(const scene::CompiledScene& scene, const shared::Ray& ray) : scene_(scene), ray_(ray) {}
+
+    std::optional<std::uint32_t> run() {
+        if (!isWorthIt(scene_.geometries[0])) return std::nullopt;
+        meet(scene_.geometries[0], ray_, shared::kNone);
+        boxes_.resize(scene_.geometries.size());
+        for (const shared::Instance& instance : scene_.instances) {
+            const shared::Geometry& geometry = scene_.geometries[instance.geometry];
+            std::optional<Box>& box = boxes_[instance.geometry];
+            if (!box) {
+                if (!isWorthIt(geometry)) return std::nullopt;
+                box = boxOf(geometry);
+            }
+            const shared::Ray ray = inObject(instance);
+            if (!mayMeet(ray, *box)) continue;
+            if (!isWorthIt(geometry)) return std::nullopt;
+            meet(geometry, ray, instance.material);
+        }
+        return found_;
+    }
+
+  private:
+    bool isWorthIt(const shared::Geometry& g) {
+        tests_ += std::uint64_t{1} + g.sphereCount + g.quadCount + g.triangleCount;
+        return tests_ <= kMostTests;
+    }
+
+    shared::vec3 centerOf(std::uint32_t sphere) const {
+        const shared::vec3 center = scene_.spheres[sphere].center;
+        return scene_.sphereMotions.empty() ? center
+                                            : shared::sphereCenter(center, scene_.sphereMotions[sphere], kTime);
+    }
+
+    template <typename Visit>
+    static void forEach(std::uint32_t first, std::uint32_t count, const Visit& visit) {
+        for (std::uint32_t i = first; i < first + count; ++i) visit(i);
+    }
+
+    void meet(const shared::Geometry& g, const shared::Ray& ray, std::uint32_t material) {
+        const auto take = [&](float t, std::uint32_t own) {
+            if (!(t > 0)) return;
+            nearest_ = t;
+            found_ = material == shared::kNone ? own : material;
+        };
+        forEach(g.firstSphere, g.sphereCount, [&](std::uint32_t i) {
+            const shared::Sphere& sphere = scene_.spheres[i];
+            take(shared::intersectSphere(ray, centerOf(i), sphere.radius, nearest_), sphere.material);
+        });
+        forEach(g.firstQuad, g.quadCount, [&](std::uint32_t i) {
+            const shared::Quad& quad = scene_.quads[i];
+            const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
+            take(shared::intersectQuad(ray, quad.corner, frame, nearest_).t, quad.material);
+        });
+        const shared::TriangleRay sheared = shared::makeTriangleRay(ray.direction);
+        forEach(g.firstTriangle, g.triangleCount, [&](std::uint32_t i) {
+            const shared::uvec3 t = scene_.triangles[i];
+            const auto& p = scene_.positions;
+            take(shared::intersectTriangle(ray.origin, sheared, p[t.x], p[t.y], p[t.z], nearest_).t,
+                 scene_.meshes[scene_.triangleMesh[i]].material);
+        });
+    }
+
+    Box boxOf(const shared::Geometry& g) const {
+        Box box;
+        forEach(g.firstSphere, g.sphereCount, [&](std::uint32_t i) {
+            box.add(centerOf(i) - scene_.spheres[i].radius);
+            box.add(centerOf(i) + scene_.spheres[i].radius);
+        });
+        forEach(g.firstQuad, g.quadCount, [&](std::uint32_t i) {
+            const shared::Quad& quad = scene_.quads[i];
+            for (const shared::vec3& p : {quad.corner, quad.corner + quad.edgeU, quad.corner + quad.edgeV,
+                                          quad.corner + quad.edgeU + quad.edgeV})
+                box.add(p);
+        });
+        forEach(g.firstTriangle, g.triangleCount, [&](std::uint32_t i) {
+            for (int corner = 0; corner < 3; ++corner) box.add(scene_.positions[scene_.triangles[i][corner]]);
+        });
+        return box;
+    }
+
+    // The parameter t stays what it is.
+    shared::Ray inObject(const shared::Instance& instance) const {
+        shared::Ray ray = ray_;
+        const auto& rows = instance.toObject;
+        ray.origin = shared::transformPoint(rows[0], rows[1], rows[2], ray_.origin);
+        ray.direction = shared::transformVector(rows[0], rows[1], rows[2], ray_.direction);
+        return ray;
+    }
+
+    bool mayMeet(const shared::Ray& ray, const Box& box) const {
+        constexpr float kRounding = 1e-5f;
+        float enter = 0, leave = nearest_;
+        for (int axis = 0; axis < 3; ++axis) {
+            const float inverse = 1 / ray.direction[axis];
+            const float a = (box.low[axis] - ray.origin[axis]) * inverse;
+            const float b = (box.high[axis] - ray.origin[axis]) * inverse;
+            if (!(a == a && b == b)) continue; // within a face of the box, which it runs along
+            enter = std::max(enter, std::min(a, b) * (1 - kRounding));
+            leave = std::min(leave, std::max(a, b) * (1 + kRounding));
+        }
+        return enter <= leave;
+    }
+
+    const scene::CompiledScene& scene_;
+    const shared::Ray ray_;
+    float nearest_ = std::numeric_limits<float>::max();
+    std::optional<std::uint32_t> found_;
+    std::vector<std::optional<Box>> boxes_; // by geometry
+    std::uint64_t tests_ = 0;
+};
+
+} // namespace
+
+std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                                             const glm::uvec2& size, const glm::uvec2& pixel) {
+    const shared::Camera record = scene::makeCamera(camera, size.x, size.y, scene.origin);
+    const shared::Ray ray =
+        shared::generateCameraRay(0, record, pixel, size, shared::vec2(0.5f), shared::vec2(0.5f), kTime);
+    return Search(scene, ray).run();
+}
+
+} // namespace rt::app

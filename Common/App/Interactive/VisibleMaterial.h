@@ -1,0 +1,19 @@
+// What a pixel shows, for people who ask.
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "Common/Scene/CompiledScene.h"
+
+namespace rt::app {
+
+// Index of the material that the ray through the middle of a pixel and of the lens meets first, halfway through the
+// shutter's time, whether opaque or not; nothing where it meets none. Without a tree, as one ray is not worth building
+// it: of boxes around geometries that instances share, then of all that is in them. Nothing as well where that would
+// take longer than a frame of a window.
+std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                                             const glm::uvec2& size, const glm::uvec2& pixel);
+
+} // namespace rt::app

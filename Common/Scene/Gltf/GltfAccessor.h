@@ -1,0 +1,29 @@
+// Values of accessors, whatever their component type, stride, normalisation and sparse changes. The file has been
+// checked, so that all bytes exist; types that do not fit and values that are not finite are InputErrors.
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "Common/Scene/Gltf/GltfFile.h"
+
+namespace rt::scene {
+
+std::size_t accessorCount(const GltfFile& file, int accessor);
+
+// Of an accessor of VEC N, within +-kLargest (JsonNode.h). With `elements`, those alone, in that order.
+template <int N>
+std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int accessor,
+                                             const std::vector<std::uint32_t>* elements = nullptr);
+
+// A colour of three or four components; the fourth of three is 1.
+std::vector<glm::dvec4> readColors(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);
+
+// Of an accessor of unsigned integers.
+std::vector<std::uint32_t> readIndices(const GltfFile& file, int accessor);
+
+} // namespace rt::scene

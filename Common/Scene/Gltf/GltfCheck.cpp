@@ -1,0 +1,237 @@
+#include "Common/Scene/Gltf/GltfCheck.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "Common/Core/Printable.h"
+
+namespace rt::scene {
+
+namespace {
+
+constexpr std::array kSupported = {
+    "KHR_lights_punctual",    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
+    "KHR_materials_sheen",    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_unlit",
+    "KHR_materials_variants", "KHR_materials_volume",    "KHR_mesh_quantization",           "KHR_texture_transform",
+    "EXT_mesh_gpu_instancing"};
+
+// Without a buffer view the values of an accessor are zeros, which cost a file nothing.
+constexpr std::uint64_t kMostImplicit = 1'000'000;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40; // of offsets and lengths: their sums do not overflow
+
+bool isSupported(const std::string& extension) {
+    return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
+}
+
+std::uint64_t whole(const JsonNode& node) {
+    if (!node.value().is_number_unsigned() || node.value().get<std::uint64_t>() > kMostBytes)
+        node.failValue("a whole number from 0 to 2^40");
+    return node.value().get<std::uint64_t>();
+}
+
+std::uint64_t whole(const JsonNode& object, const char* key, std::uint64_t usual) {
+    const auto node = object.find(key);
+    return node ? whole(*node) : usual;
+}
+
+class Checker {
+  public:
+    explicit Checker(const JsonNode& root) : root_(root) {}
+
+    std::vector<std::string> run() {
+        const std::string version = root_.at("asset").at("version").string();
+        if (version.rfind("2.", 0) != 0) root_.at("asset").at("version").failValue("2.0");
+        std::vector<std::string> notices = extensions();
+        buffers();
+        accessors();
+        references();
+        return notices;
+    }
+
+  private:
+    std::vector<std::string> extensions() const {
+        if (const auto required = root_.find("extensionsRequired"))
+            required->forEachElement([](const JsonNode& name) {
+                if (!isSupported(name.string()))
+                    name.fail("extension " + printable(name.string()) + " is not supported");
+            });
+        std::vector<std::string> notices;
+        if (const auto used = root_.find("extensionsUsed"))
+            used->forEachElement([&](const JsonNode& name) {
+                if (!isSupported(name.string()))
+                    notices.push_back("extension " + printable(name.string()) + " is left out");
+            });
+        return notices;
+    }
+
+    // The element of an array of the root that a number names.
+    template <typename Function> // (const JsonNode& element)
+    void withElement(const JsonNode& index, const char* array, const Function& function) const {
+        const auto elements = root_.find(array);
+        const std::size_t count = elements ? elements->arraySize() : 0;
+        const nlohmann::json& value = index.value();
+        if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
+            index.failValue("an index into " + std::string(array) + ", of which there are " + std::to_string(count));
+        function(elements->element(value.get<std::size_t>()));
+    }
+    void reference(const JsonNode& index, const char* array) const {
+        withElement(index, array, [](const JsonNode&) {});
+    }
+    void reference(const JsonNode& object, const char* key, const char* array) const {
+        if (const auto index = object.find(key)) reference(*index, array);
+    }
+    void referencesOf(const JsonNode& object, const char* key, const char* array) const {
+        if (const auto list = object.find(key))
+            list->forEachElement([&](const JsonNode& index) { reference(index, array); });
+    }
+    template <typename Function> // (const JsonNode& element)
+    void forEach(const char* array, const Function& function) const {
+        if (const auto elements = root_.find(array)) elements->forEachElement(function);
+    }
+
+    void buffers() const {
+        forEach("buffers", [](const JsonNode& buffer) {
+            if (whole(buffer.at("byteLength")) == 0) buffer.at("byteLength").failValue("at least 1");
+        });
+        forEach("bufferViews", [this](const JsonNode& view) {
+            const std::uint64_t end = whole(view, "byteOffset", 0) + whole(view.at("byteLength"));
+            if (whole(view.at("byteLength")) == 0) view.at("byteLength").failValue("at least 1");
+            withElement(view.at("buffer"), "buffers", [&](const JsonNode& buffer) {
+                const std::uint64_t length = whole(buffer.at("byteLength"));
+                if (end > length)
+                    view.fail("ends at byte " + std::to_string(end) + " of a buffer of " + std::to_string(length));
+            });
+            if (const auto stride = view.find("byteStride"))
+                if (const std::uint64_t bytes = whole(*stride); bytes < 1 || bytes > 252)
+                    stride->failValue("from 4 to 252");
+        });
+    }
+
+    // That `count` elements of `bytes` from `offset` lie within a buffer view, `stride` apart if the view says so.
+    void range(const JsonNode& owner, std::uint64_t offset, std::uint64_t count, std::uint64_t bytes) const {
+        withElement(owner.at("bufferView"), "bufferViews", [&](const JsonNode& view) {
+            const std::uint64_t stride = whole(view, "byteStride", bytes);
+            const std::uint64_t length = whole(view.at("byteLength"));
+            if (count > length || offset + stride * (count - 1) + bytes > length)
+                owner.fail("its " + std::to_string(count) + " elements end beyond the " + std::to_string(length) +
+                           " bytes of the buffer view");
+        });
+    }
+
+    static std::uint64_t componentBytes(const JsonNode& type) {
+        switch (whole(type)) {
+            case 5120:
+            case 5121:
+                return 1;
+            case 5122:
+            case 5123:
+                return 2;
+            case 5125:
+            case 5126:
+                return 4;
+            default:
+                type.failValue("5120, 5121, 5122, 5123, 5125 or 5126");
+        }
+    }
+
+    // Columns of matrices start at multiples of four bytes.
+    static std::uint64_t elementBytes(const std::string& type, std::uint64_t component) {
+        if (type == "SCALAR") return component;
+        const auto size = static_cast<std::uint64_t>(type.back() - '0');
+        if (type.rfind("VEC", 0) == 0) return size * component;
+        return size * ((size * component + 3) / 4 * 4);
+    }
+
+    void accessors() const {
+        forEach("accessors", [this](const JsonNode& accessor) {
+            const std::string type =
+                accessor.at("type").oneOf({"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"});
+            const std::uint64_t bytes = elementBytes(type, componentBytes(accessor.at("componentType")));
+            const std::uint64_t count = whole(accessor.at("count"));
+            if (count == 0 || count > UINT32_MAX) accessor.at("count").failValue("from 1 to 2^32 - 1");
+            if (accessor.has("bufferView"))
+                range(accessor, whole(accessor, "byteOffset", 0), count, bytes);
+            else if (count > kMostImplicit)
+                accessor.at("count").failValue("at most " + std::to_string(kMostImplicit) + " without a buffer view");
+            const auto sparse = accessor.find("sparse");
+            if (!sparse) return;
+            const std::uint64_t changed = whole(sparse->at("count"));
+            if (changed == 0 || changed > count) sparse->at("count").failValue("from 1 to the accessor's count");
+            const JsonNode indices = sparse->at("indices"), values = sparse->at("values");
+            if (const JsonNode kind = indices.at("componentType"); componentBytes(kind) == 4 && whole(kind) != 5125)
+                kind.failValue("5121, 5123 or 5125");
+            range(indices, whole(indices, "byteOffset", 0), changed, componentBytes(indices.at("componentType")));
+            range(values, whole(values, "byteOffset", 0), changed, bytes);
+        });
+    }
+
+    void references() const {
+        reference(root_, "scene", "scenes");
+        forEach("scenes", [this](const JsonNode& scene) { referencesOf(scene, "nodes", "nodes"); });
+        forEach("nodes", [this](const JsonNode& node) {
+            reference(node, "mesh", "meshes");
+            reference(node, "camera", "cameras");
+            reference(node, "skin", "skins");
+            referencesOf(node, "children", "nodes");
+            if (const auto extensions = node.find("extensions")) {
+                if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing"))
+                    instancing->at("attributes").forEachMember([this](const std::string&, const JsonNode& index) {
+                        reference(index, "accessors");
+                    });
+                if (const auto light = extensions->find("KHR_lights_punctual"))
+                    if (const JsonNode index = light->at("light"); whole(index) >= lightCount())
+                        index.failValue("an index into lights, of which there are " + std::to_string(lightCount()));
+            }
+        });
+        forEach("skins", [this](const JsonNode& skin) {
+            referencesOf(skin, "joints", "nodes");
+            reference(skin, "inverseBindMatrices", "accessors");
+        });
+        forEach("meshes", [this](const JsonNode& mesh) {
+            mesh.at("primitives").forEachElement([this](const JsonNode& primitive) {
+                reference(primitive, "indices", "accessors");
+                reference(primitive, "material", "materials");
+                primitive.at("attributes").forEachMember([this](const std::string&, const JsonNode& index) {
+                    reference(index, "accessors");
+                });
+            });
+        });
+        forEach("images", [this](const JsonNode& image) { reference(image, "bufferView", "bufferViews"); });
+        forEach("textures", [this](const JsonNode& texture) {
+            reference(texture, "source", "images");
+            reference(texture, "sampler", "samplers");
+        });
+        forEach("materials", [this](const JsonNode& material) { textureReferences(material); });
+    }
+
+    std::size_t lightCount() const {
+        const auto extensions = root_.find("extensions");
+        const auto punctual = extensions ? extensions->find("KHR_lights_punctual") : std::nullopt;
+        return punctual ? punctual->at("lights").arraySize() : 0;
+    }
+
+    // Every member whose name ends with "Texture" names one by its index, wherever extensions put it.
+    void textureReferences(const JsonNode& object) const {
+        constexpr std::string_view kEnd = "exture";
+        object.forEachMember([&](const std::string& key, const JsonNode& member) {
+            if (!member.value().is_object() || key == "extras") return;
+            const bool isTexture =
+                key.size() > kEnd.size() && key.compare(key.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
+            if (isTexture) reference(member.at("index"), "textures");
+            textureReferences(member);
+        });
+    }
+
+    const JsonNode& root_;
+};
+
+} // namespace
+
+std::vector<std::string> checkGltf(const JsonNode& root) {
+    return Checker(root).run();
+}
+
+} // namespace rt::scene

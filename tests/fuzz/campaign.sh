@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# campaign.sh FOLDER SECONDS JOBS: runs all fuzz targets built in FOLDER, JOBS at a time, SECONDS in all. What makes one
+# fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built. Corpora grow in FOLDER/corpus.
+set -euo pipefail
+folder=$1 seconds=$2 jobs=$3
+[[ -d $folder/targets ]] || { echo "$folder has no fuzz targets: ./build.sh fuzz builds them"; exit 77; }
+cd "$folder"
+
+# One kind of input: its outcome as a line, of a find also what was found and how to replay it.
+fuzz() {
+    local target=$1 seconds=$2 log=logs/$1.log status=0
+    mkdir -p "corpus/$target" "scratch/$target"
+    # The programs that are tested see neither the user's files nor another place for files of their own.
+    env -u RT_ASSETS -u RT_DEVICE -u RT_THREADS -u RT_LOG TMPDIR="$PWD/scratch/$target" \
+        XDG_CONFIG_HOME="$PWD/scratch/none" "targets/$target" "corpus/$target" "seeds/$target" \
+        -max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+        -artifact_prefix="finds/$target-" -print_final_stats=1 >"$log" 2>&1 || status=$?
+    rm -rf "scratch/${target:?}"
+    if ((status)); then
+        echo "$target: FAILED"
+        grep -E 'ERROR|SUMMARY|runtime error|what\(\)|terminate called' "$log" || tail -n 5 "$log"
+        sed -nE "s|.*Test unit written to (.*)|replay: $PWD/targets/$target $PWD/\1|p" "$log"
+        return 1
+    fi
+    echo "$target: $(sed -nE 's/^stat::number_of_executed_units: *//p' "$log") executions"
+}
+export -f fuzz
+
+mkdir -p finds logs
+bin/rt-fuzz-seeds seeds
+targets=(targets/*)
+each=$((seconds * jobs / ${#targets[@]}))
+printf '%s\n' "${targets[@]##*/}" | xargs -P "$jobs" -I{} bash -c "fuzz {} $((each > 0 ? each : 1))" || exit 1
