@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "UiFont.h"
+#include <UiFont.h>
 
 namespace rt::gui {
 namespace {
