@@ -165,7 +165,8 @@ void Gui::take(const std::filesystem::path& file) {
             return session.loadReference(file.string());
         case BrowseFor::Picture:
             saveAs = file.string();
-            settings.saveFolder = file.parent_path().string();
+            if (std::error_code none; fs::is_directory(file.parent_path(), none))
+                settings.saveFolder = file.parent_path().string();
     }
 }
 

@@ -48,7 +48,8 @@ fs::path programFile(const fs::path& folder, const std::string& program) {
     fs::path file = (folder.empty() ? own.parent_path() : folder) / program;
     file += own.extension();
     std::error_code none;
-    if (!fs::is_regular_file(file, none)) throw RenderError(file.string() + ": is not there; it is built beside this program");
+    if (!fs::is_regular_file(file, none))
+        throw RenderError(file.string() + ": is not there; it is built beside this program");
     return file;
 }
 

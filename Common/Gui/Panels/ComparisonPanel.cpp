@@ -190,12 +190,13 @@ void deleteRuns(Gui& gui) {
 void drawComparisonPanel(Gui& gui) {
     if (!gui.runsToDelete.empty()) deleteRuns(gui);
     gui.runs.update(gui.history, gui.onlyThisScene && gui.state.scene ? gui.state.scene->id : "");
-    const ImVec2 all = ImGui::GetContentRegionAvail();
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
-    const bool isNarrow = all.x < kNarrow * font; // the chart is below, not beside
+    const bool isNarrow = ImGui::GetContentRegionAvail().x < kNarrow * font; // the chart is below, not beside
+    if (!isNarrow) drawEngineCards(gui);
+    const ImVec2 all = ImGui::GetContentRegionAvail();
     const ImVec2 chart = isNarrow ? ImVec2{0, kLeastHeight * font} : ImVec2{std::floor(0.35f * all.x), all.y};
     ImGui::BeginChild("##left", {isNarrow ? 0 : all.x - chart.x - space, 0}, false);
-    drawEngineCards(gui);
+    if (isNarrow) drawEngineCards(gui);
     drawReference(gui);
     drawRunActions(gui);
     drawRunTable(gui, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});

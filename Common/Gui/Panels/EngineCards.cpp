@@ -71,8 +71,9 @@ void drawSpeedUp(const app::EnginePair& pair) {
     std::string toError = "not known", tip = "Needs the errors of both runs, of one kind: render or load a reference";
     if (comparison.timeToEqualError > 0) {
         toError = ratioText(comparison.timeToEqualError);
-        tip = std::string("relMSE falls as the number of samples grows, so that the time to equal error is as relMSE "
-                          "times seconds. Errors are ") +
+        tip = std::string(
+                  "relMSE falls as the number of samples grows, so that the time to equal error is as relMSE "
+                  "times seconds. Errors are ") +
               (comparison.isMeasured ? "measured against a reference" : "the films' own estimates, no measurements");
     }
     const std::string kind = comparison.timeToEqualError <= 0 ? "" : comparison.isMeasured ? "measured" : "estimated";
@@ -97,10 +98,11 @@ void drawOther(Gui& gui) {
     const std::string name = gui.isGpu ? "CPU" : "GPU";
     if (state.phase == Phase::Running || gui.otherIsWanted) {
         const bool runs = state.phase == Phase::Running;
-        const float share = runs && state.sppWanted > 0
-                                ? static_cast<float>(static_cast<double>(state.spp) / static_cast<double>(state.sppWanted))
-                                : 0.0f;
-        const std::string text = !runs             ? "waits for this render to end"
+        const float share =
+            runs && state.sppWanted > 0
+                ? static_cast<float>(static_cast<double>(state.spp) / static_cast<double>(state.sppWanted))
+                : 0.0f;
+        const std::string text = !runs            ? "waits for this render to end"
                                  : state.spp == 0 ? name + ": starting"
                                                   : name + ": " + std::to_string(state.spp) + " / " +
                                                         std::to_string(state.sppWanted) + " spp";
@@ -110,13 +112,13 @@ void drawOther(Gui& gui) {
         return;
     }
     const std::string why = gui.whyNotOther();
-    const std::string tip = "The same scene, camera, size, samples and settings by the other program, without a "
-                            "window. Its picture is pinned beside this one, its run goes to the table. This render "
-                            "ends first: two at a time would slow each other down" +
-                            (why.empty() ? "" : ".\n" + why);
+    const std::string tip =
+        "The same scene, camera, size, samples and settings by the other program, without a "
+        "window. Its picture is pinned beside this one, its run goes to the table. This render "
+        "ends first: two at a time would slow each other down" +
+        (why.empty() ? "" : ".\n" + why);
     if (button(("Run on the other engine (" + name + ")").c_str(), tip.c_str(), why.empty())) gui.otherIsWanted = true;
-    if (state.phase == Phase::Failed)
-        wrapped(state.error, errorColor(gui.settings.colorMode));
+    if (state.phase == Phase::Failed) wrapped(state.error, errorColor(gui.settings.colorMode));
     if (state.phase == Phase::Cancelled) note(name + ": cancelled");
 }
 
@@ -133,7 +135,10 @@ void drawEngineCards(Gui& gui) {
         besideIfItFits(width);
         drawSpeedUp(pair);
     }
+    besideIfItFits(width);
+    ImGui::BeginGroup();
     drawOther(gui);
+    ImGui::EndGroup();
 }
 
 } // namespace rt::gui
