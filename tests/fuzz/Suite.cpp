@@ -1,5 +1,6 @@
 // Suite files of the benchmark.
 #include "Common/Bench/Suite.h"
+
 #include "tests/fuzz/Fuzz.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
