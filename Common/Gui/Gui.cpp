@@ -165,7 +165,7 @@ void Gui::take(const std::filesystem::path& file) {
             return session.loadReference(file.string());
         case BrowseFor::Picture:
             saveAs = file.string();
-            if (std::error_code none; fs::is_directory(file.parent_path(), none))
+            if (std::error_code none; std::filesystem::is_directory(file.parent_path(), none))
                 settings.saveFolder = file.parent_path().string();
     }
 }
