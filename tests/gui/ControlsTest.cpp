@@ -209,9 +209,11 @@ TEST_P(ControlsTest, ExportsRunsAndChart) {
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
     ASSERT_TRUE(eventually([&] { return fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"); })) << log();
-    for (const auto& [file, x] : {std::pair{"ray-tracing-history.csv", 557}, {"ray-tracing-errors.png", 659}}) {
-        EXPECT_TRUE(eventually([&, file = file, x = x] {
-            act("mousemove " + std::to_string(x) + " 587 sleep 0.3 click 1 sleep 0.3");
+    // Places from the picture.
+    for (const auto& [file, place] :
+         {std::pair{"ray-tracing-history.csv", "850 689"}, {"ray-tracing-errors.png", "427 718"}}) {
+        EXPECT_TRUE(eventually([&, file = file, place = std::string(place)] {
+            act("mousemove " + place + " sleep 0.3 click 1 sleep 0.3");
             return fs::exists(folder_ / "pictures" / file);
         })) << file
             << log();
