@@ -1,5 +1,5 @@
-// The picture in its window: exposure, tone curve, sRGB. Pixels are squares where they are enlarged and averages where
-// they are reduced.
+// The picture in its window: exposure, tone curve, sRGB. Pixels that are enlarged are squares or run into each other;
+// where they are reduced, averages are shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "Common/Shared/Tonemap.h"
@@ -15,7 +15,7 @@ layout(push_constant) uniform Constants {
     uint width; // of both images; 0: none
     uint height;
     uint curve;
-    uint plain;   // bit 0: the picture, bit 1: the held image is display intensities already
+    uint flags;   // 1: the picture, 2: the held image is display intensities already; 4: enlarged pixels are smooth
     float split;  // the held image is shown to the left of this, in pixels of the window
     float surroundR; // what lies around the image, sRGB
     float surroundG;
@@ -28,11 +28,37 @@ vec3 texel(ivec2 at, bool isHeld) {
     return isHeld ? vec3(held[i], held[i + 1u], held[i + 2u]) : vec3(picture[i], picture[i + 1u], picture[i + 2u]);
 }
 
+// What is shown of a pixel, linear; the image goes on beyond its edges as it ends there.
+vec3 shown(ivec2 at, bool isHeld) {
+    const vec3 value = texel(clamp(at, ivec2(0), ivec2(width, height) - 1), isHeld);
+    return (flags & (isHeld ? 2u : 1u)) != 0u ? clamp(value, 0.0, 1.0) : tonemap(value, exposure, curve);
+}
+
+// Between the middles of four pixels. Averages, here and below, are taken of what is shown, so that a small bright
+// light does not bleed into its surroundings.
+vec3 smoothed(vec2 at, bool isHeld) {
+    const ivec2 low = ivec2(floor(at - 0.5));
+    const vec2 part = at - 0.5 - vec2(low);
+    return mix(mix(shown(low, isHeld), shown(low + ivec2(1, 0), isHeld), part.x),
+               mix(shown(low + ivec2(0, 1), isHeld), shown(low + ivec2(1, 1), isHeld), part.x), part.y);
+}
+
+vec3 averaged(vec2 at, bool isHeld) {
+    const int steps = clamp(int(ceil(1.0 / scale - 0.01)), 1, 8);
+    vec3 sum = vec3(0.0);
+    for (int y = 0; y < steps; y++) {
+        for (int x = 0; x < steps; x++) {
+            const vec2 offset = (vec2(x, y) + 0.5) / float(steps) - 0.5;
+            sum += shown(ivec2(floor(at + offset / scale)), isHeld);
+        }
+    }
+    return sum / float(steps * steps);
+}
+
 void main() {
-    const vec2 size = vec2(width, height);
     const vec2 at = (gl_FragCoord.xy - vec2(originX, originY)) / scale;
     const bool isHeld = gl_FragCoord.x < split;
-    if (width == 0u || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, size))) {
+    if (width == 0u || any(lessThan(at, vec2(0.0))) || any(greaterThanEqual(at, vec2(width, height)))) {
         color = vec4(surroundR, surroundG, surroundB, 1.0);
         return;
     }
@@ -40,17 +66,6 @@ void main() {
         color = vec4(1.0);
         return;
     }
-    // Averages are taken of what is shown, so that a small bright light does not bleed into its surroundings.
-    const bool isPlain = (plain >> (isHeld ? 1u : 0u) & 1u) != 0u;
-    const int steps = clamp(int(ceil(1.0 / scale - 0.01)), 1, 8);
-    vec3 sum = vec3(0.0);
-    for (int y = 0; y < steps; y++) {
-        for (int x = 0; x < steps; x++) {
-            const vec2 offset = (vec2(x, y) + 0.5) / float(steps) - 0.5;
-            const ivec2 p = clamp(ivec2(floor(at + offset / scale)), ivec2(0), ivec2(size) - 1);
-            const vec3 value = texel(p, isHeld);
-            sum += isPlain ? clamp(value, 0.0, 1.0) : tonemap(value, exposure, curve);
-        }
-    }
-    color = vec4(srgbEncode(sum / float(steps * steps)), 1.0);
+    const bool isSmooth = (flags & 4u) != 0u && scale > 1.01;
+    color = vec4(srgbEncode(isSmooth ? smoothed(at, isHeld) : averaged(at, isHeld)), 1.0);
 }

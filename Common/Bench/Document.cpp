@@ -72,7 +72,8 @@ std::string htmlTable(const Table& table) {
             text += "<" + tag + (numbers[c] ? " class=\"n\">" : ">") + escapeMarkup(cells[c]) + "</" + tag + ">";
         text += "</tr>\n";
     };
-    line(table.header, "th");
+    const auto isEmpty = [](const std::string& cell) { return cell.empty(); };
+    if (!std::all_of(table.header.begin(), table.header.end(), isEmpty)) line(table.header, "th");
     for (const auto& row : table.rows) line(row, "td");
     return text + "</table></div>\n";
 }

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "Common/App/Session/Engine.h"
+#include "Common/App/Session/ReferenceCache.h"
 #include "Common/Image/ErrorAnalysis.h"
 #include "Common/Scene/CompiledScene.h"
 
@@ -33,13 +34,10 @@ struct ReferenceResult {
     bool sufficient = false;
 };
 
-inline constexpr std::uint32_t kReferenceSeed = 0x5eed0001; // measurements have 0, 1, ...
-inline constexpr std::uint32_t kReferenceReplicates = 4;    // which tell its variance
-
 class ReferenceStore {
   public:
     // `folder` empty: nothing is kept. With `fresh` what is there is not read.
-    ReferenceStore(std::filesystem::path folder, bool fresh) : folder_(std::move(folder)), fresh_(fresh) {}
+    ReferenceStore(std::filesystem::path folder, bool fresh) : cache_(std::move(folder)), fresh_(fresh) {}
 
     // Adds samples until every image of `measured` is at least three times as far off, standard error against error, of
     // mse by all pixels, mse by those up to 1, and relmse. The engine has the scene. Nothing when stopped before there
@@ -52,7 +50,7 @@ class ReferenceStore {
     std::filesystem::path fileOf(const ReferenceRequest& request) const;
 
   private:
-    std::filesystem::path folder_;
+    app::ReferenceCache cache_;
     bool fresh_;
 };
 

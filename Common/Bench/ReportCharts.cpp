@@ -39,7 +39,7 @@ ChartLine& lineNamed(Chart& chart, const std::string& name) {
 }
 
 Chart errorChart(const Rows& rows, const std::string& title, Figure Row::*x, const std::string& xTitle) {
-    Chart chart{title, xTitle, "relmse", {}, true};
+    Chart chart{title + ": relMSE against " + xTitle, xTitle, "relmse", {}, true};
     const std::vector<const Axis*> axes = varied(rows, {"scene", "height"});
     for (const Row* row : rows)
         if (row->*x && row->relmse)

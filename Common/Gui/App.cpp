@@ -57,6 +57,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
+    setup.references = app::ReferenceCache::ofUser();
     setup.onChange = [&isNews] { isNews = true; };
     return setup;
 }
@@ -69,11 +70,12 @@ class App {
           window_(options.program, placeOf(settings_)),
           device_(window_, options.validation, options.device),
           presenter_(device_, window_),
-          imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options.program)),
-          history_(app::RunHistory::userFile()),
+          imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options)),
+          history_(historyFile(options)),
           session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
           gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
-               program.devices} {
+               program.devices, other_, options.assetsBelow} {
+        gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
@@ -102,6 +104,7 @@ class App {
     app::CameraController camera_;
     std::atomic<bool> isNews_{false}; // there is something new of the session
     app::InteractiveSession session_;
+    app::OtherEngine other_{history_, [this] { isNews_ = true; }};
     Gui gui_;
     PictureArea picture_{gui_};
     SessionLink link_{options_, gui_, presenter_};
@@ -174,11 +177,13 @@ void App::turn() {
         window_.waitEvents(kIdleSeconds);
         return;
     }
+    gui_.followOther();
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     // A table with new rows finds the width of its columns in the frame after.
     if (std::exchange(historySerial_, gui_.state.historySerial) != gui_.state.historySerial) isNews_ = true;
+    if (gui_.browser.isSettling()) isNews_ = true;
     link_.send();
-    if (gui_.saveRequested) save();
+    if (gui_.saveRequested || !gui_.saveAs.empty()) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {
         thumbnails_.setCommands(commands);
         imgui_.draw(commands);
@@ -193,10 +198,16 @@ void App::turn() {
 
 void App::save() {
     gui_.saveRequested = false;
+    const std::string file = std::exchange(gui_.saveAs, {});
     if (!gui_.state.scene) return;
-    app::SaveRequest request = filesOf(options_, settings_);
+    app::SaveRequest request = filesOf(options_, gui_.exposure(), settings_.tonemap);
     request.stats.clear();
-    if (request.files.empty()) request.files = savePaths(settings_.saveFolder, gui_.state);
+    if (!file.empty()) {
+        request.files = {file};
+        request.aovs.clear();
+    } else if (request.files.empty()) {
+        request.files = savePaths(settings_.saveFolder, gui_.state);
+    }
     session_.save(std::move(request));
 }
 
@@ -210,9 +221,9 @@ void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
                      gui_.chart.height * pixels.y};
     try {
         image::writeImage(file, takeSnapshot(device_, presenter_.format(), extent, chart, drawInterface));
-        gui_.say("Saved " + file, false);
+        gui_.say("Saved " + file);
     } catch (const Error& error) {
-        gui_.say(error.what(), true);
+        gui_.fail(error.what(), app::ErrorSource::Save);
     }
 }
 
@@ -240,18 +251,28 @@ void App::drawInterface() {
                           revealed == row.id});
     }
     panels.front().focus = std::exchange(gui_.focusPanels, false);
-    const Rect area = layOut(
-        panels, imgui_.scale(), [this] { drawRenderControl(gui_); }, [this] { drawStatusLine(gui_); });
-    picture_.place(area);
+    const float scale = imgui_.scale();
+    const Rect area =
+        layOut(panels, scale,
+               {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }});
+    picture_.place(area, innerArea(gui_, area, scale));
+    gui_.previewWidth = picture_.previewWidth(device_.isSoftware());
     picture_.handlePointer();
-    drawViewLegend(gui_, area, imgui_.scale());
-    drawOverlay(gui_, area, imgui_.scale());
+    drawViewLegend(gui_, area, scale);
+    drawChips(gui_, area, picture_.imageRect(), scale);
+    drawOverlay(gui_, area, scale);
+    drawErrors(gui_);
+    drawScenes(gui_);
     drawHelp(gui_);
+    drawFirstSteps(gui_, area);
+    if (gui_.browser.isOpen())
+        if (const auto file = gui_.browser.draw(settings_.recent)) gui_.take(*file);
 }
 
 void App::rescue() {
     std::cerr << options_.program << ": the window system has taken the window away" << std::endl;
     kept_.store();
+    other_.close();
     session_.close();
 }
 

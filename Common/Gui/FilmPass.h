@@ -15,6 +15,9 @@ namespace rt::gui {
 
 inline constexpr std::uint32_t kFramesInFlight = 2;
 
+// Flags: that image is display intensities already; pixels that are enlarged run into each other.
+inline constexpr std::uint32_t kPlainPicture = 1, kPlainHeld = 2, kSmooth = 4;
+
 // As Constants of Shaders/Present.frag.
 struct PresentConstants {
     float originX = 0, originY = 0; // of the image's upper left corner, in pixels of the window
@@ -22,7 +25,7 @@ struct PresentConstants {
     float exposure = 0;             // stops
     std::uint32_t width = 0, height = 0;
     std::uint32_t curve = 0;
-    std::uint32_t plain = 0; // bit 0: the picture, bit 1: the held image is display intensities already
+    std::uint32_t flags = 0; // kPlainPicture and the like
     float split = -1;        // the held image is shown to the left of this; pixels of the window
     float surround[3] = {};
 };

@@ -1,6 +1,7 @@
 // The fonts that the interface can be drawn with.
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -8,9 +9,11 @@ namespace rt::gui {
 
 struct FontFile {
     std::string name;
-    std::filesystem::path file; // empty: ImGui's own, of fixed size
+    std::filesystem::path file;           // empty: one of the program's own
+    std::span<const unsigned char> bytes; // of a TrueType file in the program; empty, too: ImGui's own, of fixed size
 };
-// Those that this machine has; ImGui's own comes last.
+// First the program's own, proportional but for its figures, so that numbers stand still while they change; then
+// those of this machine; last ImGui's.
 const std::vector<FontFile>& availableFonts();
 
 } // namespace rt::gui

@@ -5,7 +5,10 @@
 
 #include <imgui.h>
 
+#include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
+#include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 
 namespace rt::gui {
@@ -27,21 +30,68 @@ void Gui::stepScene(int step) {
 }
 
 void Gui::hold() {
-    held = held ? nullptr : state.picture.image;
+    const bool isHeld = held != nullptr;
+    held = isHeld ? nullptr : state.picture.image;
+    heldRadiance = isHeld ? nullptr : state.picture.radiance;
     heldIsDisplay = state.picture.isDisplay;
+    heldTitle = pictureTitle();
     split = 0.5f;
+}
+
+std::string Gui::whyNotOther() const {
+    if (!state.scene) return "There is no scene yet";
+    if (state.picture.isPreview) return "Ray tracing is off here";
+    if (!settings.request.accumulate) return "Frames of their own are no render to compare with";
+    if (settings.request.settings.features) return "The features are forced by --features, which is for one program";
+    return {};
+}
+
+void Gui::followOther() {
+    using app::Activity;
+    const bool rests = state.activity == Activity::Finished || state.activity == Activity::Stopped;
+    if (otherIsWanted && rests && state.stage.empty() && whyNotOther().empty()) {
+        otherIsWanted = false;
+        app::OtherJob job;
+        job.program = isGpu ? app::kCpuProgram : app::kGpuProgram;
+        job.scene = {state.source, settings.request.oneSidedLights, "", assetsBelow};
+        job.compiled = state.scene;
+        job.camera = camera.camera();
+        job.settings = state.settings;
+        // As many as this film has, where it ended before all that were asked for.
+        if (state.picture.spp > 0 && !state.status.finished)
+            job.settings.spp = static_cast<std::uint32_t>(state.picture.spp);
+        job.settings.replicates = std::min(job.settings.replicates, job.settings.spp);
+        if (state.referenceFits) {
+            job.reference = state.referenceImage;
+            job.referenceError = state.referenceError;
+        }
+        other.start(job);
+    }
+    const app::OtherState done = other.state();
+    if (done.serial == otherSerial) return;
+    otherSerial = done.serial;
+    held = heldRadiance = done.image;
+    heldIsDisplay = false;
+    heldTitle = (isGpu ? "CPU, " : "GPU, ") + std::to_string(done.record.spp) + " spp";
+    split = 0.5f;
+    say(heldTitle + " in " + shortDuration(done.record.renderSeconds));
+}
+
+void Gui::cancelOther() {
+    otherIsWanted = false;
+    other.cancel();
 }
 
 void Gui::copyPose() {
     window.setClipboard(app::CameraController::toText(camera.camera()));
-    say("Pose copied", false);
+    say("Pose copied");
 }
 
 void Gui::pastePose() {
     if (const auto pose = app::CameraController::fromText(window.clipboard(), camera.camera())) {
         camera.set(*pose);
     } else {
-        say("The clipboard holds no camera pose", true);
+        fail("The clipboard holds no camera pose", app::ErrorSource::Camera);
     }
 }
 
@@ -71,10 +121,63 @@ void Gui::scaleInterface(float change) {
     settings.uiScale = std::clamp(settings.uiScale + change, app::kLeastUiScale, app::kMostUiScale);
 }
 
+std::string Gui::pictureTitle() const {
+    if (state.picture.isPreview) return "preview";
+    return (isGpu ? "GPU, " : "CPU, ") + std::to_string(state.picture.spp) + " spp";
+}
+
+void Gui::browse(BrowseFor what) {
+    namespace fs = std::filesystem;
+    browseFor = what;
+    const auto folderOf = [](const std::string& file) { return fs::path(file).parent_path(); };
+    FileBrowser::Request request;
+    std::error_code none;
+    switch (what) {
+        case BrowseFor::Scene:
+            request = {"Open a scene", "Open", {".json", ".obj", ".gltf", ".glb"}, {}, ""};
+            if (fs::is_regular_file(state.source, none)) {
+                request.folder = folderOf(state.source);
+            } else if (const auto assets = assetFolders(); !assets.empty()) {
+                request.folder = assets.front() / "scenes";
+            }
+            break;
+        case BrowseFor::Reference:
+            request = {"Load a reference", "Load", {".exr", ".hdr", ".pfm"}, saveFolder(settings.saveFolder), ""};
+            break;
+        case BrowseFor::Picture:
+            if (!state.scene) return;
+            request = {"Save the picture",
+                       "Save",
+                       {".png", ".exr", ".hdr", ".pfm"},
+                       saveFolder(settings.saveFolder),
+                       fs::path(savePaths(settings.saveFolder, state).front()).filename().string(),
+                       true};
+            break;
+    }
+    browser.open(std::move(request));
+}
+
+void Gui::take(const std::filesystem::path& file) {
+    switch (browseFor) {
+        case BrowseFor::Scene:
+            return openScene(file.string());
+        case BrowseFor::Reference:
+            return session.loadReference(file.string());
+        case BrowseFor::Picture:
+            saveAs = file.string();
+            if (std::error_code none; std::filesystem::is_directory(file.parent_path(), none))
+                settings.saveFolder = file.parent_path().string();
+    }
+}
+
 void Gui::say(const std::string& text, bool isError) {
-    toast = printable(text); // names of files, too
-    toastTime = ImGui::GetTime();
-    toastIsError = isError;
+    if (isError) return fail(text, app::ErrorSource::Other);
+    message = printable(text); // names of files, too
+    messageTime = ImGui::GetTime();
+}
+
+void Gui::fail(const std::string& text, app::ErrorSource source) {
+    errors.add(printable(text), source);
 }
 
 } // namespace rt::gui

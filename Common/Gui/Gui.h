@@ -1,14 +1,19 @@
 // What the parts of the window's interface share: the session, the settings, and what is shown of both.
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Interactive/ErrorList.h"
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/InteractiveSession.h"
+#include "Common/App/Interactive/OtherEngine.h"
+#include "Common/Gui/FileBrowser.h"
 #include "Common/Gui/Layout.h"
+#include "Common/Gui/RunBoard.h"
 #include "Common/Gui/Thumbnails.h"
 #include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"
@@ -21,6 +26,14 @@ struct PictureView {
     float panX = 0, panY = 0; // of the image's middle from that of its part, in pixels of the window
 };
 
+// A row of the inspector: of the picture, and where one is pinned of that and their difference.
+struct InspectedRow {
+    std::string name, picture, held, difference;
+};
+
+// What the file browser is open for.
+enum class BrowseFor { Scene, Reference, Picture };
+
 // Members that are not const are for the parts to change; App sends what has changed.
 struct Gui {
     app::InteractiveSession& session;
@@ -31,41 +44,62 @@ struct Gui {
     Thumbnails& thumbnails;
     const bool isGpu;
     const std::vector<app::EngineDevice> devices; // of ray-tracing-gpu, those that are suitable
+    app::OtherEngine& other;
+    const std::string assetsBelow; // as --assets-below says
 
     app::SessionState state; // of this frame
     PictureView view;
     app::ViewRequest viewRequest;
-    std::shared_ptr<const image::Image> held; // for comparison with the picture
+    std::uint32_t previewWidth = 0; // pixels of a row that suit the window; 0: the picture's own
+    std::shared_ptr<const image::Image> held, heldRadiance; // for comparison with the picture
+    std::string heldTitle;                                  // what it is
     bool heldIsDisplay = false;
-    float split = 0.5f;     // share of the picture's part that shows the held image
-    bool pickFocus = false; // the next click in the picture tells what is to be sharp
-    std::string inspected;  // what the pixel under the pointer holds
+    float split = 0.5f;                  // share of the picture's part that shows the held image
+    bool pickFocus = false;              // the next click in the picture tells what is to be sharp
+    std::vector<InspectedRow> inspected; // what the pixel under the pointer holds
     std::uint32_t referenceSpp = 1024;
     std::string referencePath;
     bool onlyThisScene = true;
+    RunBoard runs;
+    std::vector<app::RunRecord> runsToDelete; // before the next frame draws any
+    bool otherIsWanted = false;               // as soon as this render has ended
+    std::uint64_t otherSerial = 0;            // of the picture of the other program that was pinned
     Rect chart;                  // of the comparison, in the window's units
     bool chartRequested = false; // as a file
     UiFigures figures;
     bool showHelp = false;
     std::string revealPanel;  // id of one to bring to where it is seen
     bool focusPanels = false; // the keyboard is to go to the panels
-    bool focusOpen = false;   // the keyboard is to go to the field of the path
-    std::string path;         // in that field
     bool saveRequested = false;
-    std::string toast; // shown for a while
-    double toastTime = -1e9;
-    bool toastIsError = false;
+    std::string saveAs;  // a file that was chosen to save to; empty: none
+    std::string message; // shown for a while
+    double messageTime = -1e9;
+    app::ErrorList errors; // shown until they are read
+    bool showErrors = false, showScenes = false, showFirstSteps = false;
+    std::string sceneSearch;
+    FileBrowser browser;
+    BrowseFor browseFor = BrowseFor::Scene;
+    float autoExposure = 0; // stops, of the picture
 
     void openScene(const std::string& source);
     void stepScene(int step); // through the built-in ones, round and round
-    void hold();              // the picture, for comparison; or lets it go
-    void copyPose();          // of the camera, to the clipboard
+    std::string pictureTitle() const;
+    std::string whyNotOther() const; // the other program cannot do the same; empty: it can
+    void followOther();              // starts it when it is its turn, and pins what it has rendered
+    void cancelOther();
+    void hold();     // the picture, for comparison; or lets it go
+    void copyPose(); // of the camera, to the clipboard
     void pastePose();
     void toggleHeatMap();
     void toggleStatistics();
     void setRayTracing(bool on); // where there is a preview to show instead
     void scaleInterface(float change);
-    void say(const std::string& text, bool isError);
+    void browse(BrowseFor what);
+    void take(const std::filesystem::path& file);            // that was chosen in the browser
+    void say(const std::string& text, bool isError = false); // what has been done, or went wrong
+    void fail(const std::string& text, app::ErrorSource source);
+    // Stops, of what is shown and saved.
+    float exposure() const { return settings.exposure + (settings.autoExposure ? autoExposure : 0); }
 };
 
 } // namespace rt::gui

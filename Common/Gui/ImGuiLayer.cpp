@@ -127,8 +127,16 @@ void ImGuiLayer::applyStyle() {
     io.FontGlobalScale = 1 / style_.density;
 #endif
     const float size = std::round(kFontSize * pixels);
-    if (font.file.empty() ||
-        io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), size, nullptr, kGlyphs) == nullptr) {
+    const ImFont* made = nullptr;
+    if (!font.bytes.empty()) {
+        ImFontConfig config;
+        config.FontDataOwnedByAtlas = false; // which therefore only reads it
+        made = io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.bytes.data()),
+                                              static_cast<int>(font.bytes.size()), size, &config, kGlyphs);
+    } else if (!font.file.empty()) {
+        made = io.Fonts->AddFontFromFileTTF(font.file.string().c_str(), size, nullptr, kGlyphs);
+    }
+    if (made == nullptr) {
         ImFontConfig config;
         config.SizePixels = 13 * std::max(1.0f, std::round(pixels));
         io.Fonts->AddFontDefault(&config);

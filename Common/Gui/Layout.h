@@ -22,9 +22,15 @@ struct Rect {
     bool contains(float px, float py) const { return px >= x && py >= y && px < x + width && py < y + height; }
 };
 
+// What is no panel, and drawn where it belongs.
+struct Edges {
+    std::function<void()> toolbar; // a line at the window's top
+    std::function<void()> header;  // above the panels of the side
+    std::function<void()> status;  // a line at the window's bottom
+};
+
 // Shows the panels of a frame, of which all that there may be are given; returns the rest of the window, in its units.
-// `header` is drawn above the panels of the side, `status` in a line at the bottom; `scale` is that of the interface.
-Rect layOut(std::span<const Panel> panels, float scale, const std::function<void()>& header,
-            const std::function<void()>& status);
+// `scale` is that of the interface.
+Rect layOut(std::span<const Panel> panels, float scale, const Edges& edges);
 
 } // namespace rt::gui

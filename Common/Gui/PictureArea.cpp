@@ -24,8 +24,35 @@ constexpr std::size_t kMostNameBytes = 60; // of a material
 float PictureArea::fitScale() const {
     const image::Image* image = gui_.state.picture.image.get();
     if (image == nullptr || image->width == 0 || image->height == 0) return 1;
-    return std::max(1e-3f, std::min(area_.width / static_cast<float>(image->width),
-                                    area_.height / static_cast<float>(image->height)));
+    return std::max(1e-3f, std::min(inner_.width / static_cast<float>(image->width),
+                                    inner_.height / static_cast<float>(image->height)));
+}
+
+// Pixels of the film for one of the picture: a preview may have more.
+float PictureArea::filmPixels() const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr || image->width == 0 || !gui_.state.picture.isPreview) return 1;
+    return static_cast<float>(gui_.state.settings.width) / static_cast<float>(image->width);
+}
+
+std::uint32_t PictureArea::previewWidth(bool isSoftware) const {
+    constexpr float kMostPixels = 4e6f;
+    const float width = static_cast<float>(gui_.state.settings.width);
+    const float height = static_cast<float>(gui_.state.settings.height);
+    if (gui_.view.zoom > 0 || !(width > 0 && height > 0)) return 0;
+    const float fit = std::min(inner_.width / width, inner_.height / height);
+    const float shown = std::max(1.0f, fit * width * ImGui::GetIO().DisplayFramebufferScale.x);
+    const bool isFine = !isSoftware && 4 * shown * shown * height / width < kMostPixels;
+    return static_cast<std::uint32_t>(std::lround(isFine ? 2 * shown : shown));
+}
+
+Rect PictureArea::imageRect() const {
+    const image::Image* image = gui_.state.picture.image.get();
+    if (image == nullptr) return inner_;
+    const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+    const PresentConstants place = constants();
+    return {place.originX / pixels.x, place.originY / pixels.y, scale() * static_cast<float>(image->width),
+            scale() * static_cast<float>(image->height)};
 }
 
 PresentConstants PictureArea::constants() const {
@@ -33,16 +60,17 @@ PresentConstants PictureArea::constants() const {
     PresentConstants constants;
     if (const image::Image* image = gui_.state.picture.image.get()) {
         const float s = scale();
-        const float left = area_.x + 0.5f * (area_.width - s * static_cast<float>(image->width)) + gui_.view.panX;
-        const float top = area_.y + 0.5f * (area_.height - s * static_cast<float>(image->height)) + gui_.view.panY;
+        const float left = inner_.x + 0.5f * (inner_.width - s * static_cast<float>(image->width)) + gui_.view.panX;
+        const float top = inner_.y + 0.5f * (inner_.height - s * static_cast<float>(image->height)) + gui_.view.panY;
         // Whole pixels of the window: an image at 1:1 stays sharp.
         constants.originX = std::round(left * pixels.x);
         constants.originY = std::round(top * pixels.y);
         constants.scale = s * pixels.x;
     }
-    constants.plain = (gui_.state.picture.isDisplay ? 1u : 0u) | (gui_.heldIsDisplay ? 2u : 0u);
+    constants.flags = (gui_.state.picture.isDisplay ? kPlainPicture : 0u) | (gui_.heldIsDisplay ? kPlainHeld : 0u) |
+                      (gui_.view.zoom > 0 ? 0u : kSmooth); // who zooms wants to see pixels
     if (gui_.held) constants.split = (area_.x + gui_.split * area_.width) * pixels.x;
-    constants.exposure = gui_.settings.exposure;
+    constants.exposure = gui_.exposure();
     constants.curve = static_cast<std::uint32_t>(gui_.settings.tonemap);
     const Rgb surround = surroundColor(gui_.settings.colorMode);
     constants.surround[0] = surround.r;
@@ -80,31 +108,38 @@ std::string PictureArea::materialAt(const Pixel& pixel, const image::Image& pict
     return seenMaterial_;
 }
 
-// The inspector's text for a pixel.
+// What the inspector says of a pixel.
 void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected.clear();
     const app::Picture& picture = gui_.state.picture;
     if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
     const std::uint32_t x = (*pixel)[0], y = (*pixel)[1]; // Clang 14 captures no structured bindings
-    const auto has = [&](const std::shared_ptr<const image::Image>& image) {
-        return image && x < image->width && y < image->height;
+    const auto find = [&](const std::shared_ptr<const image::Image>& image) {
+        return image && x < image->width && y < image->height ? image->pixel(x, y) : nullptr;
     };
-    if (!has(picture.radiance)) return;
-    const float* rgb = picture.radiance->pixel(x, y);
-    char text[160];
-    std::snprintf(text, sizeof text, "Pixel (%u, %u)\nradiance %.4g  %.4g  %.4g", x, y, rgb[0], rgb[1], rgb[2]);
-    gui_.inspected = text;
-    if (has(picture.variance)) {
-        const float* variance = picture.variance->pixel(x, y);
-        std::snprintf(text, sizeof text, "\nvariance %.3g  %.3g  %.3g", variance[0], variance[1], variance[2]);
-        gui_.inspected += text;
+    const float* rgb = find(picture.radiance);
+    if (rgb == nullptr) return;
+    const auto text = [](const char* pattern, auto... values) {
+        char buffer[96];
+        std::snprintf(buffer, sizeof buffer, pattern, values...);
+        return std::string(buffer);
+    };
+    constexpr const char* kPattern = "%.4g  %.4g  %.4g";
+    gui_.inspected.push_back({"pixel", text("%u, %u", x, y), "", ""});
+    InspectedRow radiance{"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""};
+    if (const float* held = gui_.held ? find(gui_.heldRadiance) : nullptr) {
+        gui_.inspected.front() = {"pixel", "B: picture", "A: pinned", "B - A"};
+        gui_.inspected.push_back({"", text("%u, %u", x, y), "", ""});
+        radiance.held = text(kPattern, held[0], held[1], held[2]);
+        radiance.difference = text("%+.3g  %+.3g  %+.3g", rgb[0] - held[0], rgb[1] - held[1], rgb[2] - held[2]);
     }
-    if (has(picture.samples)) {
-        std::snprintf(text, sizeof text, "\nsamples %.0f", *picture.samples->pixel(x, y));
-        gui_.inspected += text;
-    }
+    gui_.inspected.push_back(std::move(radiance));
+    if (const float* variance = find(picture.variance))
+        gui_.inspected.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
+    if (const float* samples = find(picture.samples))
+        gui_.inspected.push_back({"samples", text("%.0f", *samples), "", ""});
     const std::string material = materialAt(*pixel, *picture.radiance);
-    if (!material.empty()) gui_.inspected += "\nmaterial " + printable(material, kMostNameBytes);
+    if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMostNameBytes), "", ""});
 }
 
 void PictureArea::handlePointer() {
@@ -131,11 +166,11 @@ void PictureArea::handlePointer() {
 void PictureArea::drag() {
     const ImGuiIO& io = ImGui::GetIO();
     const double dx = io.MouseDelta.x, dy = io.MouseDelta.y;
-    const float height = static_cast<float>(gui_.state.settings.height) * scale();
+    const float height = imageRect().height;
     if (io.MouseDown[1] && io.KeyCtrl) {
         gui_.view.panX += io.MouseDelta.x;
         gui_.view.panY += io.MouseDelta.y;
-        gui_.view.zoom = scale();
+        gui_.view.zoom = scale() / filmPixels();
     } else if (io.MouseDown[1]) {
         gui_.camera.look(-kRadiansPerPixel * dx, -kRadiansPerPixel * dy);
     } else if (io.MouseDown[0] && (io.KeyAlt || (!gui_.held && ImGui::IsMouseDragging(0)))) {
@@ -151,18 +186,18 @@ void PictureArea::turnWheel() {
     if (io.KeyCtrl) { // about the pointer
         const float before = scale();
         const float after = std::clamp(before * std::pow(kZoomStep, io.MouseWheel), kLeastZoom, kMostZoom);
-        const float x = io.MousePos.x - area_.x - 0.5f * area_.width;
-        const float y = io.MousePos.y - area_.y - 0.5f * area_.height;
+        const float x = io.MousePos.x - inner_.x - 0.5f * inner_.width;
+        const float y = io.MousePos.y - inner_.y - 0.5f * inner_.height;
         gui_.view.panX = x - (x - gui_.view.panX) * after / before;
         gui_.view.panY = y - (y - gui_.view.panY) * after / before;
-        gui_.view.zoom = after;
+        gui_.view.zoom = after / filmPixels();
     } else if (io.KeyShift) {
         gui_.camera.dolly(io.MouseWheel);
     } else {
         gui_.camera.changeSpeed(io.MouseWheel);
         char text[64];
         std::snprintf(text, sizeof text, "Flying speed %.3g", gui_.camera.speed());
-        gui_.say(text, false);
+        gui_.say(text);
     }
 }
 

@@ -15,17 +15,25 @@ class PictureArea {
   public:
     explicit PictureArea(Gui& gui) : gui_(gui) {}
 
-    void place(const Rect& area) { area_ = area; } // in the window's units
-    const Rect& rect() const { return area_; }
+    // In the window's units; a picture that fits lies in `inner`.
+    void place(const Rect& area, const Rect& inner) {
+        area_ = area;
+        inner_ = inner;
+    }
+    Rect imageRect() const; // the whole picture's
     // Looks, orbits, pans, zooms, picks and inspects; within a frame of ImGui, after the panels.
     void handlePointer();
     PresentConstants constants() const;
+    // Pixels of a row of the preview that suit the window: two by two for one of it, whose mean is shown, where that
+    // is not too many and no software draws.
+    std::uint32_t previewWidth(bool isSoftware) const;
 
   private:
     using Pixel = std::array<std::uint32_t, 2>;
 
     float fitScale() const;
-    float scale() const { return gui_.view.zoom > 0 ? gui_.view.zoom : fitScale(); }
+    float filmPixels() const;
+    float scale() const { return gui_.view.zoom > 0 ? gui_.view.zoom * filmPixels() : fitScale(); } // of the picture's
     std::optional<Pixel> pixelUnderPointer() const;
     void inspect(const std::optional<Pixel>& pixel);
     void drag();
@@ -42,7 +50,7 @@ class PictureArea {
     };
 
     Gui& gui_;
-    Rect area_;
+    Rect area_, inner_;
     Seen seen_;
     std::string seenMaterial_;
     bool dragging_ = false; // a drag that began in the picture goes on outside of it

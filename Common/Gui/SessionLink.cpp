@@ -1,9 +1,13 @@
 #include "Common/Gui/SessionLink.h"
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <filesystem>
+#include <utility>
 
 #include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Image/Display.h"
 
 namespace rt::gui {
 
@@ -29,9 +33,9 @@ void SessionLink::take() {
         sceneSerial_ = state.sceneSerial;
         gui_.camera.setHome(state.scene->camera);
         sentCamera_ = state.scene->camera;
-        gui_.window.setTitle(state.scene->title + " - " + options_.program);
     }
     rememberScene();
+    if (gui_.settings.reloadScenes) followFile();
     if (state.focusSerial != focusSerial_) {
         focusSerial_ = state.focusSerial;
         gui_.camera.focusAt(state.focusDistance, 1);
@@ -42,19 +46,27 @@ void SessionLink::take() {
     if (state.picture.image && state.picture.serial != pictureSerial_) {
         pictureSerial_ = state.picture.serial;
         presenter_.setPicture(state.picture.image);
+        if (gui_.settings.autoExposure) followExposure();
     }
     if (!reference_.empty() && state.picture.spp > 0) { // there is something to compare with
         gui_.session.loadReference(reference_);
         reference_.clear();
     }
-    if (state.errorSerial != errorSerial_) {
-        errorSerial_ = state.errorSerial;
-        gui_.say(state.error, true);
-    }
+    const std::uint64_t fresh = std::min<std::uint64_t>(state.errorSerial - errorSerial_, state.errors.size());
+    errorSerial_ = state.errorSerial;
+    for (std::size_t i = state.errors.size() - fresh; i < state.errors.size(); ++i)
+        gui_.fail(state.errors[i].text, state.errors[i].source);
     if (state.messageSerial != messageSerial_) {
         messageSerial_ = state.messageSerial;
-        gui_.say(state.message, false);
+        gui_.say(state.message);
     }
+}
+
+// Small differences between two pictures of a film do not make it flicker.
+void SessionLink::followExposure() {
+    constexpr float kLeastStep = 0.1f; // stops
+    const float wanted = image::autoExposure(*gui_.state.picture.radiance);
+    if (std::abs(wanted - gui_.autoExposure) > kLeastStep) gui_.autoExposure = wanted;
 }
 
 // The scene that there is, and among the files that were opened those that load.
@@ -67,11 +79,25 @@ void SessionLink::rememberScene() {
     }
     if (state.sceneLoads == sceneLoads_) return;
     sceneLoads_ = state.sceneLoads;
+    gui_.window.setTitle(state.scene->title + " - " + options_.program);
+    gui_.errors.dismiss(app::ErrorSource::Scene);
     settings.scene = state.source;
     std::error_code none;
     if (!std::filesystem::is_regular_file(state.source, none)) return; // a built-in one
     settings.scene = std::filesystem::absolute(state.source, none).string();
     settings.addRecent(settings.scene);
+}
+
+// A scene file that has changed is read again, once it stays as it is for a moment: it may still be being written.
+void SessionLink::followFile() {
+    constexpr double kSeconds = 0.5; // between two looks
+    if (sinceLook_.seconds() < kSeconds) return;
+    sinceLook_ = {};
+    const std::optional<app::FileMark> mark = app::markOf(gui_.state.source);
+    const bool isSettled = std::exchange(seenMark_, mark) == mark;
+    if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_) return;
+    askedMark_ = mark; // once, also where it does not load
+    gui_.openScene(mark->file);
 }
 
 void SessionLink::send() {
@@ -87,11 +113,16 @@ void SessionLink::send() {
         sentRayTracing_ = gui_.settings.rayTracing;
         gui_.session.preview(!sentRayTracing_);
     }
+    if (!sentRayTracing_ && gui_.previewWidth != sentPreviewWidth_) {
+        sentPreviewWidth_ = gui_.previewWidth;
+        gui_.session.previewWidth(sentPreviewWidth_);
+    }
     if (gui_.viewRequest != sentView_) {
         sentView_ = gui_.viewRequest;
         gui_.session.view(sentView_);
     }
-    if (const app::SaveRequest end = filesOf(options_, gui_.settings); sentEnd_ && end != *sentEnd_) {
+    if (const app::SaveRequest end = filesOf(options_, gui_.exposure(), gui_.settings.tonemap);
+        sentEnd_ && end != *sentEnd_) {
         sentEnd_ = end;
         gui_.session.writeAtEnd(end);
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Presenter.h"
 
@@ -21,10 +22,14 @@ class SessionLink {
 
   private:
     void rememberScene();
+    void followExposure();
+    void followFile();
 
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
+    std::optional<app::FileMark> seenMark_, askedMark_; // of the scene's file: at the last look; when it was read again
+    app::Stopwatch sinceLook_;
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 
     std::uint64_t sceneSerial_ = 0, pictureSerial_ = 0, errorSerial_ = 0, messageSerial_ = 0, focusSerial_ = 0;
@@ -33,6 +38,7 @@ class SessionLink {
     app::RenderRequest sentRequest_;
     app::EngineChoice sentEngine_;
     bool sentRayTracing_;
+    std::uint32_t sentPreviewWidth_ = 0;
     scene::CameraDesc sentCamera_;
     app::ViewRequest sentView_;
     const image::Image* shownHeld_ = nullptr;

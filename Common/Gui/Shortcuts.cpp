@@ -35,12 +35,6 @@ void holdPicture(Gui& gui) {
     if (gui.held || gui.state.picture.image) gui.hold();
 }
 
-void openFile(Gui& gui) {
-    gui.settings.showPanels = gui.settings.openPanels["scene"] = true;
-    gui.focusOpen = true;
-    gui.path.clear();
-}
-
 // From the picture: what ImGui's keys walk through begins with a window that has the focus.
 void walkPanels(Gui& gui) {
     if (ImGui::IsWindowFocused(ImGuiFocusedFlags_AnyWindow)) return;
@@ -53,15 +47,16 @@ void toggle(bool& value) {
 
 constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
-    {GLFW_KEY_ESCAPE, When::Plain, [](Gui& gui) { gui.showHelp = false; }},
+    {GLFW_KEY_ESCAPE, When::Plain, [](Gui& gui) { gui.showHelp = gui.showErrors = gui.showScenes = false; }},
     {GLFW_KEY_F2, When::Always, [](Gui& gui) { gui.toggleStatistics(); }},
     {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},
     {GLFW_KEY_F11, When::Always, [](Gui& gui) { gui.window.toggleFullScreen(); }},
     {GLFW_KEY_F12, When::Always, [](Gui& gui) { gui.saveRequested = true; }},
+    {GLFW_KEY_S, When::CtrlShift, [](Gui& gui) { gui.browse(BrowseFor::Picture); }},
     {GLFW_KEY_S, When::Control, [](Gui& gui) { gui.saveRequested = true; }},
     {GLFW_KEY_Q, When::Control, [](Gui& gui) { gui.window.close(); }},
-    {GLFW_KEY_O, When::Control, openFile},
+    {GLFW_KEY_O, When::Control, [](Gui& gui) { gui.browse(BrowseFor::Scene); }},
     {GLFW_KEY_R, When::Control, [](Gui& gui) { gui.session.reset(); }},
     {GLFW_KEY_EQUAL, When::Control, [](Gui& gui) { gui.scaleInterface(kScaleStep); }},
     {GLFW_KEY_KP_ADD, When::Control, [](Gui& gui) { gui.scaleInterface(kScaleStep); }},
@@ -97,22 +92,54 @@ bool applies(const Shortcut& shortcut, const Window::KeyPress& press) {
     return !control && !ImGui::GetIO().WantTextInput;
 }
 
+// Keys of the file browser, where its field has the keyboard.
+bool browseBy(FileBrowser& browser, const Window::KeyPress& press) {
+    using Key = FileBrowser::Key;
+    switch (press.key) {
+        case GLFW_KEY_ESCAPE:
+            browser.close();
+            return true;
+        case GLFW_KEY_ENTER:
+        case GLFW_KEY_KP_ENTER:
+            browser.press(Key::Accept); // arrows may have taken the keyboard from the field
+            return true;
+        case GLFW_KEY_UP:
+            browser.press((press.modifiers & GLFW_MOD_ALT) != 0 ? Key::Parent : Key::Up);
+            return true;
+        case GLFW_KEY_DOWN:
+            browser.press(Key::Down);
+            return true;
+        case GLFW_KEY_PAGE_UP:
+            browser.press(Key::PageUp);
+            return true;
+        case GLFW_KEY_PAGE_DOWN:
+            browser.press(Key::PageDown);
+            return true;
+        default:
+            return false;
+    }
+}
+
 } // namespace
 
 void obeyKey(Gui& gui, const Window::KeyPress& press) {
+    const bool isBrowsing = gui.browser.isOpen(); // what is typed is for its field
+    if (isBrowsing && browseBy(gui.browser, press)) return;
     for (const Shortcut& shortcut : kShortcuts) {
         if (shortcut.key != press.key || !applies(shortcut, press)) continue;
+        if (isBrowsing && shortcut.when == When::Plain) return;
         shortcut.act(gui);
         return;
     }
     const bool control = (press.modifiers & GLFW_MOD_CONTROL) != 0;
-    if (control || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9) return;
+    if (control || isBrowsing || ImGui::GetIO().WantTextInput || press.key < GLFW_KEY_1 || press.key > GLFW_KEY_9)
+        return;
     const auto index = static_cast<std::size_t>(press.key - GLFW_KEY_1);
     if (index < scene::builtinScenes().size()) gui.openScene(std::string(scene::builtinScenes()[index].id));
 }
 
 bool fly(Gui& gui, std::span<const Window::KeyPress> presses, double seconds) {
-    if (ImGui::GetIO().WantTextInput || !gui.state.scene) return false;
+    if (ImGui::GetIO().WantTextInput || gui.browser.isOpen() || !gui.state.scene) return false;
     const Window& window = gui.window;
     const bool control = window.isDown(GLFW_KEY_LEFT_CONTROL) || window.isDown(GLFW_KEY_RIGHT_CONTROL);
     const bool shift = window.isDown(GLFW_KEY_LEFT_SHIFT) || window.isDown(GLFW_KEY_RIGHT_SHIFT);

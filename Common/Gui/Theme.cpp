@@ -121,16 +121,28 @@ ImVec4 noticeColor(app::ColorMode mode) {
     return palette(mode).notice;
 }
 
+ImVec4 accentColor(app::ColorMode mode) {
+    return palette(mode).accent;
+}
+ImVec4 accentTextColor(app::ColorMode mode) {
+    return palette(mode).accentText;
+}
+
+ImVec4 engineColor(bool isGpu, app::ColorMode mode) {
+    if (mode == app::ColorMode::Light) return isGpu ? ImVec4{0, 0.45f, 0.70f, 1} : ImVec4{0.72f, 0.42f, 0, 1};
+    return isGpu ? ImVec4{0.34f, 0.71f, 0.91f, 1} : ImVec4{0.90f, 0.62f, 0, 1};
+}
+
 Rgb surroundColor(app::ColorMode mode) {
     switch (mode) {
         case app::ColorMode::Light:
-            return {0.80f, 0.81f, 0.82f};
+            return {0.78f, 0.78f, 0.78f};
         case app::ColorMode::HighContrast:
             return {0, 0, 0};
         case app::ColorMode::Dark:
             break;
     }
-    return {0.06f, 0.063f, 0.07f};
+    return {0.17f, 0.17f, 0.17f};
 }
 
 } // namespace rt::gui

@@ -13,7 +13,15 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode);
 ImVec4 errorColor(app::ColorMode mode);
 ImVec4 noticeColor(app::ColorMode mode);
 
-// What surrounds the picture, sRGB.
+// Of what is to be done first, and of the text on it.
+ImVec4 accentColor(app::ColorMode mode);
+ImVec4 accentTextColor(app::ColorMode mode);
+
+// By which an engine is known everywhere: in the toolbar, over the picture, in tables and charts. Distinct also for
+// those who see few colours (Okabe and Ito 2008, "Color Universal Design"), darker where the background is light.
+ImVec4 engineColor(bool isGpu, app::ColorMode mode);
+
+// What surrounds the picture, sRGB: grey, so that its colours are seen as they are.
 struct Rgb {
     float r, g, b;
 };

@@ -80,6 +80,7 @@ void Thumbnails::record(const Tile& tile, const ImVec4& clip) const {
     PresentConstants constants;
     constants.scale = side / static_cast<float>(kSide);
     constants.originX = x;
+    constants.flags = kSmooth;
     constants.originY = y - static_cast<float>(tile.place) * side;
     const VkRect2D scissor{{static_cast<std::int32_t>(left), static_cast<std::int32_t>(top)},
                            {static_cast<std::uint32_t>(right - left), static_cast<std::uint32_t>(bottom - top)}};

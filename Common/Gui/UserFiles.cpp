@@ -9,15 +9,19 @@ namespace {
 
 constexpr double kKeepSeconds = 2; // between two writes
 
-std::filesystem::path userFile(const std::string& name) {
-    const std::filesystem::path folder = app::userConfigDirectory();
+std::filesystem::path userFile(const app::Options& options, const std::string& name) {
+    const std::filesystem::path folder = options.keepsUserFiles ? app::userConfigDirectory() : std::filesystem::path();
     return folder.empty() ? folder : folder / name;
 }
 
 } // namespace
 
-std::filesystem::path layoutFile(const std::string& program) {
-    return userFile(program + ".layout.ini");
+std::filesystem::path layoutFile(const app::Options& options) {
+    return userFile(options, options.program + ".layout.ini");
+}
+
+std::filesystem::path historyFile(const app::Options& options) {
+    return options.keepsUserFiles ? app::RunHistory::userFile() : std::filesystem::path();
 }
 
 WindowPlace placeOf(const app::GuiSettings& settings) {
@@ -26,7 +30,8 @@ WindowPlace placeOf(const app::GuiSettings& settings) {
 }
 
 KeptSettings::KeptSettings(const app::Options& options)
-    : settings(app::loadGuiSettings(userFile(options.program + ".json"))), file_(userFile(options.program + ".json")) {
+    : file_(userFile(options, options.program + ".json")) {
+    if (!file_.empty()) settings = app::loadGuiSettings(file_);
     override(settings, options);
     stored_ = settings;
 }

@@ -10,8 +10,9 @@
 
 namespace rt::gui {
 
-// Empty where there is no such place.
-std::filesystem::path layoutFile(const std::string& program);
+// Empty where there is no such place, and with --no-config.
+std::filesystem::path layoutFile(const app::Options& options);
+std::filesystem::path historyFile(const app::Options& options);
 
 WindowPlace placeOf(const app::GuiSettings& settings);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace rt::gui {
 namespace {
@@ -43,7 +44,13 @@ void editReal(double& value, const char* pattern) {
                        ImGuiInputTextFlags_CharsScientific);
 }
 
+bool isNextRowMarked = false;
+
 } // namespace
+
+void markNextRow(bool isChanged) {
+    isNextRowMarked = isChanged;
+}
 
 void tooltip(const char* text) {
     if (text == nullptr || !ImGui::IsItemHovered()) return;
@@ -58,6 +65,12 @@ void row(const char* label, const char* tip) {
     ImGui::AlignTextToFramePadding();
     const float end = ImGui::GetCursorPosX() + ImGui::CalcTextSize(label).x + ImGui::GetStyle().ItemInnerSpacing.x;
     ImGui::TextUnformatted(label);
+    if (std::exchange(isNextRowMarked, false)) {
+        const float radius = 0.16f * ImGui::GetFontSize();
+        const ImVec2 corner = ImGui::GetItemRectMin(), far = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddCircleFilled({far.x + 1.5f * radius, corner.y + radius}, radius,
+                                                    ImGui::GetColorU32(ImGuiCol_CheckMark));
+    }
     tooltip(tip);
     // A long label moves its control to the right rather than lie under it.
     const float column = ImGui::GetCursorStartPos().x + kLabelShare * ImGui::GetWindowContentRegionMax().x;
@@ -65,12 +78,26 @@ void row(const char* label, const char* tip) {
     ImGui::SetNextItemWidth(-1);
 }
 
-void note(const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+void wrapped(const std::string& text, const ImVec4& color) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();
+}
+
+void note(const std::string& text) {
+    wrapped(text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+}
+
+std::string elided(const std::string& text, float width) {
+    const auto fits = [&](const std::string& part) { return ImGui::CalcTextSize(part.c_str()).x <= width; };
+    if (fits(text)) return text;
+    for (std::size_t end = text.size(); end > 0; --end) {
+        const bool isInCharacter = (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; // of UTF-8
+        if (const std::string part = text.substr(0, end) + "..."; !isInCharacter && fits(part)) return part;
+    }
+    return "";
 }
 
 bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,

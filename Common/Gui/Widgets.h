@@ -11,8 +11,13 @@ namespace rt::gui {
 
 // What follows is the control of this row. `tip` may be null.
 void row(const char* label, const char* tip);
+// The next row's setting is not at its default: its label says so.
+void markNextRow(bool isChanged);
 void tooltip(const char* text);     // of the item before
 void note(const std::string& text); // dimmed and wrapped
+void wrapped(const std::string& text, const ImVec4& color);
+// The beginning of a text, ended by dots where it is wider than that.
+std::string elided(const std::string& text, float width);
 
 // All return whether the value has changed. Typed numbers count when the field is left, brought into their range.
 bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
@@ -46,6 +51,22 @@ bool combo(const char* label, const char* tip, const app::Named<E> (&table)[N], 
     ImGui::PopID();
     return changed;
 }
+
+// Rows that have no effect at the moment, while one of these lives: grey, and where they always are.
+class Disabled {
+  public:
+    explicit Disabled(bool isOn = true) : isOn_(isOn) {
+        if (isOn_) ImGui::BeginDisabled();
+    }
+    ~Disabled() {
+        if (isOn_) ImGui::EndDisabled();
+    }
+    Disabled(const Disabled&) = delete;
+    Disabled& operator=(const Disabled&) = delete;
+
+  private:
+    bool isOn_;
+};
 
 // What follows, which is so wide, stands beside the item before if there is room, else below.
 void besideIfItFits(float width);

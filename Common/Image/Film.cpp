@@ -61,6 +61,12 @@ std::uint64_t Film::minSamples() const {
     return tileCount() == 0 ? 0 : least;
 }
 
+std::uint64_t Film::maxSamples() const {
+    std::uint64_t most = 0;
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) most = std::max(most, samples(tile));
+    return most;
+}
+
 std::uint32_t Film::minReplicateSamples() const {
     return samples_.empty() ? 0 : *std::min_element(samples_.begin(), samples_.end());
 }

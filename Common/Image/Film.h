@@ -58,6 +58,8 @@ class Film {
     std::uint64_t samples(std::uint32_t tile) const;
     // Least over all tiles.
     std::uint64_t minSamples() const;
+    // Most over all tiles.
+    std::uint64_t maxSamples() const;
     // Least over all tiles and replicates.
     std::uint32_t minReplicateSamples() const;
     // Sum over all pixels of the image and all replicates.

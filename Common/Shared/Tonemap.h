@@ -9,6 +9,7 @@ RT_SHARED_BEGIN
 const uint kTonemapNone = 0u;     // clamp
 const uint kTonemapReinhard = 1u; // by luminance
 const uint kTonemapAces = 2u;     // filmic curve
+const uint kTonemapAgx = 3u;      // filmic curve that keeps bright colours apart from white for longer
 
 // Relative luminance of linear RGB with Rec. 709 primaries (ITU-R BT.709).
 RT_FN float displayLuminance(vec3 color) {
@@ -36,11 +37,45 @@ RT_FN vec3 tonemapAces(vec3 color) {
     return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f);
 }
 
+// A side of AgX's curve, for distances from the pivot that are relative to those of its ends: `slope` at 0, 1 at 1,
+// by a hyperbola of that power in between.
+RT_FN float agxSide(float x, float slope, float power) {
+    const float scale = slope * pow(pow(slope, power) - 1.0f, -1.0f / power);
+    const float t = slope * x / scale;
+    return scale * t * pow(1.0f + pow(t, power), -1.0f / power);
+}
+
+// AgX's encoding of a channel: a sigmoid over the logarithm, from 10 stops below middle grey to 6.5 above.
+RT_FN float agxCurve(float value) {
+    const float kBelow = 10.0f, kAbove = 6.5f, kMiddleGrey = 0.18f;
+    const float kPivot = kBelow / (kBelow + kAbove), kSlope = 2.0f, kToe = 3.0f, kShoulder = 3.25f;
+    const float stops = log2(max(value, 1.0e-10f) / kMiddleGrey);
+    const float x = clamp((stops + kBelow) / (kBelow + kAbove), 0.0f, 1.0f);
+    if (x <= 0.0f || x >= 1.0f) return x; // exactly black and white
+    if (x < kPivot) return 0.5f - 0.5f * agxSide((kPivot - x) / kPivot, 2.0f * kSlope * kPivot, kToe);
+    return 0.5f + 0.5f * agxSide((x - kPivot) / (1.0f - kPivot), 2.0f * kSlope * (1.0f - kPivot), kShoulder);
+}
+
+// Sobotka 2022, "AgX": the curve on channels that a matrix has moved towards grey, so that a bright light fades to
+// white and keeps its hue on the way; the matrix is undone afterwards. For Rec. 709 primaries, as in Wrensch 2023,
+// "Minimal AgX Implementation". What comes out is for a display of power 2.2.
+RT_FN vec3 tonemapAgx(vec3 color) {
+    const vec3 inset = vec3(0.842479062f, 0.042328242f, 0.042375655f) * color.x +
+                       vec3(0.078433600f, 0.878468636f, 0.078433600f) * color.y +
+                       vec3(0.079223745f, 0.079166127f, 0.879142974f) * color.z;
+    const vec3 curved = vec3(agxCurve(inset.x), agxCurve(inset.y), agxCurve(inset.z));
+    const vec3 outset = vec3(1.196879005f, -0.052896852f, -0.052971636f) * curved.x +
+                        vec3(-0.098020881f, 1.151903130f, -0.098043450f) * curved.y +
+                        vec3(-0.099029744f, -0.098961177f, 1.151073673f) * curved.z;
+    return vec3(pow(max(outset.x, 0.0f), 2.2f), pow(max(outset.y, 0.0f), 2.2f), pow(max(outset.z, 0.0f), 2.2f));
+}
+
 // Linear radiance to linear display intensity in [0,1], not yet sRGB-encoded. exposure is in stops.
 RT_FN vec3 tonemap(vec3 radiance, float exposure, uint curve) {
     const vec3 scaled = min(max(radiance, vec3(0.0f)) * exp2(exposure), vec3(1.0e30f));
     if (curve == kTonemapReinhard) return clamp(tonemapReinhard(scaled), 0.0f, 1.0f);
     if (curve == kTonemapAces) return clamp(tonemapAces(scaled), 0.0f, 1.0f);
+    if (curve == kTonemapAgx) return clamp(tonemapAgx(scaled), 0.0f, 1.0f);
     return clamp(scaled, 0.0f, 1.0f);
 }
 

@@ -1,12 +1,25 @@
 // rt-fuzz-seeds FOLDER: writes the inputs that fuzzing starts from, FOLDER/TARGET/*, by the writers of this project.
 #include <iostream>
+#include <iterator>
+#include <map>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Interactive/GuiSettings.h"
+#include "Common/App/Interactive/RunHistory.h"
+#include "Common/Bench/Suite.h"
 #include "Common/Image/Checkpoint.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Json/SceneJson.h"
 #include "tests/fuzz/Fuzz.h"
+#include "tests/unit/GltfBuilder.h"
 
 namespace {
 
@@ -23,10 +36,163 @@ class Seeds {
     void write(const std::string& target, const std::string& name, const std::string& bytes) const {
         std::ofstream(place(target, name), std::ios::binary) << bytes;
     }
+    // Also the words that mutations of this target insert, those of the document: blind ones make few keys.
+    void writeJson(const std::string& target, const std::string& name, const nlohmann::json& document) {
+        write(target, name, document.dump());
+        std::set<std::string>& words = words_[target];
+        collect(document, words);
+        fs::create_directories(folder_ / "words");
+        std::ofstream file(folder_ / "words" / target);
+        for (const std::string& word : words) file << '"' << word << "\"\n";
+        // Numbers at the limits of types, and structures.
+        for (const char* word : {"-1", "4294967295", "2147483648", "18446744073709551615", "1e300", "1e-300", "0.5",
+                                 "null", "{}", "[]", "[0]", "true"})
+            file << '"' << word << "\"\n";
+    }
 
   private:
+    static void collect(const nlohmann::json& value, std::set<std::string>& words) {
+        const auto add = [&words](const std::string& text) {
+            constexpr std::size_t kLongest = 40; // data are no words
+            if (text.empty() || text.size() > kLongest || text.find_first_of("\"\\") != text.npos) return;
+            words.insert("\\\"" + text + "\\\"");
+        };
+        if (value.is_string()) add(value.get<std::string>());
+        if (value.is_object())
+            for (const auto& [key, member] : value.items()) add(key);
+        if (value.is_structured())
+            for (const auto& member : value) collect(member, words);
+    }
+
+    std::map<std::string, std::set<std::string>> words_;
     fs::path folder_;
 };
+
+void writeScenes(Seeds& seeds) {
+    // Mutations of long texts are slow, and stand-ins for files take seconds to generate.
+    constexpr std::size_t kSmall = 8 << 10;
+    const auto write = [&seeds](const std::string& name, const std::string& text) {
+        if (text.size() > kSmall || text.find("stand_in") != text.npos) return;
+        seeds.writeJson("scene", name, nlohmann::json::parse(text));
+    };
+    for (const auto& builtin : rt::scene::builtinScenes())
+        write(std::string(builtin.id), rt::scene::toJson(rt::scene::findBuiltinScene(std::string(builtin.id))));
+    for (const auto& entry : fs::directory_iterator(fs::path(RT_TEST_DATA_DIR) / "scenes")) {
+        std::ifstream file(entry.path());
+        write(entry.path().stem().string(), std::string(std::istreambuf_iterator<char>(file), {}));
+    }
+    seeds.writeJson("scene", "files", nlohmann::json::parse(R"({
+        "camera": {"look_from": [0, 0, 5], "look_at": [0, 0, 0]},
+        "textures": {"i": {"type": "image", "file": "a.pfm"},
+                     "c": {"type": "checker", "scale": 1, "even": [1, 1, 1], "odd": "i"}},
+        "materials": {"m": {"type": "lambertian", "albedo": "c"}},
+        "objects": [{"type": "mesh", "file": "a.obj", "material": "m"}]})"));
+}
+
+void writeMeshes(const Seeds& seeds) {
+    const std::string mesh =
+        "mtllib f.mtl\nv 0 0 0\nv 1 0 0 1\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\n"
+        "usemtl a\nf 1/1/1 2/2/1 3/3/1\nusemtl b\nf -4//1 -3//1 -2//1 -1//1\n";
+    const std::string materials =
+        "newmtl a\nKd .5 .5 .5\nmap_Kd -s 2 2 a.png\nillum 2\n"
+        "newmtl b\nKs 1 1 1\nPr .1\nillum 3\nnewmtl c\nillum 4\nNi 1.5\nTf 1 1 1\n"
+        "newmtl d\nKe 4 4 4\n";
+    seeds.write("obj", "materials", mesh + '\0' + materials);
+    seeds.write("obj", "plain", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+}
+
+std::string base64(const std::string& bytes) {
+    const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+// Each as binary, and as text whose buffer and image are data URIs.
+void writeGltf(Seeds& seeds) {
+    using nlohmann::json;
+    const fs::path scratch = seeds.place("gltf", "scratch");
+    rt::image::Image pixels(2, 1);
+    const fs::path png = scratch.string() + ".png";
+    rt::image::writeImage(png, rt::image::ImageRows(pixels), "");
+    const auto content = [](const fs::path& path) {
+        std::ifstream file(path, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const std::string image = content(png);
+    fs::remove(png);
+
+    rt::scene::GltfBuilder full; // textures, indices, a camera, a light, a hierarchy, extensions of materials
+    json primitive = full.triangle();
+    primitive["indices"] = full.addAccessor(std::vector<std::uint16_t>{0, 1, 2}, "SCALAR");
+    primitive["attributes"]["NORMAL"] = full.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3");
+    primitive["attributes"]["TANGENT"] =
+        full.addAccessor(std::vector<float>{1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4");
+    primitive["attributes"]["COLOR_0"] = full.addAccessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3");
+    primitive["material"] = 0;
+    full.add("images", {{"uri", "data:image/png;base64," + base64(image)}});
+    full.add("images",
+             {{"bufferView", full.addView(std::vector<char>(image.begin(), image.end()))}, {"mimeType", "image/png"}});
+    full.add("samplers", {{"wrapS", 33071}, {"wrapT", 33648}});
+    full.add("textures", {{"source", 0}, {"sampler", 0}});
+    full.add("textures", {{"source", 1}});
+    const json texture = {{"index", 1},
+                          {"texCoord", 0},
+                          {"extensions", {{"KHR_texture_transform", {{"offset", {0, 1}}, {"rotation", 1}}}}}};
+    full.add("materials",
+             {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", texture}}},
+              {"normalTexture", {{"index", 1}, {"scale", 2}}},
+              {"emissiveFactor", {1, 0, 0}},
+              {"alphaMode", "MASK"},
+              {"alphaCutoff", 0.25},
+              {"extensions",
+               {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+                {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}},
+                {"KHR_materials_specular", {{"specularColorFactor", {1, 1, 1}}}},
+                {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatTexture", texture}}},
+                {"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 1}}}},
+                {"KHR_materials_emissive_strength", {{"emissiveStrength", 5}}}}}});
+    full.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    full.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "spot"}, {"intensity", 5}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
+        {{"type", "directional"}}};
+    const int child = full.add("nodes", {{"mesh", full.addMesh(primitive)}, {"rotation", {0, 0, 0, 1}}});
+    full.addNode({{"children", {child}}, {"scale", {2, 2, 2}}});
+    full.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
+    full.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    full.json["scene"] = 0;
+
+    rt::scene::GltfBuilder packed; // strides, sparse and normalised accessors, strips, instances
+    const int strided = packed.addView(std::vector<float>{0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9, 1, 1, 0, 9}, 16);
+    const int positions = packed.addAccessor(strided, 5126, "VEC3", 4);
+    packed.json["accessors"][positions]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", packed.addView(std::vector<std::uint8_t>{2})}, {"componentType", 5121}}},
+        {"values", {{"bufferView", packed.addView(std::vector<float>{0, 2, 0})}}}};
+    const int uvs = packed.addAccessor(std::vector<std::uint8_t>{0, 0, 255, 0, 0, 255, 255, 255}, "VEC2");
+    packed.json["accessors"][uvs]["normalized"] = true;
+    const int mesh = packed.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}}}, {"mode", 5}});
+    const int shifts = packed.addAccessor(std::vector<float>{0, 0, 0, 3, 0, 0}, "VEC3");
+    packed.addNode({{"mesh", mesh},
+                    {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                    {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", shifts}}}}}}}});
+
+    for (const auto& [name, gltf] : {std::pair("full", &full), std::pair("packed", &packed)}) {
+        seeds.write("gltf", std::string(name) + "-binary", gltf->binary());
+        gltf->saveWithBuffer(scratch, "", scratch.string() + ".bin");
+        json document = json::parse(content(scratch));
+        document["buffers"][0]["uri"] =
+            "data:application/octet-stream;base64," + base64(content(scratch.string() + ".bin"));
+        seeds.writeJson("gltf", name, document);
+    }
+    fs::remove(scratch);
+    fs::remove(scratch.string() + ".bin");
+}
 
 void writeImages(const Seeds& seeds) {
     rt::image::Image image(5, 4);
@@ -41,8 +207,9 @@ void writeImages(const Seeds& seeds) {
                       fs::copy_options::overwrite_existing);
     }
     // 1 x 1, 24 bits, uncompressed.
-    const char bmp[] = "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0\0\0\0\0\0\0"
-                       "\0\0\0\0\0\0\0\0\0\0\x10\x80\xff";
+    const char bmp[] =
+        "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0\0\0\0\0\0\0"
+        "\0\0\0\0\0\0\0\0\0\0\x10\x80\xff";
     seeds.write("bmp", "one", std::string(bmp, sizeof bmp));
     const char tga[] = "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\x10\x80\xff";
     seeds.write("tga", "one", std::string(tga, sizeof tga - 1));
@@ -65,6 +232,34 @@ void writeCheckpoints(const Seeds& seeds) {
     }
 }
 
+void writeTexts(const Seeds& seeds) {
+    rt::app::RunRecord record;
+    record.time = rt::app::utcNow();
+    record.app = "ray-tracing-cpu";
+    record.width = 600;
+    record.samplesPerSecond = 1e6;
+    record.curve = {{1, 0.5}, {2, 0.25}};
+    const std::string line = rt::app::toJsonLine(record) + '\n';
+    seeds.write("history", "two", line + line);
+
+    rt::app::GuiSettings settings;
+    settings.recent = {"a.json"};
+    settings.openPanels = {{"scene", false}};
+    rt::app::saveGuiSettings(seeds.place("settings", "settings"), settings);
+
+    for (const rt::bench::NamedSuite& suite : rt::bench::namedSuites()) seeds.write("suite", suite.name, suite.text);
+
+    seeds.write("flags", "render",
+                "--scene\nwhite-spheres:9\n--width=64\n--aspect\n1.5\n--spp\n4\n-o\na.png\n--aov\nalbedo,depth\n"
+                "--region\n1,2,3,4\n--sampler\nstratified\n--time-limit\n1e1\n--threads\n2");
+    seeds.write("flags", "share",
+                "--tiles=1/3\n--checkpoint\na.rtc\n--light-sampling\nmixture\n--features\nspheres,quads\n--seed=3\n"
+                "--camera={\"look_from\": [0, 0, 1], \"look_at\": [0, 0, 0]}\n--russian-roulette=off");
+    seeds.write("config", "lines",
+                "# a\nspp = 5\nscene = \"a b\"\noutput = [\"a.png\", # b\n 'b.exr',\n]\naov=depth,albedo");
+    seeds.write("config", "json", "{\"spp\": 5, \"output\": [\"a.png\"]}");
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -72,8 +267,12 @@ int main(int argc, char** argv) {
         std::cerr << "usage: rt-fuzz-seeds FOLDER\n";
         return 2;
     }
-    const Seeds seeds(argv[1]);
+    Seeds seeds(argv[1]);
+    writeScenes(seeds);
+    writeMeshes(seeds);
+    writeGltf(seeds);
     writeImages(seeds);
     writeCheckpoints(seeds);
+    writeTexts(seeds);
     return 0;
 }

@@ -8,13 +8,14 @@ cd "$folder"
 
 # One kind of input: its outcome as a line, of a find also what was found and how to replay it.
 fuzz() {
-    local target=$1 seconds=$2 log=logs/$1.log status=0
+    local target=$1 seconds=$2 log=logs/$1.log status=0 words=()
+    [[ ! -f seeds/words/$target ]] || words=("-dict=seeds/words/$target")
     mkdir -p "corpus/$target" "scratch/$target"
     # The programs that are tested see neither the user's files nor another place for files of their own.
     env -u RT_ASSETS -u RT_DEVICE -u RT_THREADS -u RT_LOG TMPDIR="$PWD/scratch/$target" \
         XDG_CONFIG_HOME="$PWD/scratch/none" "targets/$target" "corpus/$target" "seeds/$target" \
         -max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
-        -artifact_prefix="finds/$target-" -print_final_stats=1 >"$log" 2>&1 || status=$?
+        "${words[@]}" -artifact_prefix="finds/$target-" -print_final_stats=1 >"$log" 2>&1 || status=$?
     rm -rf "scratch/${target:?}"
     if ((status)); then
         echo "$target: FAILED"

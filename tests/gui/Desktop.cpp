@@ -96,9 +96,9 @@ void Desktop::TearDown() {
     if (!HasFailure()) fs::remove_all(folder_);
 }
 
-void Desktop::start(const std::string& program, const std::vector<std::string>& arguments) {
+void Desktop::launch(const std::string& program, const std::vector<std::string>& arguments) {
     std::vector<std::string> all = {
-        std::string(RT_PROGRAM_DIR) + "/" + program, "--no-config", "--validation", "--width", "48", "--spp", "4"};
+        std::string(RT_PROGRAM_DIR) + "/" + program, "--validation", "--width", "48", "--spp", "4"};
     all.insert(all.end(), arguments.begin(), arguments.end());
     std::vector<std::pair<std::string, std::string>> environment = {
         {"DISPLAY", display_},
@@ -107,6 +107,10 @@ void Desktop::start(const std::string& program, const std::vector<std::string>& 
         {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}};
     environment.insert(environment.end(), environment_.begin(), environment_.end());
     program_ = spawn(all, environment, folder_ / "program.log");
+}
+
+void Desktop::start(const std::string& program, const std::vector<std::string>& arguments) {
+    launch(program, arguments);
     window_.clear();
     ASSERT_TRUE(eventually([&] {
         if (!isRunning()) return true;

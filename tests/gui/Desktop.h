@@ -21,6 +21,7 @@ class Desktop : public testing::Test {
     // Starts "ray-tracing-cpu" or "ray-tracing-gpu" with validation, a small image and no stored settings but those of
     // this test; waits for its window.
     void start(const std::string& program, const std::vector<std::string>& arguments = {});
+    void launch(const std::string& program, const std::vector<std::string>& arguments); // does not wait
     // Closes the window by Ctrl+Q; the exit code tells of validation's messages, too.
     int quit();
     int endBySignal(int signal); // the exit code

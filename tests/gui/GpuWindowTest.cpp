@@ -170,7 +170,7 @@ TEST_F(GpuWindowTest, TheEngineIsExchangedWhileTheWindowIsOpen) {
     ASSERT_TRUE(eventually([&] { return isInHistory("compute"); })) << log();
     for (double wait = 0.3; wait < 4 && !isInHistory("pipeline"); wait *= 2) {
         const std::string sleep = " sleep " + std::to_string(wait);
-        for (int y = 362; y < 450 && !isInHistory("pipeline"); y += 11) {
+        for (int y = 312; y < 400 && !isInHistory("pipeline"); y += 11) {
             act("mousemove 250 " + std::to_string(y) + " sleep 0.1 click 1" + sleep + " mousemove 250 " +
                 std::to_string(y + 44) + " sleep 0.1 click 1" + sleep + " key Escape" + sleep);
         }

@@ -31,7 +31,7 @@ TEST_P(WindowStateTest, SurvivesEverySize) {
 
 // All is twice as large: the first header is where the second one would be otherwise.
 TEST_P(WindowStateTest, SizesFollowTheMonitor) {
-    constexpr int kFirstHeader = 2 * 169;
+    constexpr int kFirstHeader = 2 * 131;
     setDotsPerInch(192);
     start();
     ASSERT_FALSE(HasFatalFailure());
@@ -92,6 +92,16 @@ TEST_P(WindowStateTest, ASignalClosesItAndNothingIsLost) {
     EXPECT_EQ(endBySignal(SIGTERM), 130) << log();
     EXPECT_EQ(image::readImage(image).width, 48u);
     EXPECT_EQ(settings()["ui_scale"], 1.25);
+}
+
+// There is nothing to fall back to that the user has asked for.
+TEST_P(WindowStateTest, ASceneThatThereIsNoneOfIsToldOnce) {
+    launch(GetParam(), {"--scene", "cornel"});
+    EXPECT_EQ(waitForEnd(), 3);
+    const std::string text = log(), wanted = "no such scene";
+    const std::size_t first = text.find(wanted);
+    ASSERT_NE(first, std::string::npos) << text;
+    EXPECT_EQ(text.find(wanted, first + 1), std::string::npos) << text;
 }
 
 TEST_P(WindowStateTest, ASceneThatIsGoneSinceTheLastTimeIsNoReasonNotToOpen) {

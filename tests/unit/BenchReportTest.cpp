@@ -248,6 +248,13 @@ TEST(BenchReport, SettingsStandSideBySide) {
               std::string::npos);
 }
 
+TEST(BenchReport, ATableWithoutTitlesHasNoRowOfThem) {
+    Table table{{"", ""}, {{"a", "b"}}};
+    EXPECT_EQ(toHtml({table}, "t").find("<th"), std::string::npos);
+    table.header = {"", "x"};
+    EXPECT_NE(toHtml({table}, "t").find("<th"), std::string::npos);
+}
+
 TEST(BenchReport, ChartsOfTooManyLinesAreSplitByEngine) {
     std::vector<Row> rows;
     for (const std::string_view engine : kEngines)
@@ -265,7 +272,8 @@ TEST(BenchReport, ChartsOfTooManyLinesAreSplitByEngine) {
     ASSERT_EQ(few.size(), 2u); // over samples, over seconds
     EXPECT_EQ(few[0].lines.size(), 6u);
     ASSERT_EQ(many.size(), 8u);
-    EXPECT_EQ(many[2].title, "a, multi");
+    EXPECT_EQ(many[2].title, "a, multi: relMSE against samples per pixel");
+    EXPECT_EQ(many[3].title, "a, multi: relMSE against seconds");
     EXPECT_EQ(many[2].lines.size(), 3u);
 }
 

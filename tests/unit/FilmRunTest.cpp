@@ -44,6 +44,36 @@ TEST(FilmRun, GoesOnFromAFilmAsIfNeverStopped) {
     EXPECT_EQ(second.film().resolve().data, whole.film().resolve().data);
 }
 
+TEST(FilmRun, TakesMoreSamplesAsIfTheyHadBeenAskedForAtFirst) {
+    FakeEngine whole, engine;
+    FilmRun(whole, {}, settings(40)).untilStopped(kGoOn);
+    FilmRun run(engine, {}, settings(20));
+    run.untilStopped(kGoOn);
+    const double seconds = run.seconds();
+    EXPECT_FALSE(run.canTake(19));
+    ASSERT_TRUE(run.canTake(40));
+    run.setSpp(40);
+    EXPECT_FALSE(run.status().finished);
+    EXPECT_EQ(run.status().samplesDone, 20u * 240);
+    EXPECT_EQ(run.untilStopped(kGoOn), StopReason::Spp);
+    EXPECT_EQ(engine.calls, 40u);
+    EXPECT_EQ(engine.film().resolve().data, whole.film().resolve().data);
+    EXPECT_GT(run.seconds(), seconds);
+    EXPECT_EQ(run.report().rays.camera, 2 * engine.report().rays.camera); // of both parts
+}
+
+TEST(FilmRun, StrataAndPlansTakeNoOtherNumberOfSamples) {
+    FakeEngine engine;
+    RenderSettings strata = settings(20), plan = settings(64);
+    strata.sampler = SamplerKind::Stratified;
+    EXPECT_FALSE(FilmRun(engine, {}, strata).canTake(40));
+    EXPECT_TRUE(FilmRun(engine, {}, strata).canTake(20));
+    strata.sppIsKnown = false; // they come in rounds
+    EXPECT_TRUE(FilmRun(engine, {}, strata).canTake(40));
+    plan.adaptive = true;
+    EXPECT_FALSE(FilmRun(engine, {}, plan).canTake(128));
+}
+
 TEST(FilmRun, CancellingKeepsTheFilmAndItMayGoOn) {
     FakeEngine engine;
     std::atomic<bool> cancel{false};

@@ -1,4 +1,5 @@
 // glTF: accessors, connectivity, hierarchy, instances and cameras as they become a scene.
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -10,6 +11,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
+#include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/GltfBuilder.h"
 
@@ -188,6 +190,18 @@ TEST_F(Gltf, MeshesUsedTwiceAreInstances) {
     const auto& instance = std::get<InstanceDesc>(scene.objects[1].shape);
     EXPECT_EQ(instance.prototype, "leaf");
     EXPECT_EQ(std::get<Matrix>(instance.transform.at(0)).rows[3], 3);
+}
+
+TEST_F(Gltf, WhatIsScaledToNothingIsLeftOutSoThatTheSceneCanBeExported) {
+    const int mesh = gltf.addMesh(gltf.triangle());
+    gltf.addNode({{"mesh", mesh}, {"translation", {3, 0, 0}}});
+    gltf.addNode({{"mesh", mesh}, {"scale", {1, 0, 1}}});
+    scene = load();
+    EXPECT_EQ(scene.objects.size(), 1u);
+    EXPECT_NE(std::find(scene.notices.begin(), scene.notices.end(),
+                        "1 mesh is left out: the transform of the node cannot be inverted"),
+              scene.notices.end());
+    EXPECT_NO_THROW(parseScene(toJson(scene), "exported.json", folder.path()));
 }
 
 TEST_F(Gltf, GpuInstancing) {

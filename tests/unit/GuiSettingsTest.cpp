@@ -27,13 +27,18 @@ TEST_F(GuiSettingsTest, SurviveTheFile) {
     s.colorMode = ColorMode::HighContrast;
     s.uiScale = 1.5f;
     s.exposure = -2;
+    s.autoExposure = true;
     s.tonemap = Tonemap::Aces;
+    s.reloadScenes = false;
+    s.sawFirstSteps = true;
     s.recent = {"/a/b.json", "c.obj"};
     s.request.settings.spp = 4000;
     s.request.settings.sampler = SamplerKind::Independent;
     s.request.size.width = 320;
     s.request.size.aspect = 1.5;
     s.request.accumulate = false;
+    s.request.timeLimit = 1.5;
+    s.request.targetError = 0.01;
     s.engine.policy = Policy::Seq;
     s.rayTracing = false;
     s.openPanels = {{"scene", false}, {"view", true}, {"of_a_newer_version", true}};
@@ -53,7 +58,24 @@ TEST_F(GuiSettingsTest, NonsenseLeavesDefaults) {
     }
     const GuiSettings half = loadText("{\"ui_scale\": 2, \"tonemap\": []}");
     EXPECT_EQ(half.uiScale, 2);
-    EXPECT_EQ(half.tonemap, Tonemap::None);
+    EXPECT_EQ(half.tonemap, Tonemap::Agx);
+}
+
+// Scripts that ask for files get those of a program without a window.
+TEST_F(GuiSettingsTest, FilesOfTheCommandLineLookAsWithoutAWindow) {
+    GuiSettings s;
+    s.exposure = 2;
+    s.autoExposure = true;
+    override(s, *parseOptions("ray-tracing-cpu", {"--no-config", "--window"}, std::cout));
+    EXPECT_EQ(s.tonemap, Tonemap::Agx);
+    EXPECT_EQ(s.exposure, 2);
+    EXPECT_TRUE(s.autoExposure);
+    override(s, *parseOptions("ray-tracing-cpu", {"--no-config", "--window", "-o", "a.png"}, std::cout));
+    EXPECT_EQ(s.tonemap, Tonemap::None);
+    EXPECT_EQ(s.exposure, 0);
+    EXPECT_FALSE(s.autoExposure);
+    override(s, *parseOptions("ray-tracing-cpu", {"--no-config", "--tonemap", "aces"}, std::cout));
+    EXPECT_EQ(s.tonemap, Tonemap::Aces);
 }
 
 TEST_F(GuiSettingsTest, FlagsWinOverWhatWasStored) {

@@ -28,7 +28,7 @@ TEST_F(InteractiveFailureTest, ASceneThatCannotBeLoadedLeavesTheOldOne) {
     std::ofstream(folder_ / "bad.json") << "{\"camera\": 12";
     session.open((folder_ / "bad.json").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
-    EXPECT_NE(session.state().error.find("bad.json"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("bad.json"), std::string::npos);
     EXPECT_EQ(session.state().scene, scene);
     EXPECT_FALSE(session.state().fatal);
     EXPECT_EQ(session.state().failedSource, (folder_ / "bad.json").string());
@@ -54,7 +54,7 @@ TEST_F(InteractiveFailureTest, ARememberedSceneThatIsGoneGivesWayToAnother) {
     InteractiveSession session(std::move(with));
     ASSERT_TRUE(reaches(session, isFinished));
     EXPECT_EQ(session.state().source, "one-weekend-default");
-    EXPECT_NE(session.state().error.find("gone.json"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("gone.json"), std::string::npos);
     EXPECT_EQ(session.state().fatal, nullptr);
 }
 
@@ -80,7 +80,7 @@ TEST_F(InteractiveFailureTest, AnEngineThatFailsIsReplacedWhenItIsNeededAgain) {
     };
     InteractiveSession session(s);
     ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.activity == Activity::Failed; }));
-    EXPECT_EQ(session.state().error, "the device was lost");
+    EXPECT_EQ(session.state().errors.back().text, "the device was lost");
     session.render();
     EXPECT_TRUE(reaches(session, isFinished));
     EXPECT_EQ(made, 2);
@@ -144,7 +144,7 @@ TEST_F(InteractiveFailureTest, AnEngineThatCannotBeHadLeavesTheOneBeforeAtWork) 
     choice.kind = GpuEngineKind::Pipeline;
     session.choose(choice);
     ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.engineFailures == 2; }));
-    EXPECT_EQ(session.state().error, "no pipeline");
+    EXPECT_EQ(session.state().errors.back().text, "no pipeline");
     EXPECT_EQ(session.state().engine, EngineChoice());
     EXPECT_GE(session.state().status.samplesDone, before); // the film went on
     EXPECT_TRUE(reaches(session, [&](const SessionState& state) {

@@ -43,7 +43,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
         session.open(file.string());
         ++loads;
         ASSERT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == loads && isFinished(s); }))
-            << session.state().error;
+            << file;
         const SessionState state = session.state();
         EXPECT_EQ(state.source, file.string());
         EXPECT_EQ(state.scene->id, file.filename().string());
@@ -55,7 +55,7 @@ TEST_F(InteractiveFilesTest, ModelsThatAreDroppedBecomeTheScene) {
     scene::GltfBuilder::write(folder_ / "broken.glb", gltf.binary().substr(0, 100));
     session.open((folder_ / "broken.glb").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
-    EXPECT_NE(session.state().error.find("broken.glb"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("broken.glb"), std::string::npos);
     EXPECT_EQ(session.state().scene->id, "c.obj");
 }
 
@@ -128,7 +128,7 @@ TEST_F(InteractiveFilesTest, ReferencesAreReadFromLinearFilesOfTheSameSize) {
     image::writeImage(folder_ / "wrong.pfm", image::Image(25, 24));
     session.loadReference((folder_ / "wrong.pfm").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.errorSerial == 1; }));
-    EXPECT_NE(session.state().error.find("25x24"), std::string::npos);
+    EXPECT_NE(session.state().errors.back().text.find("25x24"), std::string::npos);
     EXPECT_TRUE(session.state().reference.empty());
     session.loadReference((folder_ / "right.pfm").string());
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.referenceFits && !s.curve.empty(); }));

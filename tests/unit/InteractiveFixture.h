@@ -16,7 +16,8 @@ namespace rt::app {
 // Takes its time for a sample, and gives up when told to.
 class SlowEngine : public FakeEngine {
   public:
-    inline static std::atomic<int> films{0}; // begun
+    inline static std::atomic<int> films{0};    // begun
+    inline static std::atomic<int> restored{0}; // of those
 
     RenderStatus renderSome(const Budget& budget) override {
         const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(5);
@@ -31,6 +32,11 @@ class SlowEngine : public FakeEngine {
         ++films;
         last_ = {};
         last_.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
+    }
+
+    void restore(image::Film film) override {
+        FakeEngine::restore(std::move(film));
+        ++restored;
     }
 
   private:

@@ -83,5 +83,24 @@ TEST_F(InteractivePreviewTest, APreviewFromTheBeginningNeedsNoRay) {
     EXPECT_EQ(session.state().settings.width, 24u);
 }
 
+// As many pixels as suit the window; files have those of the picture.
+TEST_F(InteractivePreviewTest, ThePreviewSuitsTheWindowAndItsFilesThePicture) {
+    InteractiveSession::Setup s = setup(4);
+    s.makeEngine = [](const EngineChoice&) { return std::make_unique<DrawingEngine>(); };
+    s.preview = true;
+    InteractiveSession session(s);
+    session.previewWidth(100);
+    ASSERT_TRUE(reaches(
+        session, [](const SessionState& state) { return state.picture.image && state.picture.image->width == 100; }));
+    EXPECT_EQ(session.state().picture.image->height, 100u);
+    session.save({.files = {(folder_ / "preview.exr").string()}});
+    ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.messageSerial == 1; }));
+    EXPECT_EQ(image::readImage((folder_ / "preview.exr").string()).width, 24u);
+    session.pickFocus(99, 99); // of what is shown
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.focusSerial == 1; }));
+    session.previewWidth(0);
+    EXPECT_TRUE(reaches(session, [](const SessionState& state) { return state.picture.image->width == 24; }));
+}
+
 } // namespace
 } // namespace rt::app

@@ -97,6 +97,47 @@ TEST_F(InteractiveSessionTest, AChangeStartsTheFilmAnew) {
     EXPECT_EQ(state.picture.image->height, 20u);
 }
 
+TEST_F(InteractiveSessionTest, MoreSamplesAndOtherBudgetsLeaveTheFilm) {
+    InteractiveSession::Setup s = setup(8);
+    RunHistory history({});
+    s.history = &history;
+    InteractiveSession session(s);
+    ASSERT_TRUE(reaches(session, isFinished));
+    const int films = SlowEngine::films, restored = SlowEngine::restored;
+    s.request.settings.spp = 12;
+    session.change(s.request);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return isFinished(s) && s.picture.spp == 12; }));
+    EXPECT_EQ(SlowEngine::films - films, 1);
+    EXPECT_EQ(SlowEngine::restored - restored, 1);
+    EXPECT_EQ(session.state().settings.spp, 12u);
+
+    // The film has ended; one that was stopped goes on when told to.
+    s.request.settings.spp = 1'000'000;
+    session.change(s.request);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.picture.spp > 16; }));
+    session.stop();
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.activity == Activity::Stopped; }));
+    const std::uint64_t samples = session.state().status.samplesDone;
+    s.request.timeLimit = 1e-9; // is used up, and there is as much again
+    session.change(s.request);
+    session.goOn();
+    ASSERT_TRUE(reaches(session, isFinished));
+    EXPECT_GE(session.state().status.samplesDone, samples);
+    EXPECT_EQ(SlowEngine::restored - restored, 2);
+
+    s.request.settings.spp = 4; // fewer than there are
+    s.request.timeLimit.reset();
+    session.change(s.request);
+    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return isFinished(s) && s.picture.spp == 4; }));
+    EXPECT_EQ(SlowEngine::restored - restored, 2);
+    session.close();
+    ASSERT_EQ(history.records().size(), 5u);
+    EXPECT_EQ(history.records()[0].spp, 8u);
+    EXPECT_EQ(history.records()[1].spp, 12u);
+    EXPECT_GT(history.records()[1].renderSeconds, history.records()[0].renderSeconds);
+    EXPECT_EQ(history.records().back().spp, 4u);
+}
+
 TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     InteractiveSession session(setup(4));
     ASSERT_TRUE(reaches(session, isFinished));

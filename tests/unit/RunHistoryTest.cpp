@@ -34,6 +34,7 @@ class RunHistoryTest : public ::testing::Test {
         r.adaptive = "off";
         r.relmse = 0.1;
         r.hasReference = true;
+        r.referenceError = 0.001;
         r.curve = {{0.5, 0.4}, {1.5, 0.1}};
         return r;
     }
@@ -94,6 +95,30 @@ TEST_F(RunHistoryTest, KeepsTheLastTenThousandLines) {
     EXPECT_EQ(lines(), RunHistory::kMostLines);
     EXPECT_EQ(history.records().front().scene, "old");
     EXPECT_EQ(history.records().back().scene, "last");
+}
+
+TEST_F(RunHistoryTest, RemovesWhatItIsToldToAndNothingElse) {
+    RunHistory history(file()), theirs(file());
+    for (const char* scene : {"a", "b", "c"}) history.append(record(scene));
+    std::ofstream(file(), std::ios::app) << "{\"version\": 99}\n";
+    ASSERT_EQ(theirs.records().size(), 3u);
+    history.remove({history.records()[1]});
+    ASSERT_EQ(history.records().size(), 2u);
+    EXPECT_EQ(history.records()[0].scene, "a");
+    EXPECT_EQ(history.records()[1].scene, "c");
+    EXPECT_EQ(theirs.records().size(), 2u);
+    history.remove(history.records());
+    EXPECT_TRUE(history.records().empty());
+    EXPECT_EQ(lines(), 1u); // of a later version
+}
+
+TEST_F(RunHistoryTest, WithoutAFileItLastsAsLongAsTheProgram) {
+    RunHistory history({});
+    std::thread([&] { history.append(record("a")); }).join();
+    history.append(record("b"));
+    ASSERT_EQ(history.records().size(), 2u);
+    history.remove(history.records());
+    EXPECT_TRUE(history.records().empty());
 }
 
 TEST_F(RunHistoryTest, ConcurrentAppendsLoseNothing) {

@@ -9,6 +9,7 @@
 
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/LightTable.h"
+#include "Common/Shared/Light/Sky.h"
 #include "tests/unit/CompilerScenes.h"
 
 namespace rt::scene {
@@ -138,6 +139,44 @@ TEST(SceneLights, SkyImagesAreSampledByBrightness) {
     EXPECT_EQ(compileScene(scene, options)->globals.skyKind, shared::kSkyBlack);
     scene.background = ImageBackground{"none.hdr", glm::dvec3(1)};
     EXPECT_NE(errorOf(scene, options).find("none.hdr: no such file"), std::string::npos);
+}
+
+// Four columns, red, green, blue and white from the left, as other tools show them to someone who turns to the right.
+TEST(SceneLights, SkyImagesRunToTheRightAsSeenFromInside) {
+    constexpr std::uint32_t width = 4, height = 2;
+    CompileOptions options;
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) {
+        TexelData data{width, height, shared::kTexelLinearF32, {}};
+        for (std::uint32_t y = 0; y < height; ++y)
+            for (const float channel : {1, 0, 0, /**/ 0, 1, 0, /**/ 0, 0, 1, /**/ 1, 1, 1})
+                data.words.push_back(shared::floatBitsToUint(channel));
+        return data;
+    };
+    SceneDesc scene = withMaterials();
+    scene.background = ImageBackground{RT_SOURCE_DIR "/Assets/scene.schema.json", glm::dvec3(1)};
+    add(scene, sphere({0, 0, -5}, 1, "matte"));
+    const auto compiled = compileScene(scene, options);
+    const shared::SceneView view = shared::viewOf(*compiled, compiled->globals);
+    const auto seen = [&](float x, float z) {
+        return shared::skyRadiance(~0u, view, glm::normalize(shared::vec3(x, 0.1f, z)));
+    };
+    // Ahead is -z, to the right of it +x: the image's middle.
+    EXPECT_EQ(seen(-0.1f, -1), shared::vec3(1, 0, 0));
+    EXPECT_EQ(seen(0.1f, -1), shared::vec3(0, 1, 0));
+    EXPECT_EQ(seen(1, -0.1f), shared::vec3(0, 1, 0));
+    EXPECT_EQ(seen(1, 0.1f), shared::vec3(0, 0, 1));
+    EXPECT_EQ(seen(0.1f, 1), shared::vec3(0, 0, 1));
+    EXPECT_EQ(seen(-0.1f, 1), shared::vec3(1, 1, 1));
+    EXPECT_EQ(seen(-1, 0.1f), shared::vec3(1, 1, 1));
+    EXPECT_EQ(seen(-1, -0.1f), shared::vec3(1, 0, 0));
+    // Samples agree with what is seen there, and their density with its evaluation.
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> uniform;
+    for (int i = 0; i < 1000; ++i) {
+        const shared::LightSample sample = shared::sampleSky(view, {uniform(random), uniform(random)});
+        ASSERT_EQ(shared::skyRadiance(~0u, view, sample.wi), sample.radiance) << i;
+        ASSERT_EQ(shared::skyPdf(view, sample.wi), sample.pdf) << i;
+    }
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 // Display transform against its definitions in double.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -38,7 +39,7 @@ TEST(Tonemap, SrgbGrowsAndKeepsEveryByte) {
 
 TEST(Tonemap, ExposureIsInStops) {
     const vec3 color(0.1f, 0.2f, 0.05f);
-    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces}) {
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx}) {
         const vec3 shown = tonemap(color, 2.0f, curve), scaled = tonemap(color * 4.0f, 0.0f, curve);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], scaled[c], 1e-6f);
     }
@@ -63,8 +64,25 @@ TEST(Tonemap, AcesIsNarkowiczsCurve) {
     }
 }
 
+// Middle grey becomes half of what the display's power makes of it, and the ends of the 16.5 stops black and white.
+TEST(Tonemap, AgxHoldsItsStopsAndFadesLightsToWhite) {
+    const auto grey = [](double stops) {
+        return double(tonemap(vec3(float(0.18 * std::exp2(stops))), 0.0f, kTonemapAgx).y);
+    };
+    EXPECT_NEAR(grey(0), std::pow(0.5, 2.2), 1e-4);
+    EXPECT_NEAR(grey(-10), 0, 1e-6);
+    EXPECT_NEAR(grey(6.5), 1, 1e-4);
+    // The encoding's slope at middle grey is 2 for all of its range, also on both sides of the pivot.
+    for (const double side : {-0.1, 0.1}) EXPECT_NEAR((std::pow(grey(side), 1 / 2.2) - 0.5) / side, 2 / 16.5, 1e-3);
+    // A blue light of five stops above white is paler than one below it, and not clipped to pure blue.
+    const vec3 bright = tonemap(vec3(0.5f, 0.5f, 4.0f), 5.0f, kTonemapAgx);
+    const vec3 dim = tonemap(vec3(0.5f, 0.5f, 4.0f), -2.0f, kTonemapAgx);
+    EXPECT_GT(bright.x / bright.z, dim.x / dim.z);
+    EXPECT_GT(bright.x, 0.5f);
+}
+
 TEST(Tonemap, AnyRadianceStaysInRange) {
-    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces}) {
+    for (const uint curve : {kTonemapNone, kTonemapReinhard, kTonemapAces, kTonemapAgx}) {
         float before = 0;
         for (const float x : {0.0f, 1e-38f, 1e-6f, 0.1f, 1.0f, 100.0f, 1e10f, 1e30f, 3e38f}) {
             for (const float stops : {-20.0f, 0.0f, 20.0f}) {
@@ -88,6 +106,19 @@ TEST(Tonemap, DisplaysWholeImages) {
     grey.data = {0.25f, 3.0f};
     EXPECT_EQ(toImage(image::toDisplay(grey, 0, kTonemapNone)).data,
               (std::vector<float>{0.25f, 0.25f, 0.25f, 1, 1, 1}));
+}
+
+TEST(Tonemap, AutoExposureMakesTheMeanMiddleGrey) {
+    image::Image picture(20, 20);
+    std::fill(picture.data.begin(), picture.data.end(), 0.045f);
+    EXPECT_NEAR(image::autoExposure(picture), 2, 1e-5);
+    // A lamp, a black border and a sample that is no number change nothing.
+    for (std::size_t i = 0; i < 3 * 20; ++i) picture.data[i] = i < 3 * 10 ? 1e6f : 0;
+    picture.data[3 * 30] = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NEAR(image::autoExposure(picture), 2, 1e-5);
+    std::fill(picture.data.begin(), picture.data.end(), 0.0f);
+    EXPECT_EQ(image::autoExposure(picture), 0);
+    EXPECT_EQ(image::autoExposure(image::Image(0, 0)), 0);
 }
 
 } // namespace

@@ -89,7 +89,7 @@ TEST_F(WindowFilesTest, ThatCannotBeWrittenAreTold) {
     request_.files = {path("missing/a.exr")};
     const auto session = start(5);
     ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.errorSerial > 0; }));
-    EXPECT_NE(session->state().error.find("missing/a."), std::string::npos);
+    EXPECT_NE(session->state().errors.back().text.find("missing/a."), std::string::npos);
     const auto failures = session->close();
     ASSERT_EQ(failures.size(), 2u); // the image, and what lies beside it
     EXPECT_NE(failures.front().find("missing/a.exr"), std::string::npos);

@@ -1,12 +1,12 @@
 #include "Common/App/Interactive/FilmFiles.h"
 
-#include <cstdio>
 #include <exception>
 
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Hash.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/ImageIo.h"
 
@@ -35,7 +35,7 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
             statistics.outputs = outputs.written;
             statistics.error = reference.compare(kept.resolve());
             statistics.window = state.windowFigures();
-            writeText(options.stats, statistics.toJson(options, *scene.scene, film.engine().report(), kept));
+            writeText(options.stats, statistics.toJson(options, *scene.scene, film.report(), kept));
         }
     } catch (const std::exception& error) { // of an engine or a file, or want of memory
         outputs.failures.emplace_back(error.what());
@@ -55,37 +55,19 @@ void writePreview(const SaveRequest& request, const Preview& preview, PublishedS
                 file, image::isDisplayReferred(file) ? image::toDisplay(picture, request.exposure, curve) : picture);
             state.say("Saved the preview as " + file);
         } catch (...) {
-            state.fail(std::current_exception());
+            state.fail(std::current_exception(), ErrorSource::Save);
         }
     }
 }
 
 RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const FilmRun& film,
                      const FilmReference& reference) {
-    const EngineReport report = film.engine().report();
-    const RenderSettings& settings = film.settings();
-    RunRecord record;
+    const EngineReport report = film.report();
+    RunRecord record = recordOfWork(*scene.scene, scene.request.oneSidedLights, film.camera(), film.settings());
     record.time = utcNow();
     record.app = program;
     record.engine = report.engine;
     record.device = report.device;
-    record.scene = scene.scene->id;
-    record.lightSampling = nameOf(kLightSamplings, settings.lightSampling);
-    record.sampler = nameOf(kSamplers, settings.sampler);
-    char hash[17];
-    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(scene.scene->hash));
-    record.sceneHash = hash;
-    record.camera = CameraController::toText(film.camera());
-    record.lightSelection = nameOf(kLightSelections, settings.lightSelection);
-    record.sphereLight = nameOf(kSphereLights, settings.sphereLight);
-    record.quadLight = nameOf(kFlatLights, settings.quadLight);
-    record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
-    record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
-    record.oneSidedLights = nameOf(kOnOff, scene.request.oneSidedLights);
-    record.adaptive = nameOf(kAdaptive, settings.adaptive);
-    record.width = settings.width;
-    record.height = settings.height;
-    record.maxDepth = settings.maxDepth;
     record.threads = report.threads;
     record.spp = film.engine().film().samplesPerPixel();
     record.loadSeconds = scene.seconds;
@@ -98,11 +80,35 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
         record.raysPerSecond = rays / film.seconds();
     }
     record.hasReference = !reference.curve().empty();
-    if (record.hasReference)
+    if (record.hasReference) {
         record.relmse = reference.curve().back().relmse;
-    else if (const auto estimated = estimate(film.engine().film()).relmse)
+        record.referenceError = reference.error();
+    } else if (const auto estimated = estimate(film.engine().film()).relmse) {
         record.relmse = estimated->value;
+    }
     for (const ErrorPoint& point : reference.curve()) record.curve.push_back({point.seconds, point.relmse});
+    return record;
+}
+
+RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, const scene::CameraDesc& camera,
+                       const RenderSettings& settings) {
+    RunRecord record;
+    record.scene = scene.id;
+    record.sceneHash = hexText(scene.hash);
+    record.camera = CameraController::toText(camera);
+    record.lightSampling = nameOf(kLightSamplings, settings.lightSampling);
+    record.sampler = nameOf(kSamplers, settings.sampler);
+    record.lightSelection = nameOf(kLightSelections, settings.lightSelection);
+    record.sphereLight = nameOf(kSphereLights, settings.sphereLight);
+    record.quadLight = nameOf(kFlatLights, settings.quadLight);
+    record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
+    record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
+    record.oneSidedLights = nameOf(kOnOff, oneSidedLights);
+    record.adaptive = nameOf(kAdaptive, settings.adaptive);
+    record.width = settings.width;
+    record.height = settings.height;
+    record.maxDepth = settings.maxDepth;
+    record.spp = settings.spp;
     return record;
 }
 

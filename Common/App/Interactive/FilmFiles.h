@@ -20,6 +20,9 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
 // What is seen, and nothing that only a film has. A preview without pixels is yet to be drawn.
 void writePreview(const SaveRequest& request, const Preview& preview, PublishedState& state);
 
+// What a run is of; its figures are yet to come.
+RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, const scene::CameraDesc& camera,
+                       const RenderSettings& settings);
 RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const FilmRun& film,
                      const FilmReference& reference);
 

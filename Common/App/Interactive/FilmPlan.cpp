@@ -38,7 +38,8 @@ RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledS
                             bool wantsVariance, const RenderSpeed& speed) {
     RenderSettings settings = sizedSettings(request, scene);
     settings.seed += round;
-    settings.sppIsKnown = !request.timeLimit;
+    settings.sppIsKnown = !request.timeLimit && !request.targetError;
+    if (request.targetError) settings.replicates = std::max(settings.replicates, kErrorReplicates);
     if (!request.accumulate)
         settings.spp =
             request.samplesPerFrame > 0 ? request.samplesPerFrame : speed.sppIn(kFrameSeconds, settings, 65536);
@@ -46,18 +47,6 @@ RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledS
     settleReplicates(settings);
     settings.secondMoments = settings.replicates < 2 && (request.accumulate || wantsVariance);
     return settings;
-}
-
-RenderSettings referenceSettings(RenderSettings film, std::uint32_t spp) {
-    film.spp = spp;
-    film.sppIsKnown = true;
-    film.seed ^= 0x5f3759dfu;
-    film.lightSampling = LightSampling::Mis;
-    film.sampler = SamplerKind::Sobol;
-    film.adaptive = false;
-    film.replicates = 1;
-    film.secondMoments = false;
-    return film;
 }
 
 std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed) {

@@ -27,9 +27,6 @@ RenderSettings sizedSettings(const RenderRequest& request, const scene::Compiled
 RenderSettings filmSettings(const RenderRequest& request, const scene::CompiledScene& scene, std::uint32_t round,
                             bool wantsVariance, const RenderSpeed& speed);
 
-// Quiet, and independent of what it will be compared with.
-RenderSettings referenceSettings(RenderSettings film, std::uint32_t spp);
-
 // Of low resolution, to be shown until the film has samples; none where its first pass takes no longer.
 std::optional<RenderSettings> draftSettings(const RenderSettings& film, const RenderSpeed& speed);
 

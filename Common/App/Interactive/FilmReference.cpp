@@ -4,13 +4,14 @@
 
 namespace rt::app {
 
-void FilmReference::begin(std::uint64_t sceneHash, const scene::CameraDesc& camera, const RenderSettings& settings) {
-    filmKey_ = {sceneHash, camera, settings.width, settings.height, settings.maxDepth};
+void FilmReference::begin(const ReferenceKey& film) {
+    filmKey_ = film;
     curve_.clear();
 }
 
-void FilmReference::set(image::Image image) {
-    image_ = std::move(image);
+void FilmReference::set(image::Image image, double error) {
+    image_ = std::make_shared<const image::Image>(std::move(image));
+    error_ = error;
     key_ = filmKey_;
     curve_.clear();
 }

@@ -71,6 +71,11 @@ void readRequest(const Reader& reader, RenderRequest& request) {
     reader.read("accumulate", request.accumulate);
     reader.read("samples_per_frame", request.samplesPerFrame, 0, 65536);
     reader.read("loop", request.loop);
+    double seconds = 0, error = 0;
+    reader.read("time_limit", seconds, 0, 1e9);
+    if (seconds > 0) request.timeLimit = seconds;
+    reader.read("target_error", error, 0, 1e9);
+    if (error > 0) request.targetError = error;
 }
 
 Json toJson(const RenderRequest& request) {
@@ -87,6 +92,8 @@ Json toJson(const RenderRequest& request) {
     forEachMethod([&json](const char* key, const char*, const char*, const auto& table,
                           const auto& value) { json[key] = nameOf(table, value); },
                   s);
+    if (request.timeLimit) json["time_limit"] = *request.timeLimit;
+    if (request.targetError) json["target_error"] = *request.targetError;
     if (request.size.width) json["width"] = *request.size.width;
     if (request.size.aspect) json["aspect"] = *request.size.aspect;
     return json;
@@ -126,7 +133,10 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
             if (isOpen.is_boolean()) settings.openPanels[id] = isOpen;
     }
     reader.read("exposure", settings.exposure, -100, 100);
+    reader.read("auto_exposure", settings.autoExposure);
     reader.read("tonemap", kTonemaps, settings.tonemap);
+    reader.read("reload_scenes", settings.reloadScenes);
+    reader.read("saw_first_steps", settings.sawFirstSteps);
     reader.read("save_folder", settings.saveFolder);
     reader.read("ray_tracing", settings.rayTracing);
     reader.read("scene", settings.scene);
@@ -162,7 +172,10 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                     {"show_statistics", s.showStatistics},
                     {"open_panels", s.openPanels},
                     {"exposure", s.exposure},
+                    {"auto_exposure", s.autoExposure},
                     {"tonemap", nameOf(kTonemaps, s.tonemap)},
+                    {"reload_scenes", s.reloadScenes},
+                    {"saw_first_steps", s.sawFirstSteps},
                     {"save_folder", s.saveFolder},
                     {"ray_tracing", s.rayTracing},
                     {"scene", s.scene},
@@ -201,11 +214,17 @@ void override(GuiSettings& settings, const Options& options) {
     take("--adaptive", s.adaptive, o.adaptive);
     take("--russian-roulette", s.russianRoulette, o.russianRoulette);
     take("--one-sided-lights", settings.request.oneSidedLights, options.oneSidedLights);
-    take("--exposure", settings.exposure, options.exposure);
-    take("--tonemap", settings.tonemap, options.tonemap);
+    // Files that the command line asks for look as they do without a window, and the window as the files.
+    const bool asksForFiles = !options.outputs.empty();
+    if (given("--exposure") || asksForFiles) {
+        settings.exposure = options.exposure;
+        settings.autoExposure = false;
+    }
+    if (given("--tonemap") || asksForFiles) settings.tonemap = options.tonemap;
     if (given("--width") || given("--height") || given("--aspect")) settings.request.size = options.size;
     s.features = o.features;
-    settings.request.timeLimit = options.timeLimit;
+    take("--time-limit", settings.request.timeLimit, options.timeLimit);
+    take("--target-error", settings.request.targetError, options.targetError);
     if (!options.device.empty()) settings.engine.device = options.device;
     take("--engine", settings.engine.kind, options.gpuEngine);
     if (given("--threads")) settings.engine.threads = options.threads;

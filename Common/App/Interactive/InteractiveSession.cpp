@@ -18,6 +18,14 @@ bool needsAnotherFilm(const RenderRequest& before, RenderRequest after) {
     return after != before;
 }
 
+bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after) {
+    after.settings.spp = before.settings.spp;
+    after.timeLimit = before.timeLimit;
+    after.targetError = before.targetError;
+    after.samplesPerFrame = before.samplesPerFrame;
+    return after == before;
+}
+
 InteractiveSession::InteractiveSession(Setup setup)
     : setup_(std::move(setup)), state_(setup_.onChange), loader_([this](LoadedScene loaded) {
           mailbox_.post(Cancel::Nothing, [&](Requests& requests) { requests.scene = std::move(loaded); });

@@ -31,6 +31,8 @@ class InteractiveSession {
     void moveCamera(const scene::CameraDesc& camera,
                     std::uint64_t sceneSerial);               // ignored if the scene is another by now
     void render() { post(Cancel::Nothing, Command::Render); } // from the beginning when ended, else goes on
+    // Likewise, but a film that has ended goes on where it has samples to go: those that a change has added to it.
+    void goOn() { post(Cancel::Nothing, Command::GoOn); }
     void pause() { post(Cancel::Slice, Command::Pause); }
     void stop() { post(Cancel::FirstPicture, Command::Stop); }
     void reset() { post(Cancel::FirstPicture, Command::Reset); } // begins anew
@@ -44,6 +46,11 @@ class InteractiveSession {
     // afterwards unless something that concerns it has changed.
     void preview(bool on) {
         mailbox_.post(Cancel::FirstPicture, [on](Requests& requests) { requests.preview = on; });
+    }
+    // Pixels that a row of the preview is drawn with, so that it suits the window; 0: as many as the picture has. The
+    // height follows. Files get the picture's size.
+    void previewWidth(std::uint32_t width) {
+        mailbox_.post(Cancel::Nothing, [width](Requests& requests) { requests.previewWidth = width; });
     }
     // The image that errors are taken against: rendered with the present scene, camera and size, or read from a linear
     // image file of the present size. Stop gives a render up, and what was the reference before stays.

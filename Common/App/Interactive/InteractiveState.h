@@ -13,6 +13,8 @@
 #include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/Engine.h"
+#include "Common/App/Session/FileMark.h"
+#include "Common/App/Session/ReferenceCache.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Settings.h"
 #include "Common/App/Session/Statistics.h"
@@ -45,11 +47,15 @@ struct RenderRequest {
     // old sum may have more. 0: as many as there is time for between two frames.
     std::uint32_t samplesPerFrame = 25;
     bool loop = false;               // begin again when done, with the next seed
-    std::optional<double> timeLimit; // seconds of sampling
+    // Budgets: what is reached first ends the film, of which only its samples must be bounded.
+    std::optional<double> timeLimit;   // seconds of sampling
+    std::optional<double> targetError; // estimated relMSE
     bool operator==(const RenderRequest&) const = default;
 };
 // Whether the film of one is of no use for the other.
 bool needsAnotherFilm(const RenderRequest& before, RenderRequest after);
+// Whether at most the number of samples and what ends the film before differ: one film may do for both.
+bool differsInBudgetsAlone(const RenderRequest& before, RenderRequest after);
 
 enum class Activity { Preparing, Rendering, Paused, Stopped, Finished, Failed };
 
@@ -80,22 +86,31 @@ struct LastRun {
     std::uint64_t spp = 0;
 };
 
+// What an error is about: the window shows it there.
+enum class ErrorSource { Other, Scene, Engine, Reference, Save, Camera };
+struct ErrorMessage {
+    std::string text;
+    ErrorSource source = ErrorSource::Other;
+};
+
 // All that the window shows of the session, copied at one moment.
 struct SessionState {
     Activity activity = Activity::Preparing;
     std::string stage;       // what keeps the user waiting; empty: nothing
     double stageSeconds = 0; // how long it has
-    std::string error;       // of the last request that failed
+    static constexpr std::size_t kMostErrors = 16;
+    std::vector<ErrorMessage> errors{}; // of requests that failed; the last ones of `errorSerial`, the latest last
     std::uint64_t errorSerial = 0;
     std::string message; // what was last written
     std::uint64_t messageSerial = 0;
     std::exception_ptr fatal; // nothing can be rendered: no engine, or no scene ever
 
-    std::uint64_t sceneSerial = 0;   // grows with each scene; 0: none yet
-    std::string source;              // of the scene, as it was asked for
-    std::uint64_t sceneLoads = 0;    // grows with each that was loaded, also anew
-    std::string failedSource;        // of the last scene that could not be had
-    std::uint64_t sceneFailures = 0; // grows with each of them
+    std::uint64_t sceneSerial = 0;      // grows with each scene; 0: none yet
+    std::string source;                 // of the scene, as it was asked for
+    std::optional<FileMark> sourceMark; // of that file, as it was read
+    std::uint64_t sceneLoads = 0;       // grows with each that was loaded, also anew
+    std::string failedSource;           // of the last scene that could not be had
+    std::uint64_t sceneFailures = 0;    // grows with each of them
     std::shared_ptr<const scene::CompiledScene> scene;
 
     EngineChoice engine;              // in force
@@ -109,6 +124,8 @@ struct SessionState {
     std::optional<LastRun> lastRun;
 
     std::string reference;           // what it is; empty: there is none
+    std::shared_ptr<const image::Image> referenceImage;
+    double referenceError = 0;       // its own relMSE, estimated; 0: not known
     bool referenceFits = false;      // it is of this scene, camera, size and depth
     bool isReferenceRender = false;  // what is being rendered will be the reference
     std::optional<double> relmse;    // of the film, against the reference if that fits, else its own estimate
@@ -143,6 +160,7 @@ struct SessionSetup {
     bool preview = false;             // is shown from the beginning
     double sliceSeconds = 0.03;       // of one call of the engine, at most
     bool drawnBySoftware = false;     // each picture costs the processor's threads, so that fewer are shown
+    ReferenceCache references{{}};    // that were rendered; keeps none by itself
     RunHistory* history = nullptr;    // gets the runs that end; may be none
     std::function<void()> onChange;   // called on other threads when there is something new to show
 };

@@ -19,7 +19,7 @@ namespace rt::app {
 
 // The last request of a kind counts, of files each. InteractiveSession says what they mean.
 struct Requests {
-    enum class Command { Render, Pause, Stop, Reset };
+    enum class Command { Render, GoOn, Pause, Stop, Reset };
     bool quit = false;
     std::optional<EngineChoice> engine{};
     std::optional<RenderRequest> request{};
@@ -30,6 +30,7 @@ struct Requests {
     std::optional<SaveRequest> atEnd{};
     std::optional<ViewRequest> view{};
     std::optional<bool> preview{};
+    std::optional<std::uint32_t> previewWidth{};
     std::optional<std::uint32_t> referenceSpp{};
     std::optional<std::string> referenceFile{};
     std::optional<std::array<std::uint32_t, 2>> focus{}; // pixel
@@ -41,7 +42,7 @@ struct Requests {
     bool moveCameraAlone() const { return camera && !changeAllButCamera() && !concernFilm() && !concernFiles(); }
 
   private:
-    bool changeAllButCamera() const { return engine || request || scene || preview; }
+    bool changeAllButCamera() const { return engine || request || scene || preview || previewWidth; }
     bool concernFilm() const { return command || view || referenceSpp || referenceFile || focus; }
     bool concernFiles() const { return quit || !saves.empty() || atEnd; }
 };

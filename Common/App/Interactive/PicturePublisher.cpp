@@ -22,6 +22,7 @@ constexpr double kLongFrameSeconds = 0.5; // after which a frame is shown while 
 constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
 constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
+constexpr double kFirstHitsPerPath = 6;  // that take as long as tracing a path, at least
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
 constexpr std::uint32_t kMostPreviewSide = 4096; // pixels that every device draws; larger images are enlarged
 
@@ -115,7 +116,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
         relmse = reference.curve().back().relmse;
     else if (film.status().finished)
         if (const auto estimated = estimate(engine.film()).relmse) relmse = estimated->value;
-    const EngineReport report = engine.report();
+    const EngineReport report = film.report();
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);
         state.status = film.status();
@@ -142,7 +143,9 @@ PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, cons
     if (showsFeatures(view_.mode)) {
         // In full resolution once the camera rests.
         if (featureView_ && (featureIsFull_ || sinceBegin_.seconds() < kRestSeconds)) return featureView_;
-        const std::uint32_t spp = speed.sppIn(kFeatureSeconds, film.settings(), view_.mode == ViewMode::Heat ? 16 : 8);
+        const bool isCost = view_.mode == ViewMode::Heat;
+        const std::uint32_t spp =
+            speed.sppIn(isCost ? kFeatureSeconds : kFirstHitsPerPath * kFeatureSeconds, film.settings(), kAovSamples);
         ViewImage view = featureView(film.engine(), spp);
         if (view.image.data.empty()) return nullptr;
         featureIsFull_ = true;
@@ -178,14 +181,23 @@ bool PicturePublisher::isDue(const FilmRun& film, const RenderRequest& request) 
            film.status().samplesDone - shownSamples_ >= request.samplesPerFrame * film.pixels();
 }
 
-void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size) {
-    const double scale = std::min(1.0, static_cast<double>(kMostPreviewSide) / std::max(size.width, size.height));
+// What no device draws is enlarged.
+Preview drawPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size, std::uint32_t width) {
+    const double ratio = static_cast<double>(size.height) / size.width;
+    const std::uint32_t height = std::max(1u, static_cast<std::uint32_t>(std::lround(ratio * width)));
+    const double scale = std::min(1.0, static_cast<double>(kMostPreviewSide) / std::max(width, height));
     const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
-    preview_ = engine.renderPreview(camera, scaled(size.width), scaled(size.height));
+    Preview preview = engine.renderPreview(camera, scaled(width), scaled(height));
     if (scale < 1) {
-        preview_.picture = enlarge(preview_.picture, size.width, size.height);
-        preview_.depth = enlarge(preview_.depth, size.width, size.height);
+        preview.picture = enlarge(preview.picture, width, height);
+        preview.depth = enlarge(preview.depth, width, height);
     }
+    return preview;
+}
+
+void PicturePublisher::showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size,
+                                   std::uint32_t width) {
+    preview_ = drawPreview(engine, camera, size, width);
     Picture picture;
     picture.image = picture.radiance = std::make_shared<image::Image>(preview_.picture);
     picture.isPreview = true;

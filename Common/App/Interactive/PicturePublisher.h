@@ -34,7 +34,8 @@ class PicturePublisher {
     bool isDue(const FilmRun& film, const RenderRequest& request) const;
     double secondsUntilDue(const RenderRequest& request) const; // at most; no less than a slice should take
 
-    void showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size);
+    // Drawn with `width` pixels in a row.
+    void showPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size, std::uint32_t width);
     const Preview& preview() const { return preview_; } // shown last; no pixels: none
     void discardPreview() { preview_ = {}; }
 
@@ -60,6 +61,9 @@ class PicturePublisher {
     double showSeconds_ = 0;         // that the last picture took
     std::uint64_t shownSamples_ = 0; // of the film, in the last picture
 };
+
+// The preview of an image of that size, with `width` pixels in a row. Throws what the engine does.
+Preview drawPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size, std::uint32_t width);
 
 // Of the plane through what a preview or the first hits show in a pixel, from their depth; none for the sky.
 std::optional<double> focusDistance(const image::Image& depth, std::uint32_t x, std::uint32_t y, double verticalFov);

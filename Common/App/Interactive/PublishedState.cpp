@@ -26,12 +26,13 @@ void PublishedState::setStage(const std::string& stage) {
     });
 }
 
-void PublishedState::fail(const std::exception_ptr& failure, bool fatal) try {
+void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source, bool fatal) try {
     std::rethrow_exception(failure);
 } catch (const std::exception& error) {
-    logWarning(error.what());
+    if (!fatal) logWarning(error.what());
     update([&](SessionState& state) {
-        state.error = error.what();
+        state.errors.push_back({error.what(), source});
+        if (state.errors.size() > SessionState::kMostErrors) state.errors.erase(state.errors.begin());
         ++state.errorSerial;
         if (fatal) state.fatal = failure;
     });

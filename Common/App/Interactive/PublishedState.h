@@ -18,7 +18,8 @@ class PublishedState {
     SessionState copy() const;
     void update(const std::function<void(SessionState&)>& change);
     void setStage(const std::string& stage); // its seconds count from now
-    void fail(const std::exception_ptr& failure, bool fatal = false);
+    // What is fatal is for the program to report, which ends with it.
+    void fail(const std::exception_ptr& failure, ErrorSource source = ErrorSource::Other, bool fatal = false);
     void say(const std::string& message);
 
     // How the window has answered so far, for the statistics.

@@ -1,10 +1,13 @@
 #include "Common/App/Interactive/RunHistory.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <fstream>
 #include <iomanip>
+#include <optional>
 #include <sstream>
+#include <unordered_set>
 
 #include <nlohmann/json.hpp>
 
@@ -68,6 +71,9 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/adaptive", "adaptive", r.adaptive);
 }
 
+// Likewise, but no part of the work.
+constexpr const char* kReferenceError = "reference_relmse";
+
 RunRecord fromJson(const nlohmann::json& json) {
     RunRecord r;
     forEachField(r, [&](const char* place, const char*, auto& value) {
@@ -76,8 +82,20 @@ RunRecord fromJson(const nlohmann::json& json) {
     forEachLaterField(r, [&](const char* place, const char*, std::string& value) {
         value = json.value(nlohmann::json::json_pointer(place), "");
     });
+    r.referenceError = json.value(kReferenceError, 0.0);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
+}
+
+// None of half a line of a program that was killed, and of an object that is not ours.
+std::optional<RunRecord> toRecord(const std::string& line) {
+    try {
+        const nlohmann::json json = nlohmann::json::parse(line);
+        if (json.at("version") == kVersion) return fromJson(json);
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+    return std::nullopt;
 }
 
 // Fields with commas or quotes are quoted as in RFC 4180.
@@ -103,6 +121,7 @@ std::string toJsonLine(const RunRecord& r) {
     };
     forEachField(r, put);
     forEachLaterField(r, put);
+    if (r.referenceError > 0) json[kReferenceError] = r.referenceError;
     json["curve"] = curve;
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -113,12 +132,12 @@ std::string toCsv(const std::vector<RunRecord>& records) {
     const auto putColumn = [&](const char*, const char* column, const auto&) { out << column << ','; };
     forEachField(RunRecord{}, putColumn);
     forEachLaterField(RunRecord{}, putColumn);
-    out << "efficiency\n" << std::setprecision(9);
+    out << kReferenceError << ",efficiency\n" << std::setprecision(9);
     for (const RunRecord& r : records) {
         const auto put = [&](const char*, const char*, const auto& value) { out << csvField(value) << ','; };
         forEachField(r, put);
         forEachLaterField(r, put);
-        out << r.efficiency() << '\n';
+        out << r.referenceError << ',' << r.efficiency() << '\n';
     }
     return out.str();
 }
@@ -131,12 +150,28 @@ std::string lackingIn(const RunRecord& record) {
     return names;
 }
 
+std::vector<WorkField> workOf(const RunRecord& r) {
+    return {{"Scene", r.scene},
+            {"Contents", r.sceneHash, false},
+            {"Camera", r.camera, false},
+            {"Size", std::to_string(r.width) + " x " + std::to_string(r.height)},
+            {"SPP", std::to_string(r.spp)},
+            {"Depth", std::to_string(r.maxDepth)},
+            {"Estimator", r.lightSampling},
+            {"Sampler", r.sampler},
+            {"Light selection", r.lightSelection},
+            {"Sphere lights", r.sphereLight},
+            {"Quad lights", r.quadLight},
+            {"Triangle lights", r.triangleLight},
+            {"Roulette", r.russianRoulette},
+            {"One-sided", r.oneSidedLights},
+            {"Adaptive", r.adaptive}};
+}
+
 bool isSameWork(const RunRecord& a, const RunRecord& b) {
-    return a.scene == b.scene && a.sceneHash == b.sceneHash && a.camera == b.camera && a.width == b.width &&
-           a.height == b.height && a.spp == b.spp && a.maxDepth == b.maxDepth && a.lightSampling == b.lightSampling &&
-           a.lightSelection == b.lightSelection && a.sphereLight == b.sphereLight && a.quadLight == b.quadLight &&
-           a.triangleLight == b.triangleLight && a.sampler == b.sampler && a.russianRoulette == b.russianRoulette &&
-           a.oneSidedLights == b.oneSidedLights && a.adaptive == b.adaptive && lackingIn(a).empty();
+    const auto isEqual = [](const WorkField& x, const WorkField& y) { return x.value == y.value; };
+    const std::vector<WorkField> ours = workOf(a), theirs = workOf(b);
+    return std::equal(ours.begin(), ours.end(), theirs.begin(), isEqual) && lackingIn(a).empty();
 }
 
 EnginePair newestOfEqualWork(const std::vector<const RunRecord*>& newestFirst) {
@@ -170,13 +205,13 @@ std::filesystem::path RunHistory::userFile() {
 
 void RunHistory::append(const RunRecord& record) {
     if (file_.empty()) {
-        records_.push_back(record);
+        const std::scoped_lock lock(mutex_);
+        unfiled_.push_back(record);
         return;
     }
     std::error_code ignored; // opening the file tells
     fs::create_directories(file_.parent_path(), ignored);
-    // A file of its own is locked, as the history is replaced when it is shortened.
-    const FileLock lock(file_.string() + ".lock");
+    const FileLock lock(lockFile());
     std::vector<std::string> lines = readLines(file_);
     if (lines.size() >= kMostLines) {
         lines.erase(lines.begin(), lines.end() - (kMostLines - 1));
@@ -192,26 +227,46 @@ void RunHistory::append(const RunRecord& record) {
     if (!out) throw RenderError(file_.string() + ": cannot be written");
 }
 
+void RunHistory::remove(std::vector<RunRecord> records) {
+    if (file_.empty()) {
+        ++serial_;
+        std::erase_if(records_, [&](const RunRecord& r) { return std::count(records.begin(), records.end(), r) > 0; });
+        return;
+    }
+    std::unordered_set<std::string> lines;
+    for (const RunRecord& record : records) lines.insert(toJsonLine(record));
+    const FileLock lock(lockFile());
+    AtomicFile file(file_);
+    for (const std::string& line : readLines(file_)) {
+        const std::optional<RunRecord> record = toRecord(line);
+        if (!record || lines.count(toJsonLine(*record)) == 0) file.stream() << line << '\n';
+    }
+    file.commit();
+    wasRead_ = false; // whatever the clock of the file system says
+}
+
 const std::vector<RunRecord>& RunHistory::records() {
-    if (file_.empty()) return records_;
+    if (file_.empty()) {
+        const std::scoped_lock lock(mutex_);
+        if (!unfiled_.empty()) ++serial_;
+        records_.insert(records_.end(), unfiled_.begin(), unfiled_.end());
+        unfiled_.clear();
+        return records_;
+    }
     std::error_code none;
     const auto time = fs::last_write_time(file_, none);
     const std::uintmax_t size = none ? 0 : fs::file_size(file_, none);
     if (none) {
+        if (!records_.empty()) ++serial_;
         records_.clear();
         wasRead_ = false;
         return records_;
     }
     if (wasRead_ && time == readTime_ && size == readSize_) return records_;
+    ++serial_;
     records_.clear();
-    for (const std::string& line : readLines(file_)) {
-        try {
-            const nlohmann::json json = nlohmann::json::parse(line);
-            if (json.at("version") == kVersion) records_.push_back(fromJson(json));
-        } catch (const nlohmann::json::exception&) {
-            continue; // half a line of a program that was killed, or an object that is not ours
-        }
-    }
+    for (const std::string& line : readLines(file_))
+        if (std::optional<RunRecord> record = toRecord(line)) records_.push_back(std::move(*record));
     readTime_ = time;
     readSize_ = size;
     wasRead_ = true;

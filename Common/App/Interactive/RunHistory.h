@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct RunRecord {
     std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive;
     double relmse = 0;
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
+    double referenceError = 0; // the reference's own relMSE, estimated; 0: not known
     struct Point {
         double seconds = 0, relmse = 0;
         bool operator==(const Point&) const = default;
@@ -41,23 +43,45 @@ class RunHistory {
     // An empty path: nothing is kept from one program to the next.
     explicit RunHistory(std::filesystem::path file) : file_(std::move(file)) {}
 
-    // Under a lock that both programs respect. Throws RenderError. The oldest lines go when there are too many.
+    // On any thread. Under a lock that both programs respect. Throws RenderError. The oldest lines go when there are too
+    // many.
     void append(const RunRecord& record);
-    // The records of the file, oldest first; read again only when the file has changed.
+    // On the thread that reads the records. The lines of these go, all others stay as they are; the file is replaced as
+    // a whole, under the same lock. Throws RenderError.
+    void remove(std::vector<RunRecord> records); // a copy: it may be those that records() has returned
+    // On one thread. The records of the file, oldest first; read again only when the file has changed.
     const std::vector<RunRecord>& records();
+
+    // Grows with each change of what records() returned last.
+    std::uint64_t serial() const { return serial_; }
 
     static std::filesystem::path userFile(); // empty where there is no place for it
 
   private:
+    // A file of its own is locked, as the history is replaced when it is shortened.
+    std::filesystem::path lockFile() const { return file_.string() + ".lock"; }
+
     std::filesystem::path file_;
     std::vector<RunRecord> records_;
+    std::mutex mutex_;                 // guards what follows
+    std::vector<RunRecord> unfiled_;   // without a file: appended and not in the records yet
     std::filesystem::file_time_type readTime_{};
     std::uintmax_t readSize_ = 0;
     bool wasRead_ = false;
+    std::uint64_t serial_ = 0;
 };
 
 // The names of what a record does not tell of its work, with commas; empty: it tells all.
 std::string lackingIn(const RunRecord& record);
+// What the work depends on, the same for every record: what it is called, and its value as text, empty where the record
+// lacks it. Scene hash and camera are not meant to be read.
+struct WorkField {
+    const char* title;
+    std::string value;
+    bool isShort = true; // what a cell of a table has room for
+};
+std::vector<WorkField> workOf(const RunRecord& record);
+
 // Whether all that the work depends on is known of both and equal. Engine, device and threads are left free.
 bool isSameWork(const RunRecord& a, const RunRecord& b);
 

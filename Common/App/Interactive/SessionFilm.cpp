@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
+
+#include "Common/App/Session/RenderParams.h"
+#include "Common/Image/Metrics.h"
 
 namespace rt::app {
 namespace {
 
 constexpr double kMostFirstSeconds = 0.25; // of a draft or first pass when the next change waits already
 constexpr double kPassSlice = 0.005;       // where the picture is shown as soon as it has its first samples
+
+ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film) {
+    return {subject.scene.hash, subject.camera, film.width, film.height, film.maxDepth};
+}
 
 } // namespace
 
@@ -28,6 +36,27 @@ void SessionFilm::discard() {
 void SessionFilm::beginNext() {
     isStale_ = true;
     ++round_;
+}
+
+bool SessionFilm::goOn(const FilmSubject& subject) {
+    if (isStale_ || !subject.request.accumulate || reference.renderedSpp()) return false;
+    RenderSettings wanted = settingsFor(subject);
+    const std::uint32_t spp = std::exchange(wanted.spp, run_->settings().spp);
+    // Whether the number is known matters to films that are made for it alone.
+    const bool isKnown = std::exchange(wanted.sppIsKnown, run_->settings().sppIsKnown);
+    if (wanted != run_->settings() || !run_->canTake(spp)) return false;
+    wanted.sppIsKnown = isKnown;
+    if (isMadeForSpp(wanted) != isMadeForSpp(run_->settings())) return false;
+    if (spp != run_->settings().spp) run_->setSpp(spp);
+    // What is left of the time; where it was used up, as much again.
+    std::optional<double> seconds = subject.request.timeLimit;
+    if (seconds && run_->seconds() < *seconds) *seconds -= run_->seconds();
+    run_->limit({.seconds = seconds, .targetError = subject.request.targetError});
+    state_.update([&](SessionState& state) {
+        state.settings = run_->settings();
+        state.status = run_->status();
+    });
+    return true;
 }
 
 bool SessionFilm::hasFirstSamples() const {
@@ -61,10 +90,13 @@ void SessionFilm::showIfDue(const RenderRequest& request) {
     if (!isStale_ && publisher.isDue(*run_, request)) show();
 }
 
+RenderSettings SessionFilm::settingsFor(const FilmSubject& subject) const {
+    return filmSettings(subject.request, subject.scene, round_, setup_.options.wants(Aov::Variance), speed_);
+}
+
 void SessionFilm::start(const FilmSubject& subject) {
-    RenderSettings settings =
-        filmSettings(subject.request, subject.scene, round_, setup_.options.wants(Aov::Variance), speed_);
-    if (const auto spp = reference.renderedSpp()) settings = referenceSettings(settings, *spp);
+    RenderSettings settings = settingsFor(subject);
+    if (const auto spp = reference.renderedSpp()) settings = referenceSettings(keyOf(subject, settings), *spp);
 
     // Kernels may have to be compiled, a large film takes a while to be had.
     const auto before = run_ ? run_->settings() : postponed_;
@@ -72,6 +104,12 @@ void SessionFilm::start(const FilmSubject& subject) {
     if (!before || isAnotherSize) state_.setStage("Preparing " + subject.scene.title);
     if (!before) publisher.forgetLatency();
     publisher.discardViews();
+    state_.update([&](SessionState& state) { // the progress of the film before is not this one's
+        state.settings = settings;
+        state.status = {};
+        state.status.samplesTotal = std::uint64_t{settings.width} * settings.height * settings.spp;
+        state.renderSeconds = 0;
+    });
     if (round_ == 0) renderDraft(subject, settings);
     if (publisher.hasDraft() && mailbox_.moveCameraAlone()) {
         state_.setStage("");
@@ -109,11 +147,20 @@ void SessionFilm::renderFirst(FilmRun& run, double sliceSeconds, double patience
 
 void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
     postponed_.reset();
-    run_.emplace(subject.engine, subject.camera, settings);
-    run_->limit({.seconds = subject.request.timeLimit});
+    const ReferenceKey view = keyOf(subject, settings);
+    if (reference.renderedSpp()) { // on top of what there is
+        image::Film kept = setup_.references.load(view).value_or(image::Film());
+        if (kept.totalSamples() > 0)
+            settings.spp = std::max(settings.spp, static_cast<std::uint32_t>(kept.maxSamples()));
+        run_.emplace(subject.engine, subject.camera, settings, std::move(kept));
+    } else {
+        run_.emplace(subject.engine, subject.camera, settings);
+        run_->limit({.seconds = subject.request.timeLimit, .targetError = subject.request.targetError});
+    }
     isStale_ = false;
     publisher.begin();
-    reference.begin(subject.scene.hash, subject.camera, settings);
+    reference.begin(view);
+    findReference();
     const EngineReport report = subject.engine.report();
     state_.update([&](SessionState& state) {
         state.stage.clear();
@@ -125,6 +172,30 @@ void SessionFilm::begin(const FilmSubject& subject, RenderSettings settings) {
         state.referenceFits = reference.fits();
         state.relmse.reset();
         state.curve.clear();
+    });
+}
+
+// One that was rendered earlier, by whichever program, where there is none for the film's view.
+void SessionFilm::findReference() {
+    if (reference.renderedSpp() || reference.fits() || !setup_.references.has(reference.film())) return;
+    if (const auto film = setup_.references.load(reference.film()); film && film->minSamples() > 0)
+        setReference(*film, "found");
+}
+
+void SessionFilm::setReference(const image::Film& film, const std::string& how) {
+    image::Image mean = film.resolve();
+    const bool hasError = film.minReplicateSamples() > 0;
+    const double error = hasError ? image::referenceRelMse(mean, film.varianceOfMean()) : 0;
+    reference.set(std::move(mean), error);
+    publishReference(how + ", " + std::to_string(film.minSamples()) + " spp");
+}
+
+void SessionFilm::publishReference(const std::string& name) {
+    state_.update([&](SessionState& state) {
+        state.reference = name;
+        state.referenceImage = reference.shared();
+        state.referenceError = reference.error();
+        state.referenceFits = reference.fits();
     });
 }
 

@@ -29,10 +29,14 @@ class SessionFilm {
     void change(); // of something else: what was to be the reference is not any more
     void beginAnew() { isStale_ = true; }
     void beginNext(); // with the next seed
+    // The film goes on with another number of samples or other budgets, from the samples that it has. False: what is
+    // asked for is another film.
+    bool goOn(const FilmSubject& subject);
     void discard();   // which the engine does not hold any more
 
     bool isStale() const { return isStale_; } // another is wanted, or there is none
     bool hasSamples() const { return run_ && run_->status().samplesDone > 0; }
+    bool isFinished() const { return run_ && run_->status().finished; } // it has all its samples
     bool hasFirstSamples() const; // of all pixels, and is not stale
     const std::optional<FilmRun>& run() const { return run_; }
 
@@ -43,14 +47,20 @@ class SessionFilm {
     void show(); // unless it is stale
     void showIfDue(const RenderRequest& request);
 
+    // Of the view that the present film has; `how` it was had.
+    void setReference(const image::Film& film, const std::string& how);
+    void publishReference(const std::string& name);
+
     FilmReference reference;
     PicturePublisher publisher;
 
   private:
+    RenderSettings settingsFor(const FilmSubject& subject) const;
     void start(const FilmSubject& subject);
     void renderDraft(const FilmSubject& subject, const RenderSettings& settings);
     void renderFirst(FilmRun& run, double sliceSeconds, double patience);
     void begin(const FilmSubject& subject, RenderSettings settings);
+    void findReference();
 
     const SessionSetup& setup_;
     const Mailbox& mailbox_;

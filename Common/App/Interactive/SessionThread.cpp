@@ -56,14 +56,18 @@ void SessionThread::apply(Requests requests) {
     if (isBroken || (requests.engine && *requests.engine != choice_)) makeEngine(requests.engine.value_or(choice_));
     if (requests.request) {
         const bool isAnother = needsAnotherFilm(request_, *requests.request);
+        const bool isOnlyMore = isAnother && differsInBudgetsAlone(request_, *requests.request);
         request_ = *requests.request;
-        isAnother ? film_.change() : requests.request.reset();
+        const bool goesOn = isOnlyMore && isReady() && film_.goOn(subject());
+        if (goesOn && activity_ == Activity::Finished && !film_.isFinished()) setActivity(Activity::Rendering);
+        isAnother && !goesOn ? film_.change() : requests.request.reset();
     }
     if (requests.scene) adopt(std::move(*requests.scene));
     if (requests.camera && requests.camera->first == sceneSerial_ && requests.camera->second != camera_) {
         camera_ = requests.camera->second;
         film_.change();
     }
+    if (requests.previewWidth) previewWidth_ = *requests.previewWidth;
     if (requests.changeWhatIsSeen()) previewIsStale_ = true;
     if (requests.preview) switchPreview(*requests.preview);
     std::move(requests.saves.begin(), requests.saves.end(), std::back_inserter(waiting_));
@@ -99,7 +103,7 @@ void SessionThread::makeEngine(const EngineChoice& choice) {
             state.canPreview = engine_->canPreview();
         });
     } catch (...) {
-        state_.fail(std::current_exception(), !engine_);
+        state_.fail(std::current_exception(), ErrorSource::Engine, !engine_);
         state_.update([](SessionState& state) { ++state.engineFailures; });
     }
     state_.setStage("");
@@ -113,7 +117,7 @@ void SessionThread::adopt(LoadedScene loaded) {
             state.failedSource = loaded.request.source;
             ++state.sceneFailures;
         });
-        state_.fail(failure, fatal);
+        state_.fail(failure, ErrorSource::Scene, fatal);
     };
     if (loaded.failure) {
         const bool canFallBack = !setup_.fallbackScene.empty() && loaded.request.source != setup_.fallbackScene;
@@ -144,6 +148,7 @@ void SessionThread::adopt(LoadedScene loaded) {
         state.stage.clear();
         state.scene = loaded_.scene;
         state.source = loaded_.request.source;
+        state.sourceMark = loaded_.mark;
         state.seconds.load = loaded_.seconds;
         ++state.sceneLoads;
         state.sceneSerial = sceneSerial_;
@@ -163,7 +168,8 @@ void SessionThread::obey(Requests::Command command) {
         return;
     }
     if (command == Command::Stop) film_.reference.giveUp(); // the picture before comes back
-    if (command != Command::Render || isEnded) film_.beginAnew();
+    if (command == Command::GoOn && !film_.isStale() && film_.isFinished()) return;
+    if (command != Command::GoOn && (command != Command::Render || isEnded)) film_.beginAnew();
     setActivity(Activity::Rendering);
 }
 
@@ -175,7 +181,8 @@ void SessionThread::switchPreview(bool on) {
 
 void SessionThread::startReference(std::uint32_t spp) {
     if (isPreviewing())
-        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")));
+        return state_.fail(std::make_exception_ptr(RenderError("a reference needs ray tracing, which is off")),
+                           ErrorSource::Reference);
     film_.reference.render(spp);
     film_.beginAnew();
     setActivity(Activity::Rendering);
@@ -184,19 +191,12 @@ void SessionThread::startReference(std::uint32_t spp) {
 void SessionThread::readReferenceFile(const std::string& file) {
     try {
         if (film_.isStale()) throw InputError(file + ": nothing to compare with yet");
-        setReference(readReference(file, film_.run()->settings().width, film_.run()->settings().height), file);
+        film_.reference.set(readReference(file, film_.run()->settings().width, film_.run()->settings().height));
+        film_.publishReference(file);
         showFilm();
     } catch (...) {
-        state_.fail(std::current_exception());
+        state_.fail(std::current_exception(), ErrorSource::Reference);
     }
-}
-
-void SessionThread::setReference(image::Image image, const std::string& name) {
-    film_.reference.set(std::move(image));
-    state_.update([&](SessionState& state) {
-        state.reference = name;
-        state.referenceFits = film_.reference.fits();
-    });
 }
 
 void SessionThread::findFocus(std::uint32_t x, std::uint32_t y) {
@@ -237,7 +237,7 @@ void SessionThread::renderPreview() {
             state.status = {};
         });
     }
-    film_.publisher.showPreview(*engine_, camera_, settings);
+    film_.publisher.showPreview(*engine_, camera_, settings, previewWidth_ > 0 ? previewWidth_ : settings.width);
     state_.update([](SessionState& state) { state.stage.clear(); });
     writeWaiting();
 }
@@ -248,7 +248,9 @@ void SessionThread::finish(StopReason reason) {
     film_.show();
     const std::uint64_t spp = engine_->film().samplesPerPixel();
     if (film_.reference.renderedSpp()) {
-        setReference(engine_->film().resolve(), "rendered, " + std::to_string(spp) + " spp");
+        const image::Film& film = engine_->film();
+        setup_.references.save(film_.reference.film(), film);
+        film_.setReference(film, "rendered");
         film_.reference.giveUp();
         film_.beginAnew();
         return;
@@ -290,13 +292,19 @@ void SessionThread::writeWaiting() {
 }
 
 void SessionThread::write(const SaveRequest& request) {
-    if (isPreviewing()) return writePreview(request, film_.publisher.preview(), state_);
+    if (isPreviewing()) {
+        const RenderSettings size = sizedSettings(request_, *loaded_.scene);
+        const Preview& shown = film_.publisher.preview();
+        const bool isOfThatSize = shown.picture.width == size.width && shown.picture.height == size.height;
+        return writePreview(request, isOfThatSize ? shown : drawPreview(*engine_, camera_, size, size.width), state_);
+    }
     if (!film_.hasSamples()) {
-        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")));
+        state_.fail(std::make_exception_ptr(RenderError("nothing to save yet: the picture is being prepared")),
+                    ErrorSource::Save);
         return;
     }
     for (const std::string& failure : writeFiles(request, StopReason::Interrupted))
-        state_.fail(std::make_exception_ptr(RenderError(failure)));
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 // Of the film; returns what cannot be written, one line each.
@@ -304,6 +312,7 @@ std::vector<std::string> SessionThread::writeFiles(const SaveRequest& request, S
     Options options = setup_.options;
     options.oneSidedLights = request_.oneSidedLights;
     options.timeLimit = request_.timeLimit;
+    options.targetError = request_.targetError;
     options.policy = choice_.policy;
     return writeFilm(request, options, loaded_, *film_.run(), film_.reference, reason, state_);
 }
@@ -315,7 +324,8 @@ void SessionThread::writeEnd(StopReason reason) {
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
     endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
                                : std::vector<std::string>{"nothing was rendered that could be written"};
-    for (const std::string& failure : endFailures_) state_.fail(std::make_exception_ptr(RenderError(failure)));
+    for (const std::string& failure : endFailures_)
+        state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 
 } // namespace rt::app

@@ -28,7 +28,6 @@ class SessionThread {
     void switchPreview(bool on);
     void startReference(std::uint32_t spp);
     void readReferenceFile(const std::string& file);
-    void setReference(image::Image image, const std::string& name);
     void findFocus(std::uint32_t x, std::uint32_t y);
     void setActivity(Activity activity);
 
@@ -64,6 +63,7 @@ class SessionThread {
     Activity activity_ = Activity::Preparing;
 
     SessionFilm film_;
+    std::uint32_t previewWidth_ = 0; // 0: the picture's
     bool previewIsWanted_, previewIsStale_ = true;
 
     std::vector<SaveRequest> waiting_; // to be written

@@ -31,7 +31,9 @@ FlagSet::FlagSet(const std::string& program, const std::string& description)
     app_.set_config("--config", userConfigFile(), "defaults of flags, as TOML, INI or JSON")
         ->type_name("F")
         ->configurable(false);
-    addSwitch("--no-config", noConfig_, "ignore the user's configuration file")->configurable(false);
+    addSwitch("--no-config", noConfig_,
+              "ignore the user's configuration file; a window keeps no settings, layout and history")
+        ->configurable(false);
     app_.set_help_flag("--help,-h", "print this and exit");
     app_.set_version_flag("--version", program + " " RT_VERSION, "print the version and exit");
 }

@@ -18,7 +18,8 @@ enum class GpuEngineKind { Auto, Pipeline, Compute };
 enum class Tonemap : std::uint32_t {
     None = shared::kTonemapNone, // clamped
     Reinhard = shared::kTonemapReinhard,
-    Aces = shared::kTonemapAces
+    Aces = shared::kTonemapAces,
+    Agx = shared::kTonemapAgx
 };
 // Images beside the picture: first-hit features, and what the film knows of each pixel.
 enum class Aov { Albedo, Normal, Depth, Variance, Samples };
@@ -68,7 +69,8 @@ inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
     {"compute", GpuEngineKind::Compute, "Compute shaders", "our tree, for devices without a ray tracing pipeline too"}};
 inline constexpr Named<Tonemap> kTonemaps[] = {{"none", Tonemap::None, "None (clamp)"},
                                                {"reinhard", Tonemap::Reinhard, "Reinhard"},
-                                               {"aces", Tonemap::Aces, "ACES-like"}};
+                                               {"aces", Tonemap::Aces, "ACES-like"},
+                                               {"agx", Tonemap::Agx, "AgX (filmic)"}};
 inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"normal", Aov::Normal},
                                        {"depth", Aov::Depth},

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t kMaxSpp = 0x7fffffff;
 constexpr std::uint32_t kMaxDepth = 4096;
 constexpr std::uint32_t kMaxReplicates = 1024;
-constexpr std::uint32_t kErrorReplicates = 4; // what --target-error implies
 constexpr std::uint32_t kMaxThreads = 4096;
 constexpr std::uint32_t kMaxShares = 1u << 20;
 constexpr std::uint32_t kDefaultWidth = 600;
@@ -41,6 +40,8 @@ constexpr const char* kStoredFlags[] = {"--scene",
                                         "--triangle-light",
                                         "--one-sided-lights",
                                         "--russian-roulette",
+                                        "--time-limit",
+                                        "--target-error",
                                         "--exposure",
                                         "--tonemap",
                                         "--threads",
@@ -146,7 +147,8 @@ void addOutput(FlagSet& flags, Options& options) {
                  options.exposure = static_cast<float>(parseReal(flag, text, -100, 100, "a number from -100 to 100"));
              })
         ->default_str("0");
-    flags.addChoice("--tonemap", kTonemaps, options.tonemap, "for PNG; none clamps");
+    flags.addChoice("--tonemap", kTonemaps, options.tonemap,
+                    "for PNG; none clamps, agx is the filmic curve that windows begin with");
     flags.add("--aov", "LIST", "write albedo,normal,depth,variance,samples as well, as NAME.albedo.EXT",
               [&options](const std::string& flag, const std::string& text) {
                   options.aovs = {};
@@ -213,6 +215,8 @@ void addProgram(FlagSet& flags, Parsed& parsed) {
         "a window, which is the default, even with --output, --stats, --time-limit: files are written when the "
         "first render ends or the window closes, images again by F12");
     flags.addSwitch("--quiet,-q", parsed.options.quiet, "no progress");
+    flags.addSeconds("--progress-every", parsed.options.progressEvery,
+                     "between two lines of progress where standard error is no terminal; 10");
     flags.addSwitch("--verbose,-v", parsed.options.verbose, "log more; RT_LOG=trace|debug|info|warn|error|off");
     flags.addFile("--log-file", parsed.options.logFile, "write the log to a file as well");
 }
@@ -232,7 +236,7 @@ void settleCommand(const FlagSet& flags, Parsed& parsed) {
         !options.outputs.empty() || flags.given("--stats") || flags.given("--time-limit") || options.tiles;
     options.window = parsed.window || (!parsed.headless && !implied);
     if (!options.window) return;
-    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--target-error", "--region", "--tiles"})
+    for (const char* flag : {"--checkpoint", "--resume", "--save-every", "--region", "--tiles"})
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
@@ -312,6 +316,7 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
     addProgram(flags, parsed);
     if (!flags.parse(std::move(arguments), out)) return std::nullopt;
 
+    parsed.options.keepsUserFiles = !flags.given("--no-config");
     settleCommand(flags, parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);

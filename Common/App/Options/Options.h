@@ -69,7 +69,9 @@ struct Options {
     std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
     bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
 
+    bool keepsUserFiles = true; // a window's settings, layout and history; false: none is read or written
     bool quiet = false;
+    std::optional<double> progressEvery; // seconds between two lines of it, where they are no terminal's; none: 10
     bool verbose = false;
     std::string logFile;
 
@@ -84,6 +86,7 @@ inline constexpr const char* kNoWindow =
 // What one says of a window when mpirun has started several.
 inline constexpr const char* kNoWindowOfRanks =
     "mpirun: renders without a window: say --output FILE, --stats FILE or --headless";
+inline constexpr const char* kCpuProgram = "ray-tracing-cpu";
 inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
 
 // Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is

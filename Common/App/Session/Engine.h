@@ -70,6 +70,7 @@ struct AovRequest {
     bool depth = false;  // distance along the ray, of the samples that hit something; 0 where none did
     bool any() const { return albedo || normal || depth; }
 };
+inline constexpr std::uint32_t kAovSamples = 16; // of each pixel in files, or fewer when the render has fewer
 struct AovImages {
     image::Image albedo, normal, depth;
 };

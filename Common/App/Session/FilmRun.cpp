@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 
@@ -31,6 +32,31 @@ void FilmRun::renderOnly(const image::TileList& tiles) {
     samplesRestored_ = status_.samplesDone = image::totalSamples(film, tiles);
     status_.samplesTotal = image::pixelCount(film, tiles) * settings_.spp;
     engine_->renderOnly(tiles, settings_.spp);
+}
+
+bool FilmRun::canTake(std::uint32_t spp) const {
+    if (isMadeForSpp(settings_)) return spp == settings_.spp;
+    return engine_->film().maxSamples() <= spp;
+}
+
+void FilmRun::setSpp(std::uint32_t spp) {
+    image::Film film = engine_->film();
+    before_ = report();
+    settings_.spp = spp;
+    engine_->reset(camera_, settings_);
+    engine_->restore(std::move(film));
+    status_.samplesTotal = pixels() * spp;
+    status_.finished = status_.samplesDone >= status_.samplesTotal;
+}
+
+EngineReport FilmRun::report() const {
+    EngineReport report = engine_->report();
+    report.rays.camera += before_.rays.camera;
+    report.rays.scattered += before_.rays.scattered;
+    report.rays.shadow += before_.rays.shadow;
+    report.nonfiniteSamples += before_.nonfiniteSamples;
+    report.renderDeviceSeconds += before_.renderDeviceSeconds;
+    return report;
 }
 
 void FilmRun::limit(RunLimits limits) {

@@ -40,6 +40,13 @@ class FilmRun {
     // Before the first slice: the rest of the film stays as it is.
     void renderOnly(const image::TileList& tiles);
 
+    // Whether the film may have that many samples per pixel instead: none has more already, and the samples of the
+    // others do not depend on the number.
+    bool canTake(std::uint32_t spp) const;
+    // The film goes on, or may, with the bits that it would have had if so many had been asked for at first. Requires
+    // canTake(spp). Throws what the engine throws.
+    void setSpp(std::uint32_t spp);
+
     // In place of the limits before; none at first.
     void limit(RunLimits limits);
 
@@ -54,6 +61,7 @@ class FilmRun {
     const RenderSettings& settings() const { return settings_; }
     const RenderStatus& status() const { return status_; }
     std::uint64_t pixels() const { return std::uint64_t{settings_.width} * settings_.height; }
+    EngineReport report() const; // the engine's, with rays and samples of the whole run
     double seconds() const { return seconds_; } // of sampling alone: neither checkpoints nor error estimates
     std::uint64_t samplesRestored() const { return samplesRestored_; } // over all pixels, of the film it went on from
     ProgressState progress() const;
@@ -68,6 +76,7 @@ class FilmRun {
     scene::CameraDesc camera_;
     RenderSettings settings_;
     std::uint64_t samplesRestored_ = 0;
+    EngineReport before_; // what the engine had counted when it began anew
     RenderStatus status_;
     double seconds_ = 0;
     double elapsed_ = 0; // of all that slice() does

@@ -18,8 +18,6 @@
 namespace rt::app {
 namespace {
 
-constexpr std::uint32_t kAovSamples = 16; // of each pixel, or fewer when the render has fewer
-
 using image::ImageRows;
 
 bool hasExtension(const std::filesystem::path& path, const std::string& lower) {

@@ -8,7 +8,6 @@ namespace rt::app {
 namespace {
 
 constexpr double kTerminalSeconds = 0.2;
-constexpr double kLineSeconds = 10;
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -59,7 +58,7 @@ void Progress::update(const ProgressState& state) {
     const bool terminal = style_ == Style::Terminal;
     // On a terminal the first line comes at once, elsewhere only a render that takes long says how far it is.
     const double last = lastSeconds_.value_or(terminal ? -kTerminalSeconds : 0.0);
-    if (state.seconds - last < (terminal ? kTerminalSeconds : kLineSeconds)) return;
+    if (state.seconds - last < (terminal ? kTerminalSeconds : lineSeconds_)) return;
     lastSeconds_ = state.seconds;
     write(describeProgress(state), false);
 }

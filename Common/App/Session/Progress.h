@@ -25,9 +25,12 @@ class Progress {
   public:
     enum class Style { Silent, Terminal, Lines };
 
-    Progress(std::ostream& out, Style style) : out_(out), style_(style) {}
+    static constexpr double kLineSeconds = 10;
+    // `lineSeconds`: between two lines, in the style of lines.
+    Progress(std::ostream& out, Style style, double lineSeconds = kLineSeconds)
+        : out_(out), style_(style), lineSeconds_(lineSeconds) {}
 
-    // Writes at most 5 times a second on a terminal, else every 10 seconds.
+    // Writes at most 5 times a second on a terminal, else a line now and then.
     void update(const ProgressState& state);
     // Says how it ended and closes the line.
     void finish(const ProgressState& state, const std::string& ending);
@@ -37,6 +40,7 @@ class Progress {
 
     std::ostream& out_;
     Style style_;
+    double lineSeconds_;
     std::optional<double> lastSeconds_;
     std::size_t lastLength_ = 0;
 };

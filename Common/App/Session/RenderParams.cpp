@@ -74,6 +74,11 @@ bool isAdaptive(const RenderSettings& settings) {
     return settings.adaptive && settings.sampler != SamplerKind::Stratified && image::pilotSamples(settings.spp) > 0;
 }
 
+bool isMadeForSpp(const RenderSettings& settings) {
+    const bool hasStrata = settings.sampler == SamplerKind::Stratified || settings.sampler == SamplerKind::SobolBlue;
+    return isAdaptive(settings) || (hasStrata && settings.sppIsKnown);
+}
+
 void settleReplicates(RenderSettings& settings) {
     if (isAdaptive(settings)) settings.replicates += settings.replicates % 2;
 }

@@ -14,6 +14,8 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
 
 // Whether they ask for an adaptive film and can have one: strata are made for a number of samples that is known.
 bool isAdaptive(const RenderSettings& settings);
+// Whether the samples of a pixel depend on how many it gets: strata, and plans, are made for a number of them.
+bool isMadeForSpp(const RenderSettings& settings);
 // An adaptive film has two halves: makes the number of replicates even.
 void settleReplicates(RenderSettings& settings);
 // The film that they ask for.

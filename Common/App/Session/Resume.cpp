@@ -1,11 +1,11 @@
 #include "Common/App/Session/Resume.h"
 
-#include <algorithm>
-
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Options/Names.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Hash.h"
 #include "Common/Core/Log.h"
 #include "Common/Image/Checkpoint.h"
 
@@ -13,12 +13,6 @@ namespace rt::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string hex(std::uint64_t value) {
-    std::string text(16, '0');
-    for (std::size_t i = text.size(); i-- > 0; value >>= 4) text[i] = "0123456789abcdef"[value & 15];
-    return text;
-}
 
 Json toJson(const scene::CameraDesc& camera) {
     const auto vector = [](const glm::dvec3& v) { return Json{v.x, v.y, v.z}; };
@@ -43,7 +37,7 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
                   settings);
     json["russian_roulette"] = settings.russianRoulette;
     json["camera"] = toJson(scene.camera);
-    json["scene_hash"] = hex(scene.hash);
+    json["scene_hash"] = hexText(scene.hash);
     return json;
 }
 
@@ -52,12 +46,6 @@ void checkIdentity(const std::string& file, const nlohmann::json& stored, const 
         if (stored.at(field) != nlohmann::json(value))
             throw InputError(file + ": " + field + " is " + stored.at(field).dump() + " in the checkpoint but " +
                              value.dump() + " now");
-}
-
-std::uint64_t mostSamples(const image::Film& film) {
-    std::uint64_t most = 0;
-    for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
-    return most;
 }
 
 // More samples may be asked for than before, but not fewer than there are; strata made for a known number allow no
@@ -69,11 +57,10 @@ void checkSpp(const std::string& file, std::uint32_t stored, const RenderSetting
         throw InputError(file + ": spp is " + std::to_string(stored) +
                          " in the checkpoint, whose adaptive samples allow no other, but " + now);
     }
-    const bool isMadeForSpp = settings.sampler == SamplerKind::Stratified || settings.sampler == SamplerKind::SobolBlue;
-    if (isMadeForSpp && settings.sppIsKnown && stored != settings.spp)
+    if (isMadeForSpp(settings) && stored != settings.spp)
         throw InputError(file + ": spp is " + std::to_string(stored) +
                          " in the checkpoint, whose strata allow no other, but " + now);
-    if (const std::uint64_t most = mostSamples(film); most > settings.spp)
+    if (const std::uint64_t most = film.maxSamples(); most > settings.spp)
         throw InputError(file + ": spp is at " + std::to_string(most) + " in the checkpoint already but " + now);
 }
 

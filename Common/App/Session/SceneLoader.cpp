@@ -13,6 +13,7 @@ LoadedScene load(const SceneRequest& request, const std::atomic<bool>& callOff) 
     const Interruptible interruptible(callOff);
     LoadedScene result;
     result.request = request;
+    result.mark = markOf(request.source);
     const Stopwatch watch;
     try {
         result.scene = compile(request);

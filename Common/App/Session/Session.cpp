@@ -141,7 +141,7 @@ void HeadlessRender::sample() {
     const auto style = options_.quiet              ? Progress::Style::Silent
                        : standardErrorIsTerminal() ? Progress::Style::Terminal
                                                    : Progress::Style::Lines;
-    Progress progress(std::cerr, style);
+    Progress progress(std::cerr, style, options_.progressEvery.value_or(Progress::kLineSeconds));
     const auto saveOrWarn = [this] {
         std::vector<std::string> failures;
         attempt(failures, "cannot write " + options_.checkpoint, [this] { save(options_.checkpoint); });

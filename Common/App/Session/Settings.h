@@ -32,6 +32,8 @@ enum class SamplerKind : std::uint32_t {
     SobolBlue = shared::kSamplerSobolBlue
 };
 
+inline constexpr std::uint32_t kErrorReplicates = 4; // at least, where a render ends by its estimated error
+
 struct RenderSettings {
     std::uint32_t width = 600; // pixels
     std::uint32_t height = 600;

@@ -6,6 +6,7 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/ImagePart.h"
+#include "Common/Core/Hash.h"
 
 namespace rt::app {
 namespace {
@@ -85,6 +86,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     Json json{{"version", 1},
               {"app", options.program},
               {"scene", scene.id},
+              {"scene_hash", hexText(scene.hash)},
               {"engine", report.engine},
               {"device", report.device},
               {"threads", report.threads},

@@ -44,7 +44,9 @@ void drawCameraPanel(Gui& gui) {
     bool moved = editVector("Position", "Where the camera is", camera.lookFrom);
     moved |= editVector("Target", "What it looks at", camera.lookAt);
     if (changed || moved) gui.camera.set(camera);
-    if (moved && gui.camera.camera() != camera) gui.say("No camera can look from this position at this target", true);
+    if (moved && gui.camera.camera() != camera)
+        gui.fail("No camera can look from this position at this target", app::ErrorSource::Camera);
+    drawErrorOf(gui, app::ErrorSource::Camera);
     double speed = gui.camera.speed();
     row("Flying speed", "Units of the scene in a second; the mouse wheel changes it");
     ImGui::Text("%.4g / s", speed);

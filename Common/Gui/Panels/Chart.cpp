@@ -73,14 +73,15 @@ class Plot {
     }
 
     void drawSeries(ImDrawList& list, const ChartSeries& series) const {
-        const float radius = 0.22f * ImGui::GetFontSize();
+        const float radius = (series.isStressed ? 0.34f : 0.22f) * ImGui::GetFontSize();
         const ImVec2* before = nullptr;
         ImVec2 last;
         for (const auto& point : series.points) {
             if (!isShown(point)) continue;
             const ImVec2 p = at(point);
-            if (!series.line) {
-                list.AddCircleFilled(p, radius, series.color);
+            if (series.mark != Mark::Line) {
+                drawMark(list, series.mark, p, radius, series.color, series.isHollow);
+                if (series.isStressed) list.AddCircle(p, 1.7f * radius, ImGui::GetColorU32(ImGuiCol_Text));
             } else {
                 if (before != nullptr) list.AddLine(*before, p, series.color, 0.12f * ImGui::GetFontSize());
                 last = p;
@@ -89,29 +90,69 @@ class Plot {
         }
     }
 
+    // The id of the point nearest to the pointer, if it is near.
+    std::optional<std::size_t> nearest(const std::vector<ChartSeries>& series, ImVec2 pointer) const {
+        float least = 0.8f * ImGui::GetFontSize();
+        std::optional<std::size_t> found;
+        for (const ChartSeries& s : series) {
+            if (!s.id) continue;
+            for (const auto& point : s.points) {
+                if (!isShown(point)) continue;
+                const ImVec2 p = at(point);
+                const float distance = std::hypot(p.x - pointer.x, p.y - pointer.y);
+                if (distance >= least) continue;
+                least = distance;
+                found = s.id;
+            }
+        }
+        return found;
+    }
+
   private:
     ImVec2 corner_, size_;
     Axis x_, y_;
 };
 
-void drawLegend(ImDrawList& list, const std::vector<ChartSeries>& series, float right, float top) {
-    std::vector<std::string> named;
+void drawLegend(ImDrawList& list, const std::vector<ChartLegendRow>& rows, float right, float top) {
+    const float em = ImGui::GetFontSize();
     float y = top + 4;
-    for (const ChartSeries& s : series) {
-        if (s.name.empty() || std::find(named.begin(), named.end(), s.name) != named.end()) continue;
-        named.push_back(s.name);
-        const float x = right - ImGui::CalcTextSize(s.name.c_str()).x - 6;
-        list.AddText({x, y}, ImGui::GetColorU32(ImGuiCol_Text), s.name.c_str());
-        list.AddCircleFilled({x - 0.6f * ImGui::GetFontSize(), y + 0.5f * ImGui::GetFontSize()},
-                             0.25f * ImGui::GetFontSize(), s.color);
+    for (const ChartLegendRow& row : rows) {
+        const float x = right - ImGui::CalcTextSize(row.text.c_str()).x - 6;
+        list.AddText({x, y}, ImGui::GetColorU32(ImGuiCol_Text), row.text.c_str());
+        const ImVec2 middle{x - 0.6f * em, y + 0.5f * em};
+        if (row.mark == Mark::Line) {
+            list.AddLine({middle.x - 0.4f * em, middle.y}, {middle.x + 0.3f * em, middle.y}, row.color, 0.12f * em);
+        } else {
+            drawMark(list, row.mark, middle, 0.25f * em, row.color, row.isHollow);
+        }
         y += ImGui::GetTextLineHeightWithSpacing();
     }
 }
 
 } // namespace
 
-void drawLogLogChart(const char* id, const char* xLabel, const char* yLabel, const std::vector<ChartSeries>& series,
-                     ImVec2 size) {
+void drawMark(ImDrawList& list, Mark mark, ImVec2 at, float radius, ImU32 color, bool isHollow) {
+    const float line = 0.35f * radius;
+    if (mark == Mark::Circle) {
+        isHollow ? list.AddCircle(at, radius, color, 0, line) : list.AddCircleFilled(at, radius, color);
+        return;
+    }
+    // Of about equal area.
+    const float square = 0.89f * radius, diamond = 1.25f * radius;
+    const ImVec2 squares[] = {{-square, -square}, {square, -square}, {square, square}, {-square, square}};
+    const ImVec2 diamonds[] = {{0, -diamond}, {diamond, 0}, {0, diamond}, {-diamond, 0}};
+    const ImVec2 triangles[] = {{0, -1.45f * radius}, {1.35f * radius, radius}, {-1.35f * radius, radius}};
+    const ImVec2* corners = mark == Mark::Square ? squares : mark == Mark::Diamond ? diamonds : triangles;
+    const int count = mark == Mark::Triangle ? 3 : 4;
+    ImVec2 placed[4];
+    for (int i = 0; i < count; ++i) placed[i] = {at.x + corners[i].x, at.y + corners[i].y};
+    isHollow ? list.AddPolyline(placed, count, color, ImDrawFlags_Closed, line)
+             : list.AddConvexPolyFilled(placed, count, color);
+}
+
+ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLabel,
+                             const std::vector<ChartSeries>& series, const std::vector<ChartLegendRow>& legend,
+                             ImVec2 size) {
     Axis x, y;
     bool any = false;
     for (const ChartSeries& s : series) {
@@ -127,8 +168,9 @@ void drawLogLogChart(const char* id, const char* xLabel, const char* yLabel, con
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
     const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.4f * font, top = 1.3f * font;
-    ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
-    if (size.x < left + 3 * font || size.y < bottom + top + 2 * font) return; // no room
+    const bool isClicked = ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
+    const bool isPointedAt = ImGui::IsItemHovered();
+    if (size.x < left + 3 * font || size.y < bottom + top + 2 * font) return {}; // no room
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 inner{size.x - left - 0.8f * font, size.y - bottom - top};
     const Plot plot({corner.x + left, corner.y + top}, inner, x, y);
@@ -142,10 +184,12 @@ void drawLogLogChart(const char* id, const char* xLabel, const char* yLabel, con
         const ImVec2 extent = ImGui::CalcTextSize(nothing);
         list.AddText({corner.x + left + 0.5f * (inner.x - extent.x), corner.y + top + 0.5f * (inner.y - extent.y)}, dim,
                      nothing);
-        return;
+        return {};
     }
     for (const ChartSeries& s : series) plot.drawSeries(list, s);
-    drawLegend(list, series, corner.x + left + inner.x, corner.y + top);
+    drawLegend(list, legend, corner.x + left + inner.x, corner.y + top);
+    if (!isPointedAt) return {};
+    return {plot.nearest(series, ImGui::GetIO().MousePos), isClicked};
 }
 
 } // namespace rt::gui

@@ -1,120 +1,27 @@
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Gui/Panels/Chart.h"
+#include "Common/Gui/Panels/EngineCards.h"
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/RunTable.h"
+#include "Common/Gui/Panels/RunTexts.h"
 #include "Common/Gui/Panels/SavePaths.h"
+#include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
 namespace {
 
-constexpr std::size_t kMostRows = 200;
-constexpr float kNarrow = 34, kLeastHeight = 7; // of the panel; of table and chart: in heights of the font
-// Told apart with any colour vision (Okabe and Ito).
-constexpr ImU32 kCpuColor = IM_COL32(230, 159, 0, 255);
-constexpr ImU32 kGpuColor = IM_COL32(86, 180, 233, 255);
-constexpr ImU32 kLiveColor = IM_COL32(0, 158, 115, 255);
+constexpr float kNarrow = 34, kLeastHeight = 9; // of the panel; of table and chart: in heights of the font
 
 using app::RunRecord;
-
-bool isGpuRun(const RunRecord& record) {
-    return record.app == app::kGpuProgram;
-}
-
-// The newest first.
-std::vector<const RunRecord*> chosenRuns(Gui& gui) {
-    std::vector<const RunRecord*> runs;
-    const std::vector<RunRecord>& all = gui.history.records();
-    for (auto record = all.rbegin(); record != all.rend() && runs.size() < kMostRows; ++record) {
-        const bool sameScene = gui.state.scene && record->scene == gui.state.scene->id;
-        if (gui.onlyThisScene && !sameScene) continue;
-        runs.push_back(&*record);
-    }
-    return runs;
-}
-
-std::string scientific(double value) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2e", value);
-    return value > 0 ? text : "-";
-}
-
-void cell(const std::string& text) {
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(text.c_str());
-}
-
-// What the columns do not show.
-std::string provenance(const RunRecord& r) {
-    const std::string lacking = lackingIn(r);
-    return r.time + ", " + r.device +
-           (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
-}
-
-void drawRow(const RunRecord& r, bool isCompared) {
-    ImGui::TableNextRow();
-    if (isCompared) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_Header));
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, isGpuRun(r) ? kGpuColor : kCpuColor);
-    ImGui::Bullet();
-    ImGui::PopStyleColor();
-    ImGui::SameLine();
-    ImGui::TextUnformatted(((isGpuRun(r) ? "GPU " : "CPU ") + r.engine).c_str());
-    tooltip(provenance(r).c_str());
-    cell(std::to_string(r.spp));
-    cell(shortDuration(r.renderSeconds));
-    cell((r.hasReference || r.relmse <= 0 ? "" : "~") + scientific(r.relmse));
-    tooltip(r.hasReference ? "Against a reference"
-                           : "The film's own estimate, from how its samples differ; with one replicate of Sobol or "
-                             "strata it is too high by factors");
-    cell(r.efficiency() > 0 ? withPrefix(r.efficiency()) : "-");
-    cell(withPrefix(r.samplesPerSecond));
-    cell(withPrefix(r.raysPerSecond));
-    cell(r.lightSampling + ", " + r.sampler);
-    cell(std::to_string(r.maxDepth));
-    cell(std::to_string(r.width) + " x " + std::to_string(r.height));
-    cell(r.scene);
-    cell(r.device);
-}
-
-void drawTable(const std::vector<const RunRecord*>& runs, const app::EnginePair& pair, ImVec2 size) {
-    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
-                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingFixedFit |
-                                       ImGuiTableFlags_NoSavedSettings;
-    if (!ImGui::BeginTable("##runs", 12, kFlags, size)) return;
-    ImGui::TableSetupScrollFreeze(1, 1);
-    for (const char* title : {"Engine", "SPP", "Time", "relMSE", "Efficiency", "Samples/s", "Rays/s", "Estimator",
-                              "Depth", "Size", "Scene", "Device"}) {
-        ImGui::TableSetupColumn(title);
-    }
-    ImGui::TableHeadersRow();
-    for (const RunRecord* record : runs) drawRow(*record, record == pair.cpu || record == pair.gpu);
-    ImGui::EndTable();
-}
-
-std::string speedUp(const app::EnginePair& pair) {
-    if (pair.cpu == nullptr)
-        return "Run both programs on the same work for a speed-up: all of scene, camera, size, "
-               "SPP, depth, estimator and sampler";
-    const RunRecord& cpu = *pair.cpu;
-    const RunRecord& gpu = *pair.gpu;
-    char text[160];
-    const double ratio = gpu.samplesPerSecond / cpu.samplesPerSecond;
-    std::snprintf(text, sizeof text, "GPU is %.3g\u00d7 %s than CPU (samples/s)", ratio >= 1 ? ratio : 1 / ratio,
-                  ratio >= 1 ? "faster" : "slower");
-    std::string line = text;
-    if (gpu.hasReference && cpu.hasReference && cpu.efficiency() > 0 && gpu.efficiency() > 0) {
-        std::snprintf(text, sizeof text, ", %.3g\u00d7 the efficiency", gpu.efficiency() / cpu.efficiency());
-        line += text;
-    }
-    return line + ": " + gpu.scene + ", the two runs marked";
-}
 
 void exportCsv(Gui& gui) {
     const std::string file = (saveFolder(gui.settings.saveFolder) / "ray-tracing-history.csv").string();
@@ -138,9 +45,16 @@ void drawReference(Gui& gui) {
     ImGui::TextUnformatted(text.c_str());
     ImGui::PopTextWrapPos();
     if (state.relmse) {
-        const std::string error = (state.curve.empty() ? "relMSE ~" : "relMSE ") + scientific(*state.relmse);
+        const std::string error =
+            "relMSE " + errorText(*state.relmse) + (state.curve.empty() ? ", estimated" : ", measured");
         besideIfItFits(ImGui::CalcTextSize(error.c_str()).x);
         ImGui::TextUnformatted(error.c_str());
+    }
+    if (state.referenceFits && !state.curve.empty() && state.relmse &&
+        app::isReferenceTooNoisy(*state.relmse, state.referenceError)) {
+        wrapped("The reference is too noisy for this: its own relMSE is " + errorText(state.referenceError) +
+                    ", more than a ninth of what is measured. Render it with more samples",
+                noticeColor(gui.settings.colorMode));
     }
     ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
     int spp = static_cast<int>(gui.referenceSpp);
@@ -149,7 +63,8 @@ void drawReference(Gui& gui) {
     tooltip("Samples per pixel of the reference");
     besideIfItFits(buttonWidth("Render reference"));
     if (button("Render reference",
-               "With these samples per pixel, the present scene, camera and size. Stop gives it up.",
+               "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
+               "render, by whichever program, count. Stop gives it up.",
                !state.isReferenceRender)) {
         gui.session.renderReference(gui.referenceSpp);
     }
@@ -162,61 +77,134 @@ void drawReference(Gui& gui) {
         !gui.referencePath.empty()) {
         gui.session.loadReference(gui.referencePath);
     }
+    besideIfItFits(buttonWidth("Browse"));
+    if (button("Browse", "Chooses the file of a reference", true)) gui.browse(BrowseFor::Reference);
+    drawErrorOf(gui, app::ErrorSource::Reference);
 }
 
-std::vector<ChartSeries> makeSeries(Gui& gui, const std::vector<const RunRecord*>& runs) {
+std::vector<ChartSeries> makeSeries(const Gui& gui) {
     std::vector<ChartSeries> series;
-    for (const RunRecord* record : runs) {
-        const ImU32 color = isGpuRun(*record) ? kGpuColor : kCpuColor;
-        const char* name = isGpuRun(*record) ? "GPU" : "CPU";
-        series.push_back({name, color, false, {{record->renderSeconds, record->relmse}}});
-        if (record->curve.size() < 2) continue;
-        ChartSeries curve{"", (color & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, 130), true, {}};
-        for (const RunRecord::Point& point : record->curve) curve.points.emplace_back(point.seconds, point.relmse);
-        series.push_back(std::move(curve));
+    const std::vector<app::RunRow>& rows = gui.runs.groups().rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const RunRecord& r = *rows[i].record;
+        const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpuRun(r), gui.settings.colorMode));
+        const bool isStressed = gui.runs.isHovered(r) || gui.runs.isSelected(r);
+        if (r.curve.size() > 1) {
+            const ImU32 faint = (color & ~IM_COL32_A_MASK) | IM_COL32(0, 0, 0, isStressed ? 255 : 130);
+            ChartSeries curve{faint, Mark::Line, false, false, {}, {}};
+            for (const RunRecord::Point& point : r.curve) curve.points.emplace_back(point.seconds, point.relmse);
+            series.push_back(std::move(curve));
+        }
+        series.push_back(
+            {color, markOf(r.lightSampling), !r.hasReference, isStressed, i, {{r.renderSeconds, r.relmse}}});
     }
     if (!gui.state.curve.empty()) {
-        ChartSeries live{"this render", kLiveColor, true, {}};
+        ChartSeries live{ImGui::GetColorU32(ImGuiCol_Text), Mark::Line, false, false, {}, {}};
         for (const app::ErrorPoint& point : gui.state.curve) live.points.emplace_back(point.seconds, point.relmse);
         series.push_back(live);
-        live.line = false;
+        live.mark = Mark::Circle;
         live.points = {live.points.back()};
         series.push_back(std::move(live));
     }
     return series;
 }
 
-void drawChart(Gui& gui, const std::vector<const RunRecord*>& runs, ImVec2 size) {
+// Colours are engines, marks estimators, hollow ones are estimates: what of it occurs.
+std::vector<ChartLegendRow> makeLegend(const Gui& gui) {
+    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
+    std::vector<ChartLegendRow> legend;
+    const std::vector<app::RunRow>& rows = gui.runs.groups().rows;
+    const auto occurs = [&rows](auto test) {
+        return std::any_of(rows.begin(), rows.end(), [&](const app::RunRow& row) { return test(*row.record); });
+    };
+    for (const bool isGpu : {false, true}) {
+        if (!occurs([isGpu](const RunRecord& r) { return isGpuRun(r) == isGpu; })) continue;
+        const ImVec4 color = engineColor(isGpu, gui.settings.colorMode);
+        legend.push_back({isGpu ? "GPU" : "CPU", ImGui::ColorConvertFloat4ToU32(color), Mark::Circle, false});
+    }
+    for (const auto& estimator : app::kLightSamplings) {
+        const std::string name{estimator.name};
+        if (occurs([&name](const RunRecord& r) { return r.lightSampling == name; }))
+            legend.push_back({name, text, markOf(name), false});
+    }
+    if (occurs([](const RunRecord& r) { return r.relmse > 0 && !r.hasReference; }))
+        legend.push_back({"estimated", text, Mark::Circle, true});
+    if (!gui.state.curve.empty()) legend.push_back({"this render", text, Mark::Line, false});
+    return legend;
+}
+
+void drawChart(Gui& gui, ImVec2 size) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     gui.chart = {corner.x, corner.y, size.x, size.y};
-    drawLogLogChart("##chart", "seconds", "relMSE", makeSeries(gui, runs), size);
+    const ChartPointer pointer =
+        drawLogLogChart("##chart", "seconds", "relMSE", makeSeries(gui), makeLegend(gui), size);
+    if (!pointer.hovered) return;
+    const RunRecord& r = *gui.runs.groups().rows[*pointer.hovered].record;
+    gui.runs.hover(r);
+    tooltip((engineText(r) + ", " + std::to_string(r.spp) + " spp, " + shortDuration(r.renderSeconds) + ", relMSE " +
+             errorText(r.relmse) + " " + errorKind(r) + "\n" + runDetails(r))
+                .c_str());
+    if (pointer.isClicked) gui.runs.select(r, ImGui::GetIO().KeyCtrl);
+}
+
+// What is deleted is gone for both programs: it is asked for twice.
+void drawDeletion(Gui& gui, const char* id, const char* label, const char* tip, const std::vector<RunRecord>& runs) {
+    besideIfItFits(buttonWidth(label));
+    if (button(label, tip, !runs.empty())) ImGui::OpenPopup(id);
+    if (!ImGui::BeginPopup(id)) return;
+    ImGui::Text("Delete %zu %s from the history of both programs?", runs.size(), runs.size() == 1 ? "run" : "runs");
+    if (button("Delete##yes", "They cannot be had back", true)) {
+        gui.runsToDelete = runs;
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (button("Keep", nullptr, true)) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
+void drawRunActions(Gui& gui) {
+    ImGui::Checkbox("This scene only", &gui.onlyThisScene);
+    const std::vector<RunRecord> selected = gui.runs.selected();
+    besideIfItFits(buttonWidth("Hide"));
+    if (button("Hide", "The selected runs, until the window closes", !selected.empty())) gui.runs.hideSelected();
+    besideIfItFits(buttonWidth("Show hidden"));
+    if (button("Show hidden", "Brings hidden runs back", gui.runs.hiddenCount() > 0)) gui.runs.showHidden();
+    drawDeletion(gui, "##delete", "Delete", "The selected runs, from the history", selected);
+    drawDeletion(gui, "##clear", "Clear", "All runs that are shown, from the history", gui.runs.shown());
+    besideIfItFits(buttonWidth("Export CSV"));
+    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
+    besideIfItFits(buttonWidth("Export PNG"));
+    if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
+}
+
+void deleteRuns(Gui& gui) {
+    try {
+        gui.history.remove(std::exchange(gui.runsToDelete, {}));
+    } catch (const Error& error) {
+        gui.fail(error.what(), app::ErrorSource::Other);
+    }
 }
 
 } // namespace
 
 void drawComparisonPanel(Gui& gui) {
-    const std::vector<const RunRecord*> runs = chosenRuns(gui);
-    const app::EnginePair pair = app::newestOfEqualWork(runs);
-    const ImVec2 all = ImGui::GetContentRegionAvail();
+    if (!gui.runsToDelete.empty()) deleteRuns(gui);
+    gui.runs.update(gui.history, gui.onlyThisScene && gui.state.scene ? gui.state.scene->id : "");
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
-    const bool isNarrow = all.x < kNarrow * font; // the chart is below, not beside
-    const ImVec2 chart = isNarrow ? ImVec2{0, kLeastHeight * font} : ImVec2{std::floor(0.4f * all.x), all.y};
+    const bool isNarrow = ImGui::GetContentRegionAvail().x < kNarrow * font; // the chart is below, not beside
+    if (!isNarrow) drawEngineCards(gui);
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const ImVec2 chart = isNarrow ? ImVec2{0, kLeastHeight * font} : ImVec2{std::floor(0.35f * all.x), all.y};
     ImGui::BeginChild("##left", {isNarrow ? 0 : all.x - chart.x - space, 0}, false);
+    if (isNarrow) drawEngineCards(gui);
     drawReference(gui);
-    ImGui::Checkbox("This scene only", &gui.onlyThisScene);
-    besideIfItFits(buttonWidth("Export CSV"));
-    if (button("Export CSV", "All runs, to the folder that pictures are saved to", true)) exportCsv(gui);
-    besideIfItFits(buttonWidth("Export PNG"));
-    if (button("Export PNG", "The chart as it is shown, to the same folder", true)) gui.chartRequested = true;
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(speedUp(pair).c_str());
-    ImGui::PopTextWrapPos();
-    drawTable(runs, pair, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
-    if (isNarrow) drawChart(gui, runs, {ImGui::GetContentRegionAvail().x, chart.y});
+    drawRunActions(gui);
+    drawRunTable(gui, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
+    if (isNarrow) drawChart(gui, {ImGui::GetContentRegionAvail().x, chart.y});
     ImGui::EndChild();
     if (isNarrow) return;
     ImGui::SameLine(0, space);
-    drawChart(gui, runs, chart);
+    drawChart(gui, chart);
 }
 
 } // namespace rt::gui

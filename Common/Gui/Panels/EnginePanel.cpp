@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
@@ -24,18 +25,22 @@ bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
 }
 
 void drawProcessor(EngineChoice& engine) {
+    markNextRow(engine.policy != EngineChoice().policy);
     combo("Engine", "std::execution policy that the workers run under", app::kPolicies, engine.policy);
-    if (engine.policy == app::Policy::Seq) return;
+    const Disabled rest(engine.policy == app::Policy::Seq);
+    markNextRow(engine.threads != EngineChoice().threads);
     inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
 }
 
 void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
+    markNextRow(engine.kind != EngineChoice().kind);
     row("Engine",
         "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
         "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
         "same");
     std::string shown = app::titleOf(app::kGpuEngines, engine.kind);
-    if (engine.kind == GpuEngineKind::Auto && state.engine == engine) shown += " (" + state.report.engine + ")";
+    const bool isKnown = state.engine == engine && !state.report.engine.empty();
+    if (engine.kind == GpuEngineKind::Auto && isKnown) shown += " (" + state.report.engine + ")";
     if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
     for (const auto& row : app::kGpuEngines) {
         if (row.value == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;
@@ -46,6 +51,7 @@ void drawKind(EngineChoice& engine, const app::SessionState& state, const Device
 }
 
 void drawDevice(EngineChoice& engine, const Devices& devices) {
+    markNextRow(!engine.device.empty());
     row("Device", "Vulkan devices that can render");
     const auto current = find(devices, engine.device);
     const std::string shown = engine.device.empty()      ? "Best suitable"
@@ -80,15 +86,17 @@ EngineChoice servedChoice(EngineChoice choice, const Devices& devices, const app
 
 void drawEnginePanel(Gui& gui) {
     EngineChoice& engine = gui.settings.engine;
-    if (!gui.isGpu) return drawProcessor(engine);
-    if (gui.state.canPreview) {
-        checkbox(
-            "Enable ray tracing",
-            "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
-            gui.settings.rayTracing);
+    if (!gui.isGpu) {
+        drawProcessor(engine);
+        return drawErrorOf(gui, app::ErrorSource::Engine);
     }
     drawKind(engine, gui.state, gui.devices);
     drawDevice(engine, gui.devices);
+    drawErrorOf(gui, app::ErrorSource::Engine);
+    const Disabled rest(!gui.state.canPreview);
+    checkbox("Enable ray tracing",
+             "Off: the scene as it is drawn by rasterisation, at once, lit without shadows. Rays rest meanwhile (P)",
+             gui.settings.rayTracing);
 }
 
 } // namespace rt::gui

@@ -1,43 +1,76 @@
+#include <algorithm>
+#include <initializer_list>
+#include <iterator>
+
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Theme.h"
+#include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
 namespace {
 
 struct Shortcut {
-    const char* keys;
+    const char* keys; // null: a group's title
     const char* effect;
 };
-constexpr Shortcut kShortcuts[] = {
-    {"F1", "this help"},
-    {"F2, F3, F4", "statistics, comparison, all panels"},
-    {"F11", "full screen"},
-    {"F12, Ctrl+S", "save PNG and EXR"},
-    {"Space", "pause, resume"},
-    {"Ctrl+R", "restart the render"},
+constexpr Shortcut kLeft[] = {
+    {nullptr, "Rendering"},
+    {"Space", "start, pause, resume"},
+    {"Ctrl+R", "restart"},
+    {"B", "pin the picture for A/B, unpin it"},
+    {"H", "heat map: what each pixel costs"},
+    {"P", "preview without ray tracing (GPU)"},
+    {nullptr, "Scenes and files"},
     {"1 to 9", "the first nine scenes"},
     {"Page Up, Page Down", "previous, next scene"},
-    {"Ctrl+O", "open a file; or drop it on the window"},
+    {"Ctrl+O", "open a file; or drop it here"},
+    {"F12, Ctrl+S", "save PNG and EXR"},
+    {"Ctrl+Shift+S", "save as"},
+    {nullptr, "Window"},
+    {"F1", "this help"},
+    {"F2, F3, F4", "statistics, comparison, panels"},
+    {"F11", "full screen"},
+    {"Ctrl + plus, minus", "larger, smaller interface"},
+    {"Tab, arrows, Enter", "walk through the controls"},
+    {"Ctrl + click", "on a slider: type its value"},
+    {"Escape", "leave a field, a menu, this help"},
     {"Ctrl+Q", "quit"},
-    {"R", "camera back to the scene's"},
+};
+constexpr Shortcut kRight[] = {
+    {nullptr, "Camera"},
+    {"Left drag", "orbit around the target"},
+    {"Alt + left drag", "the same beside a pinned picture"},
+    {"Right drag", "look around"},
+    {"Middle drag", "pan"},
     {"W A S D, Q E", "fly; down, up"},
     {"Shift, Ctrl", "fly fast, slowly"},
-    {"Right drag", "look around"},
-    {"Left drag", "orbit around the target; with a pinned picture: Alt + left drag"},
-    {"Middle drag", "pan"},
+    {"Wheel", "flying speed"},
+    {"Shift + wheel", "nearer, farther"},
     {"Ctrl + click", "make sharp what is there"},
-    {"Wheel", "flying speed; with Shift: nearer, farther"},
-    {"Ctrl + wheel", "zoom the picture"},
-    {"Ctrl + right drag", "move the picture"},
-    {"F", "fit the picture"},
-    {"P", "preview without ray tracing, and back (ray-tracing-gpu)"},
-    {"H", "heat map: what each pixel costs, in rays or time"},
-    {"B", "pin the picture for A/B comparison, unpin it"},
-    {"Ctrl+Shift+C, V", "copy, paste the camera's pose"},
-    {"Ctrl + plus, minus", "larger, smaller interface"},
-    {"Tab, arrows, Enter", "go to the panels, walk through their controls, use them"},
-    {"Ctrl + click, on a slider", "type its value"},
-    {"Escape", "leave a field, a menu, the controls, this help"},
+    {"R", "back to the scene's camera"},
+    {"Ctrl+Shift+C, V", "copy, paste the pose"},
+    {nullptr, "Picture"},
+    {"Ctrl + wheel", "zoom"},
+    {"Ctrl + right drag", "move"},
+    {"F", "fit"},
 };
+
+template <std::size_t N>
+void drawColumn(const char* id, const Shortcut (&shortcuts)[N]) {
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) return;
+    for (const Shortcut& shortcut : shortcuts) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        if (shortcut.keys == nullptr) {
+            ImGui::TextColored(ImGui::GetStyleColorVec4(ImGuiCol_CheckMark), "%s", shortcut.effect);
+            continue;
+        }
+        ImGui::TextUnformatted(shortcut.keys);
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(shortcut.effect);
+    }
+    ImGui::EndTable();
+}
 
 } // namespace
 
@@ -46,19 +79,35 @@ void drawHelp(Gui& gui) {
     const ImVec2 size = ImGui::GetMainViewport()->Size;
     ImGui::SetNextWindowPos({0.5f * size.x, 0.5f * size.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {size.x, size.y});
-    if (ImGui::Begin(
-            "Help", &gui.showHelp,
-            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
-        if (ImGui::BeginTable("##keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_RowBg)) {
-            for (const Shortcut& shortcut : kShortcuts) {
-                ImGui::TableNextRow();
-                ImGui::TableNextColumn();
-                ImGui::TextUnformatted(shortcut.keys);
-                ImGui::TableNextColumn();
-                ImGui::TextUnformatted(shortcut.effect);
-            }
-            ImGui::EndTable();
-        }
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_HorizontalScrollbar;
+    if (ImGui::Begin("Help", &gui.showHelp, kFlags)) {
+        ImGui::BeginGroup();
+        drawColumn("##left", kLeft);
+        ImGui::EndGroup();
+        ImGui::SameLine(0, 2 * ImGui::GetFontSize());
+        ImGui::BeginGroup();
+        drawColumn("##right", kRight);
+        ImGui::EndGroup();
+    }
+    ImGui::End();
+}
+
+void drawFirstSteps(Gui& gui, const Rect& area) {
+    if (!gui.showFirstSteps || gui.errors.unread() != nullptr) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({area.x + em, area.y + area.height - em}, ImGuiCond_Always, {0, 1});
+    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                        ImGuiWindowFlags_NoMove;
+    if (ImGui::Begin("##first-steps", nullptr, kFlags)) {
+        ImGui::TextDisabled("Three steps");
+        ImGui::TextUnformatted("1  Choose a scene at the left, or by the keys 1 to 9");
+        ImGui::TextUnformatted("2  Drag in the picture to look at it from elsewhere");
+        ImGui::TextUnformatted("3  Press F3 to compare this run with others");
+        if (ImGui::Button("Got it")) gui.showFirstSteps = false;
+        ImGui::SameLine();
+        ImGui::TextDisabled("F1 lists all keys");
     }
     ImGui::End();
 }

@@ -14,6 +14,7 @@ using app::Legend;
 
 constexpr std::uint32_t kCells = 96;           // of the bar
 constexpr float kWidth = 15, kLeastWidth = 5;  // of the box, in heights of the font
+constexpr float kMargin = 10;                  // around it, at scale 1
 constexpr float kPadding = 0.5f, kBar = 0.75f; // likewise: around all, and the bar's height
 
 struct Measure {
@@ -63,31 +64,50 @@ void drawValues(ImDrawList& list, const Legend& legend, double factor, const Rec
     if (0.5f * widthAt(0.5f) + std::max(widthAt(0), widthAt(1)) + 0.5f * em < 0.5f * bar.width) draw(0.5f, 0.5f);
 }
 
+struct Box {
+    float width = 0, height = 0; // 0: there is no room
+    float title = 0;             // the height of it
+};
+Box boxOf(const Gui& gui, const Rect& area, float scale) {
+    const std::optional<Legend>& legend = gui.state.picture.legend;
+    if (!legend || !(legend->most > 0)) return {};
+    const float em = ImGui::GetFontSize(), padding = kPadding * em, margin = kMargin * scale;
+    Box box;
+    box.width = std::min(kWidth * em, area.width - 2 * margin);
+    const char* title = measureOf(legend->quantity, gui.isGpu).title;
+    box.title = ImGui::CalcTextSize(title, nullptr, false, std::max(box.width - 2 * padding, 1.0f)).y;
+    box.height = box.title + (0.25f + kBar + 0.25f) * em + ImGui::GetTextLineHeight() + 2 * padding;
+    if (box.width < kLeastWidth * em || box.height > area.height - 2 * margin) return {};
+    return box;
+}
+
 } // namespace
 
+float legendHeight(const Gui& gui, const Rect& area, float scale) {
+    return boxOf(gui, area, scale).height;
+}
+
 void drawViewLegend(const Gui& gui, const Rect& area, float scale) {
-    const std::optional<Legend>& legend = gui.state.picture.legend;
-    if (!legend || !(legend->most > 0)) return;
-    const Measure measure = measureOf(legend->quantity, gui.isGpu);
-    const float em = ImGui::GetFontSize(), padding = kPadding * em, margin = 12 * scale;
-    const float width = std::min(kWidth * em, area.width - 2 * margin), inner = width - 2 * padding;
-    const float title = ImGui::CalcTextSize(measure.title, nullptr, false, std::max(inner, 1.0f)).y;
-    const float height = title + (0.25f + kBar + 0.25f) * em + ImGui::GetTextLineHeight() + 2 * padding;
-    if (width < kLeastWidth * em || height > area.height - 2 * margin) return;
+    const Box box = boxOf(gui, area, scale);
+    if (box.height <= 0) return;
+    const Legend& legend = *gui.state.picture.legend;
+    const Measure measure = measureOf(legend.quantity, gui.isGpu);
+    const float em = ImGui::GetFontSize(), padding = kPadding * em, margin = kMargin * scale;
+    const float inner = box.width - 2 * padding;
 
     // Below all windows: what is said for a while, and help, may cover it.
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    const ImVec2 corner(std::floor(area.x + area.width - margin - width),
-                        std::floor(area.y + area.height - margin - height));
-    const ImVec2 end(corner.x + width, corner.y + height);
+    const ImVec2 corner(std::floor(area.x + area.width - margin - box.width),
+                        std::floor(area.y + area.height - margin - box.height));
+    const ImVec2 end(corner.x + box.width, corner.y + box.height);
     const float rounding = ImGui::GetStyle().FrameRounding;
     list.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_WindowBg, 0.92f), rounding);
     list.AddRect(corner, end, ImGui::GetColorU32(ImGuiCol_Border), rounding);
     list.AddText(ImGui::GetFont(), em, {corner.x + padding, corner.y + padding}, ImGui::GetColorU32(ImGuiCol_Text),
                  measure.title, nullptr, inner);
-    const Rect bar{corner.x + padding, corner.y + padding + title + 0.25f * em, inner, kBar * em};
-    drawBar(list, *legend, bar);
-    drawValues(list, *legend, measure.factor, bar);
+    const Rect bar{corner.x + padding, corner.y + padding + box.title + 0.25f * em, inner, kBar * em};
+    drawBar(list, legend, bar);
+    drawValues(list, legend, measure.factor, bar);
 }
 
 } // namespace rt::gui

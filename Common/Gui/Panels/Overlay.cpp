@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "Common/Gui/Icons.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
@@ -7,42 +8,119 @@
 namespace rt::gui {
 namespace {
 
-constexpr double kToastSeconds = 5;
+constexpr double kMessageSeconds = 5;
 constexpr double kPatience = 0.3; // seconds before the user is told what takes so long
+constexpr ImGuiWindowFlags kBoxFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                       ImGuiWindowFlags_NoNav;
 
-void drawBox(const char* name, const Rect& area, float y, float pivot, const std::string& text, const ImVec4& color) {
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
-                                        ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoSavedSettings |
-                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+void beginBox(const char* name, const Rect& area, float y, float pivot, ImGuiWindowFlags flags) {
     ImGui::SetNextWindowPos({area.x + 0.5f * area.width, y}, ImGuiCond_Always, {0.5f, pivot});
-    ImGui::SetNextWindowBgAlpha(0.92f);
-    ImGui::Begin(name, nullptr, kFlags);
+    ImGui::SetNextWindowBgAlpha(0.95f);
+    ImGui::Begin(name, nullptr, kBoxFlags | flags);
+}
+
+void drawBox(const char* name, const Rect& area, float y, float pivot, const std::string& text) {
+    beginBox(name, area, y, pivot, ImGuiWindowFlags_NoInputs);
     ImGui::PushTextWrapPos(std::max(80.0f, 0.8f * area.width));
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
     ImGui::TextUnformatted(text.c_str());
-    ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     ImGui::End();
 }
 
+// Stays until the user has read it.
+void drawError(Gui& gui, const Rect& area, float y) {
+    const app::ErrorEntry* error = gui.errors.unread();
+    if (error == nullptr) return;
+    beginBox("##error", area, y, 1, ImGuiWindowFlags_None);
+    const std::string times = error->count > 1 ? " (" + std::to_string(error->count) + " times)" : "";
+    ImGui::PushTextWrapPos(std::max(80.0f, 0.7f * area.width));
+    ImGui::PushStyleColor(ImGuiCol_Text, errorColor(gui.settings.colorMode));
+    ImGui::TextUnformatted((error->text + times).c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    const std::size_t count = gui.errors.unreadCount();
+    if (ImGui::Button(count > 1 ? "Next" : "Dismiss")) gui.errors.dismiss(*error);
+    if (count > 1) {
+        ImGui::SameLine();
+        if (ImGui::Button(("Dismiss all " + std::to_string(count)).c_str())) gui.errors.dismissAll();
+    }
+    ImGui::End();
+}
+
+// A table at the pointer, or above and to the left of it where the window ends.
+void drawInspector(const Gui& gui) {
+    if (gui.inspected.empty()) return;
+    const bool hasHeld = std::any_of(gui.inspected.begin(), gui.inspected.end(),
+                                     [](const InspectedRow& row) { return !row.held.empty(); });
+    ImGui::BeginTooltip();
+    if (ImGui::BeginTable("##inspected", hasHeld ? 4 : 2, ImGuiTableFlags_SizingFixedFit)) {
+        const auto cell = [](const std::string& text) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(text.c_str());
+        };
+        for (const InspectedRow& row : gui.inspected) {
+            ImGui::TableNextRow();
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%s", row.name.c_str());
+            if (hasHeld) cell(row.held);
+            cell(row.picture);
+            if (hasHeld) cell(row.difference);
+        }
+        ImGui::EndTable();
+    }
+    ImGui::EndTooltip();
+}
+
 } // namespace
 
-void drawOverlay(const Gui& gui, const Rect& area, float scale) {
-    if (!gui.inspected.empty()) {
-        ImGui::BeginTooltip();
-        ImGui::TextUnformatted(gui.inspected.c_str());
-        ImGui::EndTooltip();
-    }
+void drawOverlay(Gui& gui, const Rect& area, float scale) {
+    drawInspector(gui);
     const float margin = 12 * scale;
-    const ImVec4 plain = ImGui::GetStyleColorVec4(ImGuiCol_Text);
     if (!gui.state.stage.empty() && gui.state.stageSeconds > kPatience) {
         const std::string text = gui.state.stage + " ... " + shortDuration(gui.state.stageSeconds);
-        drawBox("##stage", area, area.y + margin, 0, text, plain);
+        drawBox("##stage", area, area.y + margin, 0, text);
     }
-    if (!gui.toast.empty() && ImGui::GetTime() - gui.toastTime < kToastSeconds) {
-        drawBox("##toast", area, area.y + area.height - margin, 1, gui.toast,
-                gui.toastIsError ? errorColor(gui.settings.colorMode) : plain);
+    const float bottom = area.y + area.height - margin - legendHeight(gui, area, scale);
+    drawError(gui, area, bottom);
+    const bool isCovered = gui.errors.unread() != nullptr;
+    if (!isCovered && !gui.message.empty() && ImGui::GetTime() - gui.messageTime < kMessageSeconds)
+        drawBox("##message", area, bottom, 1, gui.message);
+}
+
+void drawErrors(Gui& gui) {
+    if (!gui.showErrors) return;
+    const ImVec2 all = ImGui::GetMainViewport()->Size;
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({0.5f * all.x, 0.5f * all.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({std::min(44 * em, 0.9f * all.x), std::min(24 * em, 0.8f * all.y)}, ImGuiCond_Appearing);
+    if (ImGui::Begin("What went wrong", &gui.showErrors,
+                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+        if (button("Clear", "Forgets them all", !gui.errors.all().empty())) gui.errors.clear();
+        ImGui::BeginChild("##list");
+        if (gui.errors.all().empty()) note("Nothing so far");
+        for (auto entry = gui.errors.all().rbegin(); entry != gui.errors.all().rend(); ++entry) {
+            const std::string times = entry->count > 1 ? " (" + std::to_string(entry->count) + " times)" : "";
+            wrapped(entry->text + times,
+                    entry->isRead ? ImGui::GetStyleColorVec4(ImGuiCol_Text) : errorColor(gui.settings.colorMode));
+            ImGui::Separator();
+        }
+        ImGui::EndChild();
     }
+    ImGui::End();
+}
+
+void drawErrorOf(Gui& gui, app::ErrorSource source) {
+    const app::ErrorEntry* error = gui.errors.unread(source);
+    if (error == nullptr) return;
+    ImGui::PushID(static_cast<int>(source));
+    if (iconButton("dismiss", Icon::Close, "Dismiss")) {
+        gui.errors.dismiss(*error);
+    } else {
+        ImGui::SameLine();
+        wrapped(error->text, errorColor(gui.settings.colorMode));
+    }
+    ImGui::PopID();
 }
 
 } // namespace rt::gui

@@ -19,7 +19,6 @@ struct PanelRow {
 };
 std::span<const PanelRow> panelTable();
 
-void drawRenderControl(Gui& gui); // above all panels
 void drawScenePanel(Gui& gui);
 void drawRenderPanel(Gui& gui);
 void drawCameraPanel(Gui& gui);
@@ -29,11 +28,25 @@ void drawComparisonPanel(Gui& gui);
 
 // ---- what is no panel ----------------------------------------------------------------------------------------------
 
-void drawHelp(Gui& gui);
+void drawToolbar(Gui& gui);
+void drawProgress(Gui& gui); // above all panels
 void drawStatusLine(Gui& gui);
+void drawErrorOf(Gui& gui, app::ErrorSource source); // the latest unread one, at the field that it is about
+void drawErrors(Gui& gui);                           // a list of them, where it is open
+void drawScenes(Gui& gui);                           // to choose from, likewise
+void drawHelp(Gui& gui);
+void drawFirstSteps(Gui& gui, const Rect& area); // until they are taken or sent away, once in the settings' life
+
+// The picture's part of the window without a border, where chips and legend have their places: a picture that fits it
+// is covered by neither.
+Rect innerArea(const Gui& gui, const Rect& area, float scale);
+float legendHeight(const Gui& gui, const Rect& area, float scale);  // 0: there is none
 void drawViewLegend(const Gui& gui, const Rect& area, float scale); // in a corner of the picture's part of the window
+// What the picture is: engine, samples, time, error; and which side is which, where two are compared. `image`: where
+// the picture lies.
+void drawChips(const Gui& gui, const Rect& area, const Rect& image, float scale);
 // What keeps the user waiting, what has just happened and what the pointer is at, over the picture's part of the
 // window.
-void drawOverlay(const Gui& gui, const Rect& area, float scale);
+void drawOverlay(Gui& gui, const Rect& area, float scale);
 
 } // namespace rt::gui

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -29,8 +30,10 @@ std::uint32_t mostWidth(double aspect) {
 void drawSize(Gui& gui) {
     app::SizeRequest& size = gui.settings.request.size;
     const app::RenderSettings& film = gui.state.settings;
+    const app::SizeRequest defaults = app::RenderRequest().size;
     std::uint32_t width = size.width.value_or(film.width);
     const std::uint32_t most = std::max(width, mostWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
+    markNextRow(size.width != defaults.width);
     if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, most, 20)) {
         if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
         size.width = width;
@@ -51,6 +54,7 @@ void drawSize(Gui& gui) {
     const char* name = current;
     for (const Aspect& aspect : kAspects)
         if (std::abs(aspect.value - ratio) < 1e-9) name = aspect.name;
+    markNextRow(ratio > 0);
     row("Aspect ratio", "Width by height");
     if (ImGui::BeginCombo("##aspect", name, ImGuiComboFlags_HeightLarge)) {
         for (const Aspect& aspect : kAspects) {
@@ -70,19 +74,32 @@ std::string sentence(std::string text) {
     return text;
 }
 
-// How light is found and where random numbers come from; how lights are sampled only where they are.
-void drawMethods(app::RenderSettings& settings) {
+// A method of the table by its key, or all that are none of those two.
+enum class Methods { LightSampling, Sampler, Others };
+bool isAmong(Methods methods, std::string_view key) {
+    if (key == "light_sampling") return methods == Methods::LightSampling;
+    if (key == "sampler") return methods == Methods::Sampler;
+    return methods == Methods::Others;
+}
+
+// What has no effect stays in place, greyed: how lights are sampled where none are.
+void drawMethods(app::RenderSettings& settings, Methods methods) {
     const bool areLightsSampled = settings.lightSampling != app::LightSampling::Bsdf;
+    const app::RenderSettings defaults;
     app::forEachMethod(
-        [areLightsSampled](const char* key, const char* title, const char* help, const auto& table, auto& value) {
+        [areLightsSampled, methods](const char* key, const char* title, const char* help, const auto& table,
+                                    auto& value, const auto& byDefault) {
+            if (!isAmong(methods, key)) return;
             const bool isOfLights = std::string_view(key).find("light") != std::string_view::npos;
-            if (areLightsSampled || !isOfLights || key == std::string_view("light_sampling"))
-                combo(title, sentence(help).c_str(), table, value);
+            const Disabled rest(isOfLights && !areLightsSampled && methods == Methods::Others);
+            markNextRow(value != byDefault);
+            combo(title, sentence(help).c_str(), table, value);
         },
-        settings);
+        settings, defaults);
 }
 
 void drawLights(app::RenderRequest& request) {
+    markNextRow(!request.oneSidedLights);
     checkbox("One-sided lights",
              "Quads and triangles emit from their front only. Off: from both sides. "
              "A light whose scene says which side it emits from is not concerned",
@@ -90,41 +107,103 @@ void drawLights(app::RenderRequest& request) {
 }
 
 void drawFrames(app::RenderRequest& request) {
+    markNextRow(!request.accumulate);
     checkbox(
         "Accumulate samples",
         "Between frames. On: samples add up in one image. Off: every frame is an image of its own, with other random "
         "numbers",
         request.accumulate);
     bool isAuto = request.samplesPerFrame == 0;
+    markNextRow(isAuto);
     if (checkbox("Auto frames", "Samples per frame: as many as there is time for between two frames", isAuto)) {
         request.samplesPerFrame = isAuto ? 0 : app::RenderRequest().samplesPerFrame;
     }
-    if (isAuto) return;
-    inputCount(
-        "Samples per frame",
-        "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second is "
-        "shown while it is rendered; an old render shows four a second at most, and where the window is drawn by "
-        "software, pictures come once or twice a second",
-        request.samplesPerFrame, 1, 65536, 5);
+    const Disabled rest(isAuto);
+    markNextRow(!isAuto && request.samplesPerFrame != app::RenderRequest().samplesPerFrame);
+    std::uint32_t shown = isAuto ? app::RenderRequest().samplesPerFrame : request.samplesPerFrame;
+    if (inputCount(
+            "Samples per frame",
+            "Samples per pixel from one picture to the next, at least. A picture that takes longer than half a second "
+            "is shown while it is rendered; an old render shows four a second at most, and where the window is drawn "
+            "by software, pictures come once or twice a second",
+            shown, 1, 65536, 5)) {
+        request.samplesPerFrame = shown;
+    }
+}
+
+// Where 0 stands for none.
+void drawBudget(const char* label, const char* tip, std::optional<double>& budget) {
+    double value = budget.value_or(0);
+    markNextRow(budget.has_value());
+    if (!inputReal(label, tip, value, 0, 1e9, "%g")) return;
+    budget = value > 0 ? std::optional(value) : std::nullopt;
+}
+
+void drawSamples(Gui& gui) {
+    app::RenderRequest& request = gui.settings.request;
+    std::uint32_t& spp = request.settings.spp;
+    constexpr std::uint32_t kMost = 0x7fffffff, kMore = 100;
+    markNextRow(spp != app::RenderSettings().spp);
+    inputCount("Samples (SPP)",
+               "Samples per pixel; every number is taken exactly. More go on from those there are, unless strata or "
+               "adaptive samples are made for one number",
+               spp, 1, kMost, 10);
+    row("More samples", nullptr);
+    if (button("+100 spp", "Goes on from the samples there are", request.accumulate && spp <= kMost - kMore)) {
+        spp += kMore;
+        gui.session.goOn();
+    }
+    drawBudget("Time limit (s)", "Ends the render after so many seconds of sampling; 0: none", request.timeLimit);
+    drawBudget("Target relMSE",
+               "Ends the render when its estimated relMSE is surely below (95 %); 0: none. Needs four replicates",
+               request.targetError);
+}
+
+void drawAdvanced(app::RenderRequest& request) {
+    app::RenderSettings& settings = request.settings;
+    const app::RenderSettings defaults;
+    markNextRow(settings.maxDepth != defaults.maxDepth);
+    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawMethods(settings, Methods::Others);
+    drawLights(request);
+    markNextRow(settings.russianRoulette != defaults.russianRoulette);
+    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
+    markNextRow(settings.seed != defaults.seed);
+    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
+    markNextRow(settings.replicates != defaults.replicates);
+    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
+               settings.replicates, 1, 1024, 1);
+    drawFrames(request);
+    markNextRow(request.loop);
+    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
+}
+
+// The features of --features are no setting of the panel.
+void drawDefaults(Gui& gui) {
+    app::RenderRequest defaults;
+    defaults.settings.features = gui.settings.request.settings.features;
+    const bool isChanged = gui.settings.request != defaults || gui.settings.engine != app::EngineChoice();
+    if (button("Restore defaults", "Of all settings of this panel; a dot marks those that differ", isChanged)) {
+        gui.settings.request = defaults;
+        gui.settings.engine = app::EngineChoice();
+    }
 }
 
 } // namespace
 
+// What matters first, then the rest.
 void drawRenderPanel(Gui& gui) {
-    app::RenderRequest& request = gui.settings.request;
-    app::RenderSettings& settings = request.settings;
+    app::RenderSettings& settings = gui.settings.request.settings;
     drawEnginePanel(gui);
-    inputCount("Samples (SPP)", "Samples per pixel; every number is taken exactly", settings.spp, 1, 0x7fffffff, 10);
-    inputCount("Max path depth", "Vertices of a path after the camera", settings.maxDepth, 1, 4096, 1);
+    drawSamples(gui);
+    drawMethods(settings, Methods::LightSampling);
+    drawMethods(settings, Methods::Sampler);
     drawSize(gui);
-    drawMethods(settings);
-    drawLights(request);
-    drawFrames(request);
-    checkbox("Loop rendering", "Begins again when done, with the next seed", request.loop);
-    checkbox("Russian roulette", "Ends dim paths early by chance; unbiased", settings.russianRoulette);
-    inputCount("Seed", "The same seed gives the same image", settings.seed, 0, 0xffffffffu, 1);
-    inputCount("Replicates", "Independent scramblings of the random numbers, for honest error estimates",
-               settings.replicates, 1, 1024, 1);
+    bool& isOpen = gui.settings.openPanels.try_emplace("advanced", false).first->second;
+    ImGui::SetNextItemOpen(isOpen);
+    isOpen = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
+    if (isOpen) drawAdvanced(gui.settings.request);
+    drawDefaults(gui);
 }
 
 } // namespace rt::gui

@@ -43,13 +43,13 @@ std::vector<std::string> savePaths(const std::string& folder, const app::Session
     }
 }
 
-app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings) {
-    return {options.outputs, options.aovs, options.stats, settings.exposure, settings.tonemap};
+app::SaveRequest filesOf(const app::Options& options, float exposure, app::Tonemap tonemap) {
+    return {options.outputs, options.aovs, options.stats, exposure, tonemap};
 }
 
 std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings) {
     if (options.outputs.empty() && options.stats.empty()) return std::nullopt;
-    return filesOf(options, settings);
+    return filesOf(options, settings.exposure, settings.tonemap);
 }
 
 } // namespace rt::gui

@@ -18,8 +18,8 @@ std::filesystem::path saveFolder(const std::string& folder);
 std::vector<std::string> savePaths(const std::string& folder, const app::SessionState& state);
 
 // What the program was asked for when it was started.
-app::SaveRequest filesOf(const app::Options& options, const app::GuiSettings& settings);
-// The same, if it is to be written when the first render ends.
+app::SaveRequest filesOf(const app::Options& options, float exposure, app::Tonemap tonemap);
+// The same at first, if it is to be written when the first render ends.
 std::optional<app::SaveRequest> endFiles(const app::Options& options, const app::GuiSettings& settings);
 
 } // namespace rt::gui

@@ -1,5 +1,4 @@
-#include <algorithm>
-#include <iterator>
+#include <string>
 
 #include "Common/Gui/Fonts.h"
 #include "Common/Gui/Panels/Panels.h"
@@ -15,72 +14,49 @@ constexpr app::Named<app::Cost> kCostNames[] = {{"Rays", app::Cost::Rays}, {"Tim
 
 using app::ViewMode;
 
-struct Mode {
-    const char* name;
-    ViewMode mode;
-    const char* tip;
-};
-constexpr Mode kModes[] = {
-    {"Picture", ViewMode::Picture, "Radiance, with exposure and tone mapping"},
-    {"Albedo", ViewMode::Albedo, "Colour of the first surface"},
-    {"Normal", ViewMode::Normal, "Direction of the first surface, as red, green, blue"},
-    {"Depth", ViewMode::Depth, "Distance to the first surface; near is bright"},
-    {"Noise", ViewMode::Noise, "Standard error of each pixel relative to its value, after 16 samples"},
-    {"Error", ViewMode::Error, "Difference from the reference relative to it"},
-    {"Heat map", ViewMode::Heat, "What each pixel costs, in rays or time, on a logarithmic scale (H)"},
-};
-
-bool isAvailable(const Gui& gui, ViewMode mode) {
-    if (gui.state.picture.isPreview) return mode == ViewMode::Picture;
-    if (mode == ViewMode::Error) return gui.state.referenceFits;
-    if (mode == ViewMode::Heat) return gui.state.canShowCost;
-    return true;
-}
-
-void drawModes(Gui& gui) {
+// Of what is shown, which the toolbar chooses.
+void drawViewOptions(Gui& gui) {
     app::ViewRequest& view = gui.viewRequest;
-    row("Show", "What is drawn; errors need a reference, see the comparison (F3)");
-    const Mode* current =
-        std::find_if(std::begin(kModes), std::end(kModes), [&](const Mode& m) { return m.mode == view.mode; });
-    if (ImGui::BeginCombo("##mode", current->name)) {
-        for (const Mode& mode : kModes) {
-            const auto flags = isAvailable(gui, mode.mode) ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
-            if (ImGui::Selectable(mode.name, mode.mode == view.mode, flags)) view.mode = mode.mode;
-            tooltip(mode.tip);
-        }
-        ImGui::EndCombo();
-    }
-    if (view.mode == ViewMode::Heat && gui.state.canShowTime) {
-        combo("Cost", "Rays: camera, scattered and shadow. Time: by the clock of the processor or the device's shaders",
+    const Disabled rest(gui.state.picture.isPreview);
+    {
+        const Disabled none(view.mode != ViewMode::Heat || !gui.state.canShowTime);
+        combo("Cost",
+              "Of the heat map. Rays: camera, scattered and shadow. Time: by the clock of the processor or the "
+              "device's shaders",
               kCostNames, view.cost);
     }
-    if (view.mode == ViewMode::Noise || view.mode == ViewMode::Error || view.mode == ViewMode::Heat) {
-        sliderReal("Scale", "Divides the value of the brightest colour, which the legend tells", view.scale, 0.1, 100,
-                   "%.2f", true);
+    {
+        const Disabled none(view.mode != ViewMode::Noise && view.mode != ViewMode::Error &&
+                            view.mode != ViewMode::Heat);
+        sliderReal("Scale",
+                   "Of noise, error and heat map: divides the value of the brightest colour, which the legend "
+                   "tells",
+                   view.scale, 0.1, 100, "%.2f", true);
     }
-    ImGui::Checkbox("Inspect pixels", &view.inspect);
-    tooltip("Shows what the pixel under the pointer holds, and the material that it shows");
-    ImGui::SameLine();
-    if (button(gui.held ? "Unpin (B)" : "Pin for A/B (B)",
-               "Keeps what is shown; it stays on the left of a line that the mouse moves, the picture is on the right",
-               gui.held || gui.state.picture.image, -1)) {
-        gui.hold();
-    }
-    if (gui.held) {
-        const image::Image* shown = gui.state.picture.image.get();
-        if (shown != nullptr && (shown->width != gui.held->width || shown->height != gui.held->height)) {
-            note("The pinned picture is of another size and cannot be shown beside this one.");
-        }
-        row("Split", "Share of the pinned picture");
-        ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
-    }
+    checkbox(
+        "Inspect pixels",
+        "Shows what the pixel under the pointer holds and the material that it shows; beside a pinned picture what "
+        "both hold, and their difference",
+        view.inspect);
+}
+
+void drawSplit(Gui& gui) {
+    const image::Image* shown = gui.state.picture.image.get();
+    if (gui.held && shown != nullptr && (shown->width != gui.held->width || shown->height != gui.held->height))
+        note("The pinned picture is of another size and cannot be shown beside this one.");
+    const Disabled rest(!gui.held);
+    row("A/B split", "Share of the pinned picture (B pins it)");
+    ImGui::SliderFloat("##split", &gui.split, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
 }
 
 } // namespace
 
 void drawViewPanel(Gui& gui) {
     app::GuiSettings& settings = gui.settings;
-    drawModes(gui);
+    drawViewOptions(gui);
+    drawSplit(gui);
+    checkbox("Auto exposure", "The picture's mean luminance becomes middle grey; the exposure below comes on top of it",
+             settings.autoExposure);
     double exposure = settings.exposure;
     if (sliderReal("Exposure", "Stops, of what is shown and of PNG files", exposure, -10, 10, "%.2f")) {
         settings.exposure = static_cast<float>(exposure);
@@ -95,7 +71,10 @@ void drawViewPanel(Gui& gui) {
     if (button("1:1", "One pixel for each of the window", true, width)) gui.view = {pixel, 0, 0};
     row("Save to", "Folder for F12; empty: your pictures folder, else the home folder");
     inputText("##folder", "pictures folder", settings.saveFolder);
-    if (button("Save PNG and EXR", "F12 or Ctrl+S", true, -1)) gui.saveRequested = true;
+    drawErrorOf(gui, app::ErrorSource::Save);
+    if (button("Save PNG and EXR", "F12 or Ctrl+S", true, width)) gui.saveRequested = true;
+    ImGui::SameLine(0, space);
+    if (button("Save as", "Ctrl+Shift+S", true, width)) gui.browse(BrowseFor::Picture);
     ImGui::Spacing();
     combo("Theme", "Colours of the interface", kColorModeNames, settings.colorMode);
 

@@ -227,6 +227,10 @@ class Importer {
             for (const Affine& instance : instancesOf(placed.node)) {
                 const Affine toWorld = placed.toWorld * instance;
                 if (!isFinite(toWorld)) file_.fail(placeOf(placed.node), "the transform of an instance exceeds 1e9");
+                if (!inverse(toWorld)) { // a scale of 0, as hides nodes; no scene file could say it
+                    ++flattened_;
+                    continue;
+                }
                 places[node.mesh].push_back(toWorld);
             }
         }
@@ -336,6 +340,9 @@ class Importer {
         if (withoutTriangles_ > 0)
             notices.push_back(std::to_string(withoutTriangles_) +
                               " primitives of points, lines or no triangle are left out");
+        if (flattened_ > 0)
+            notices.push_back(std::to_string(flattened_) + (flattened_ == 1 ? " mesh is" : " meshes are") +
+                              " left out: the transform of the node cannot be inverted");
         if (isSkinned_) notices.push_back("skins are left out: meshes are where their nodes are");
         if (isMorphed_) notices.push_back("morph targets are left out");
         if (!file_.model.animations.empty()) notices.push_back("animations are left out: nodes are at rest");
@@ -348,6 +355,7 @@ class Importer {
     std::vector<Placed> placed_;
     Bounds bounds_; // of everything, in world space
     std::size_t withoutTriangles_ = 0;
+    std::size_t flattened_ = 0; // places of meshes
     bool hasLights_ = false;
     bool isSkinned_ = false;
     bool isMorphed_ = false;

@@ -8,10 +8,10 @@
 
 RT_SHARED_BEGIN
 
-// Latitude-longitude coordinates of a unit direction: u as on spheres, v = 0 at the zenith.
+// Latitude-longitude coordinates of a unit direction as seen from inside: u to the right, from -x by way of -z,
+// with +x in the middle; v = 0 at the zenith. On a sphere's outside u runs the other way.
 RT_FN vec2 skyUv(vec3 direction) {
-    vec2 uv = sphereUv(direction);
-    return vec2(uv.x, 1.0f - uv.y);
+    return vec2(1.0f, 1.0f) - sphereUv(direction);
 }
 
 // A direction of the world in the frame of the sky image, which is turned about +y, and back.
@@ -86,10 +86,10 @@ RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
     float bottom = sinCos2Pi(0.5f * float(row + 1u) / float(image.height)).y;
     float y = mix(top, bottom, inRow);
     float r = sqrt(max(0.0f, (1.0f - y) * (1.0f + y)));
-    // Inverse of u = (atan2(-z, x) + pi) / 2 pi.
+    // Inverse of skyUv: u = (atan2(z, x) + pi) / 2 pi.
     vec2 sinCos = sinCos2Pi((float(column) + inColumn) / float(image.width));
     LightSample s;
-    s.wi = fromSkyImage(globals, vec3(-r * sinCos.y, y, r * sinCos.x));
+    s.wi = fromSkyImage(globals, vec3(-r * sinCos.y, y, -r * sinCos.x));
     s.distance = kInfinity;
     s.pdf = skyTexelPdf(scene, image, uvec2(column, row));
     s.radiance = globals.skyTop * vec3(loadTexel(scene, image, column, row));

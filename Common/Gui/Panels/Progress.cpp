@@ -48,79 +48,66 @@ std::string timeLeft(const app::SessionState& state) {
 
 } // namespace
 
-void drawRenderControl(Gui& gui) {
+void drawProgress(Gui& gui) {
     const app::SessionState& state = gui.state;
-    const float space = ImGui::GetStyle().ItemSpacing.x, all = ImGui::GetContentRegionAvail().x;
-    const float columns = 4 * buttonWidth("Resume") + 3 * space <= all ? 4.0f : 2.0f;
-    const float width = std::floor((all - (columns - 1) * space) / columns);
     const bool isPreview = state.picture.isPreview;
-    const bool rendering = !isPreview && state.activity == Activity::Rendering;
-    const bool paused = !isPreview && state.activity == Activity::Paused;
-    if (button(paused ? "Resume" : "Start", "Starts the render, or resumes it after a pause (Space)", !rendering,
-               width)) {
-        isPreview ? gui.setRayTracing(true) : gui.session.render();
-    }
-    besideIfItFits(width);
-    if (button("Pause", "Pauses the render (Space)", rendering, width)) gui.session.pause();
-    besideIfItFits(width);
-    if (button("Stop", "Ends the render; what there is of it stays", rendering || paused, width)) gui.session.stop();
-    besideIfItFits(width);
-    if (button("Restart", "Discards the samples and renders from the beginning", !isPreview, width)) {
-        gui.session.reset();
-    }
-
-    const float share = state.status.samplesTotal > 0
+    // What is being prepared has made no progress yet, whatever the picture that is still shown had.
+    const bool isWaiting = !state.stage.empty() || state.activity == Activity::Preparing;
+    const float share = !isWaiting && state.status.samplesTotal > 0
                             ? static_cast<float>(static_cast<double>(state.status.samplesDone) /
                                                  static_cast<double>(state.status.samplesTotal))
                             : 0.0f;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     ImGui::ProgressBar(share, {-1, 0}, "");
     const ImVec2 bar = ImGui::GetItemRectSize();
-    const std::string text = progressText(state, share);
+    const std::string text = isWaiting ? "preparing" : progressText(state, share);
     const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
     ImGui::GetWindowDrawList()->AddText({corner.x + 0.5f * (bar.x - extent.x), corner.y + 0.5f * (bar.y - extent.y)},
                                         ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
     std::string line = isPreview ? "preview: ray tracing is off" : activityText(state.activity);
     if (!state.stage.empty()) line = state.stage + " ... " + shortDuration(state.stageSeconds);
-    if (const std::string left = timeLeft(state); !left.empty() && state.stage.empty() && !isPreview)
-        line += ", " + left;
-    ImGui::TextDisabled("%s", line.c_str()); // a long one is cut: nothing moves
+    if (const std::string left = timeLeft(state); !left.empty() && !isWaiting && !isPreview) line += ", " + left;
+    const float room = ImGui::GetContentRegionAvail().x;
+    ImGui::TextDisabled("%s", elided(line, room).c_str());
+    tooltip(line.c_str());
+    std::string last = "Render time: none yet"; // nothing moves when there is one
+    std::string parts;
     if (state.lastRun) {
         const app::LastRun& run = *state.lastRun;
-        ImGui::PushTextWrapPos(0);
-        ImGui::TextUnformatted(("Render time " + shortDuration(run.seconds.render)).c_str());
-        tooltip("Wall time of sampling alone, as in the statistics of a render without a window");
-        ImGui::Text("%llu samples per pixel", static_cast<unsigned long long>(run.spp));
-        ImGui::PopTextWrapPos();
-        note("load " + shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
-             ", render " + shortDuration(run.seconds.render));
-        tooltip(("Build: the scene's tree " + shortDuration(run.accelBuild) + ", pipelines of shaders " +
-                 shortDuration(run.pipeline))
-                    .c_str());
-    } else {
-        for (const char* text : {"Render time: none yet", " ", " "}) note(text); // nothing moves when there is one
+        last = "Render time " + shortDuration(run.seconds.render) + " (" + std::to_string(run.spp) + " spp)";
+        parts =
+            "The last render that ended, wall time of sampling alone, as in the statistics of a render without a "
+            "window.\nLoad " +
+            shortDuration(run.seconds.load) + ", build " + shortDuration(run.accelBuild + run.pipeline) +
+            " (the scene's tree " + shortDuration(run.accelBuild) + ", pipelines of shaders " +
+            shortDuration(run.pipeline) + "), render " + shortDuration(run.seconds.render);
     }
+    ImGui::TextUnformatted(elided(last, room).c_str());
+    if (!parts.empty()) tooltip(parts.c_str());
     ImGui::Separator();
 }
 
+// What matters most comes first, and the device's name, which is long, gives way.
 void drawStatusLine(Gui& gui) {
     const app::SessionState& state = gui.state;
+    char fps[48];
+    std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.window.framesPerSecond);
+    const float gap = 2 * ImGui::GetFontSize();
+    const float all = ImGui::GetContentRegionAvail().x, right = all - ImGui::CalcTextSize(fps).x;
     std::string text = state.scene ? state.scene->title : "no scene";
     text += "   |   " + std::to_string(state.settings.width) + " x " + std::to_string(state.settings.height);
-    text += "   |   " +
-            (state.report.engine.empty() ? std::string("starting") : state.report.engine + ", " + state.report.device);
     if (state.renderSeconds > 0) {
         text +=
             "   |   " + withPrefix(static_cast<double>(state.status.samplesDone) / state.renderSeconds) + " samples/s";
     }
-    ImGui::TextUnformatted(text.c_str());
-    char fps[48];
-    std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.window.framesPerSecond);
-    const float right = ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(fps).x;
-    if (right > ImGui::GetItemRectSize().x + 20) {
-        ImGui::SameLine(right);
-        ImGui::TextDisabled("%s", fps);
-    }
+    text += "   |   " +
+            (state.report.engine.empty() ? std::string("starting") : state.report.engine + ", " + state.report.device);
+    const bool hasRight = right > 0.5f * all;
+    ImGui::TextUnformatted(elided(text, hasRight ? right - gap : all).c_str());
+    tooltip(text.c_str());
+    if (!hasRight) return;
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - ImGui::CalcTextSize(fps).x);
+    ImGui::TextDisabled("%s", fps);
 }
 
 } // namespace rt::gui

@@ -1,0 +1,35 @@
+// Icons of the toolbar and of lists, drawn as lines and areas: sharp at any scale, and in no font's hands.
+#pragma once
+#include <imgui.h>
+
+namespace rt::gui {
+
+enum class Icon {
+    Start,
+    Pause,
+    Stop,
+    Restart,
+    Open,
+    Save,
+    Split,
+    Chart,
+    Figures,
+    Panels,
+    Help,
+    Warning,
+    Close,
+    Folder,
+    File,
+    Up
+};
+
+// Into a square of that side at `corner`.
+void drawIcon(ImDrawList& list, Icon icon, ImVec2 corner, float side, ImU32 color);
+
+// A square button as high as a row, whose name is for ImGui; whether it was pressed. `isOn`: what it switches is on.
+bool iconButton(const char* id, Icon icon, const char* tip, bool isEnabled = true, bool isOn = false);
+// The same with a text beside the icon, in the accent's colour: for the one thing to do first.
+bool primaryButton(const char* id, Icon icon, const char* text, const char* tip, bool isEnabled, float width,
+                   const ImVec4& color, const ImVec4& textColor);
+
+} // namespace rt::gui

@@ -1,0 +1,100 @@
+// Over the picture: what it is.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Theme.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+constexpr float kHeight = 1.5f;      // of a chip, in heights of the font
+constexpr float kPadding = 0.5f;     // likewise, at its left and right
+constexpr float kBorder = 10;        // around the picture, at scale 1
+constexpr float kLeastShare = 0.55f; // of the window's part that remains for the picture, or it gets all of it
+
+float chipWidth(const std::string& text, bool hasDot) {
+    const float em = ImGui::GetFontSize();
+    return ImGui::CalcTextSize(text.c_str()).x + (2 * kPadding + (hasDot ? 1 : 0)) * em;
+}
+
+void drawChip(ImVec2 corner, const std::string& text, const ImVec4* dot) {
+    const float em = ImGui::GetFontSize(), height = kHeight * em, width = chipWidth(text, dot != nullptr);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList(); // below all windows
+    list.AddRectFilled(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_WindowBg, 0.92f),
+                       0.5f * height);
+    list.AddRect(corner, {corner.x + width, corner.y + height}, ImGui::GetColorU32(ImGuiCol_Border), 0.5f * height);
+    float left = corner.x + kPadding * em;
+    if (dot != nullptr) {
+        list.AddCircleFilled({left + 0.3f * em, corner.y + 0.5f * height}, 0.3f * em,
+                             ImGui::ColorConvertFloat4ToU32(*dot));
+        left += em;
+    }
+    list.AddText({left, corner.y + 0.5f * (height - ImGui::GetTextLineHeight())}, ImGui::GetColorU32(ImGuiCol_Text),
+                 text.c_str());
+}
+
+std::vector<std::string> chipTexts(const Gui& gui) {
+    const app::SessionState& state = gui.state;
+    std::vector<std::string> texts{gui.isGpu ? "GPU " : "CPU "};
+    texts.front() += state.picture.isPreview ? "preview" : state.report.engine;
+    if (state.picture.isPreview) return texts;
+    texts.push_back(state.picture.spp > 0
+                        ? std::to_string(state.picture.spp) + " / " + std::to_string(state.settings.spp) + " spp"
+                        : "draft");
+    if (state.renderSeconds > 0) texts.push_back(shortDuration(state.renderSeconds));
+    if (state.relmse) {
+        char text[64];
+        std::snprintf(text, sizeof text, "relMSE %.3g%s", *state.relmse, state.curve.empty() ? " estimated" : "");
+        texts.emplace_back(text);
+    }
+    return texts;
+}
+
+// Whether both can be compared: the line between them is drawn.
+bool isSplit(const Gui& gui) {
+    const image::Image* shown = gui.state.picture.image.get();
+    return gui.held && shown != nullptr && shown->width == gui.held->width && shown->height == gui.held->height;
+}
+
+void drawSides(const Gui& gui, const Rect& area, const Rect& image, float scale) {
+    const float em = ImGui::GetFontSize(), gap = 6 * scale;
+    const float y = std::max(image.y, area.y) + gap, line = area.x + gui.split * area.width;
+    const std::string left = "A: " + gui.heldTitle, right = "B: " + gui.pictureTitle();
+    const float width = chipWidth(left, false);
+    if (y + kHeight * em > area.y + area.height) return;
+    if (line - gap - width > area.x) drawChip({line - gap - width, y}, left, nullptr);
+    if (line + gap + chipWidth(right, false) < area.x + area.width) drawChip({line + gap, y}, right, nullptr);
+}
+
+} // namespace
+
+Rect innerArea(const Gui& gui, const Rect& area, float scale) {
+    const float em = ImGui::GetFontSize(), border = kBorder * scale;
+    const float legend = legendHeight(gui, area, scale);
+    const float top = border + kHeight * em + 0.6f * border, bottom = border + (legend > 0 ? legend + border : 0);
+    const Rect inner{area.x + border, area.y + top, area.width - 2 * border, area.height - top - bottom};
+    const bool isEnough = inner.width > kLeastShare * area.width && inner.height > kLeastShare * area.height;
+    return isEnough ? inner : area;
+}
+
+void drawChips(const Gui& gui, const Rect& area, const Rect& image, float scale) {
+    const float em = ImGui::GetFontSize(), border = kBorder * scale, gap = 0.4f * em;
+    if (!gui.state.picture.image || area.height < 4 * kHeight * em) return;
+    const ImVec4 dot = engineColor(gui.isGpu, gui.settings.colorMode);
+    float x = area.x + border;
+    bool isFirst = true;
+    for (const std::string& text : chipTexts(gui)) {
+        const float width = chipWidth(text, isFirst);
+        if (x + width > area.x + area.width - border) break;
+        drawChip({x, area.y + border}, text, isFirst ? &dot : nullptr);
+        x += width + gap;
+        isFirst = false;
+    }
+    if (isSplit(gui)) drawSides(gui, area, image, scale);
+}
+
+} // namespace rt::gui

@@ -1,0 +1,144 @@
+#include "Common/Gui/Panels/EngineCards.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/RunGroups.h"
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/RunTexts.h"
+#include "Common/Gui/Theme.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+using app::RunRecord;
+using Phase = app::OtherState::Phase;
+
+constexpr float kWidth = 15; // of a card, in heights of the font
+
+// "3.2x faster", "1.31x slower"
+std::string ratioText(double ratio) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g\u00d7 %s", ratio >= 1 ? ratio : 1 / ratio, ratio >= 1 ? "faster" : "slower");
+    return text;
+}
+
+struct CardLine {
+    std::string name, value;
+};
+
+// A title in the engine's colour, then lines of a name at the left and a number at the right.
+void drawCard(const char* title, ImU32 color, const std::vector<CardLine>& lines, const std::string& tip) {
+    const float em = ImGui::GetFontSize(), width = kWidth * em, pad = 0.4f * em;
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size{width, line * static_cast<float>(lines.size() + 1) + 2 * pad};
+    ImGui::Dummy(size);
+    tooltip(tip.c_str());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end{corner.x + size.x, corner.y + size.y};
+    list.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_FrameBg), 0.3f * em);
+    list.AddRectFilled(corner, {corner.x + 0.25f * em, end.y}, color, 0.3f * em);
+    const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text), dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
+    const float left = corner.x + 0.25f * em + pad;
+    float y = corner.y + pad;
+    list.AddText({left, y}, color, elided(title, width - 2 * pad).c_str());
+    for (const CardLine& row : lines) {
+        y += line;
+        list.AddText({left, y}, dim, row.name.c_str());
+        list.AddText({end.x - pad - ImGui::CalcTextSize(row.value.c_str()).x, y}, text, row.value.c_str());
+    }
+}
+
+void drawRunCard(const Gui& gui, const RunRecord* run, bool isGpu) {
+    const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpu, gui.settings.colorMode));
+    if (run == nullptr)
+        return drawCard(isGpu ? "GPU" : "CPU", color, {{"No run of the same work", ""}, {"", ""}, {"", ""}},
+                        "Only runs that agree in scene, camera, size, SPP, depth, estimator and sampler are compared");
+    const std::string kind = errorKind(*run);
+    drawCard(engineText(*run).c_str(), color,
+             {{"Time", shortDuration(run->renderSeconds)},
+              {"Samples/s", withPrefix(run->samplesPerSecond)},
+              {kind.empty() ? "relMSE" : "relMSE, " + kind, errorText(run->relmse)}},
+             runDetails(*run) + "\n" + whatErrorKindMeans(*run));
+}
+
+void drawSpeedUp(const app::EnginePair& pair) {
+    const app::Comparison comparison = app::compareRuns(*pair.cpu, *pair.gpu);
+    std::string toError = "not known", tip = "Needs the errors of both runs, of one kind: render or load a reference";
+    if (comparison.timeToEqualError > 0) {
+        toError = ratioText(comparison.timeToEqualError);
+        tip = std::string(
+                  "relMSE falls as the number of samples grows, so that the time to equal error is as relMSE "
+                  "times seconds. Errors are ") +
+              (comparison.isMeasured ? "measured against a reference" : "the films' own estimates, no measurements");
+    }
+    const std::string kind = comparison.timeToEqualError <= 0 ? "" : comparison.isMeasured ? "measured" : "estimated";
+    drawCard("GPU against CPU", ImGui::GetColorU32(ImGuiCol_Text),
+             {{"To equal error", toError},
+              {"Errors", kind.empty() ? "-" : kind},
+              {"Samples/s", ratioText(comparison.samplesPerSecond)}},
+             tip);
+}
+
+// The newest run of a program that is shown; null: none.
+const RunRecord* newestOf(const RunBoard& runs, bool isGpu) {
+    const RunRecord* newest = nullptr;
+    for (const app::RunRow& row : runs.groups().rows)
+        if (isGpuRun(*row.record) == isGpu && (newest == nullptr || row.record->time > newest->time))
+            newest = row.record;
+    return newest;
+}
+
+void drawOther(Gui& gui) {
+    const app::OtherState state = gui.other.state();
+    const std::string name = gui.isGpu ? "CPU" : "GPU";
+    if (state.phase == Phase::Running || gui.otherIsWanted) {
+        const bool runs = state.phase == Phase::Running;
+        const float share =
+            runs && state.sppWanted > 0
+                ? static_cast<float>(static_cast<double>(state.spp) / static_cast<double>(state.sppWanted))
+                : 0.0f;
+        const std::string text = !runs            ? "waits for this render to end"
+                                 : state.spp == 0 ? name + ": starting"
+                                                  : name + ": " + std::to_string(state.spp) + " / " +
+                                                        std::to_string(state.sppWanted) + " spp";
+        ImGui::ProgressBar(share, {kWidth * ImGui::GetFontSize(), 0}, text.c_str());
+        besideIfItFits(buttonWidth("Cancel"));
+        if (button("Cancel", "Ends the other program; nothing is kept of its render", true)) gui.cancelOther();
+        return;
+    }
+    const std::string why = gui.whyNotOther();
+    const std::string tip =
+        "The same scene, camera, size, samples and settings by the other program, without a "
+        "window. Its picture is pinned beside this one, its run goes to the table. This render "
+        "ends first: two at a time would slow each other down" +
+        (why.empty() ? "" : ".\n" + why);
+    if (button(("Run on the other engine (" + name + ")").c_str(), tip.c_str(), why.empty())) gui.otherIsWanted = true;
+    if (state.phase == Phase::Failed) wrapped(state.error, errorColor(gui.settings.colorMode));
+    if (state.phase == Phase::Cancelled) note(name + ": cancelled");
+}
+
+} // namespace
+
+void drawEngineCards(Gui& gui) {
+    const app::EnginePair& pair = gui.runs.pair();
+    const bool isPair = pair.cpu != nullptr;
+    const float width = kWidth * ImGui::GetFontSize();
+    drawRunCard(gui, isPair ? pair.cpu : gui.isGpu ? nullptr : newestOf(gui.runs, false), false);
+    besideIfItFits(width);
+    drawRunCard(gui, isPair ? pair.gpu : gui.isGpu ? newestOf(gui.runs, true) : nullptr, true);
+    if (isPair) {
+        besideIfItFits(width);
+        drawSpeedUp(pair);
+    }
+    besideIfItFits(width);
+    ImGui::BeginGroup();
+    drawOther(gui);
+    ImGui::EndGroup();
+}
+
+} // namespace rt::gui

@@ -1,0 +1,151 @@
+#include "Common/Gui/Panels/RunTable.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <imgui.h>
+
+#include "Common/Gui/Panels/RunTexts.h"
+#include "Common/Gui/Theme.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+using app::RunRow;
+
+void cell(const std::string& text) {
+    ImGui::TableNextColumn();
+    ImGui::TextUnformatted(text.c_str());
+}
+
+// Numbers end below each other.
+void numberCell(const std::string& text) {
+    ImGui::TableNextColumn();
+    const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+    if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
+    ImGui::TextUnformatted(text.c_str());
+}
+
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// A, B, ... Z, AA, AB, ...
+std::string letters(std::size_t number) {
+    std::string text(1, static_cast<char>('A' + number % 26));
+    return number < 26 ? text : letters(number / 26 - 1) + text;
+}
+
+struct Column {
+    std::string title;
+    const char* tip;
+};
+std::vector<Column> columnsOf(const app::RunGroups& groups) {
+    std::vector<Column> columns = {{"Engine", "The mark is that of the chart"}};
+    if (groups.groups > 1) columns.push_back({"Work", "Runs of one letter did the same work: only they are compared"});
+    for (const char* title : groups.columns) columns.push_back({title, "Differs between the runs that are shown"});
+    const Column figures[] = {{"Time", "Seconds of sampling alone"},
+                              {"relMSE", "Mean squared error relative to the reference"},
+                              {"Error is", "Measured against a reference, or estimated by the film itself"},
+                              {"Efficiency", "1 / (relMSE x seconds)"},
+                              {"Samples/s", nullptr},
+                              {"Rays/s", nullptr},
+                              {"Device", nullptr},
+                              {"When", "UTC"}};
+    columns.insert(columns.end(), std::begin(figures), std::end(figures));
+    return columns;
+}
+
+// Titles with what they mean; a right click chooses columns and fits them.
+void drawHeaders(const std::vector<Column>& columns) {
+    ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+    for (const Column& column : columns) {
+        ImGui::TableNextColumn();
+        ImGui::TableHeader(column.title.c_str());
+        const std::string tip = std::string(column.tip != nullptr ? column.tip : "") +
+                                (column.tip != nullptr ? "\n" : "") + "Right click: choose and fit columns";
+        tooltip(tip.c_str());
+    }
+}
+
+void drawEngineCell(Gui& gui, const RunRow& row) {
+    const app::RunRecord& r = *row.record;
+    ImGui::TableNextColumn();
+    ImGui::PushID(&r);
+    const float em = ImGui::GetFontSize();
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    if (ImGui::Selectable("##run", gui.runs.isSelected(r),
+                          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+        gui.runs.select(r, ImGui::GetIO().KeyCtrl);
+    }
+    if (ImGui::IsItemHovered()) gui.runs.hover(r);
+    tooltip((runDetails(r) + "\nClick: select; with Ctrl: also").c_str());
+    ImGui::PopID();
+    const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpuRun(r), gui.settings.colorMode));
+    drawMark(*ImGui::GetWindowDrawList(), markOf(r.lightSampling), {corner.x + 0.5f * em, corner.y + 0.5f * em},
+             0.25f * em, color, !r.hasReference);
+    ImGui::SameLine(1.1f * em);
+    ImGui::TextUnformatted(engineText(r).c_str());
+}
+
+void drawRow(Gui& gui, const RunRow& row) {
+    const app::RunRecord& r = *row.record;
+    ImGui::TableNextRow();
+    const app::EnginePair& pair = gui.runs.pair();
+    if (row.record == pair.cpu || row.record == pair.gpu)
+        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_Header));
+    if (gui.runs.isHovered(r))
+        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_HeaderHovered));
+    drawEngineCell(gui, row);
+    if (gui.runs.groups().groups > 1) cell(letters(row.group));
+    for (const std::string& text : row.cells) isNumber(text) ? numberCell(text) : cell(text);
+    numberCell(shortDuration(r.renderSeconds));
+    numberCell(errorText(r.relmse));
+    const bool isNoisy = r.hasReference && app::isReferenceTooNoisy(r.relmse, r.referenceError);
+    cell(errorKind(r) + (isNoisy ? ", noisy reference" : ""));
+    tooltip(whatErrorKindMeans(r).c_str());
+    numberCell(r.efficiency() > 0 ? withPrefix(r.efficiency()) : "-");
+    numberCell(withPrefix(r.samplesPerSecond));
+    numberCell(withPrefix(r.raysPerSecond));
+    cell(r.device);
+    cell(r.time);
+}
+
+// What all runs have in common, but for what is not meant to be read.
+std::string commonText(const app::RunGroups& groups) {
+    std::string text = "All: ";
+    for (const app::WorkField& field : groups.common) {
+        if (!field.isShort || field.value.empty()) continue;
+        const std::string title = field.title;
+        const bool tellsItself = title == "Scene" || title == "Size" || title == "Estimator" || title == "Sampler";
+        text += (text.size() > 5 ? ", " : "") + (tellsItself ? field.value : title + " " + field.value);
+    }
+    return text;
+}
+
+} // namespace
+
+void drawRunTable(Gui& gui, ImVec2 size) {
+    const app::RunGroups& groups = gui.runs.groups();
+    if (groups.rows.empty()) return note("No runs yet: each render that ends becomes a row");
+    note(commonText(groups));
+    const std::vector<Column> columns = columnsOf(groups);
+    // Which columns are hidden belongs to those that there are.
+    std::string id = "##runs";
+    for (const char* title : groups.columns) id += title;
+    constexpr ImGuiTableFlags kFlags = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                       ImGuiTableFlags_BordersInnerV | ImGuiTableFlags_SizingFixedFit |
+                                       ImGuiTableFlags_Resizable | ImGuiTableFlags_Hideable |
+                                       ImGuiTableFlags_NoSavedSettings;
+    if (!ImGui::BeginTable(id.c_str(), static_cast<int>(columns.size()), kFlags, size)) return;
+    ImGui::TableSetupScrollFreeze(1, 1);
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        ImGui::TableSetupColumn(columns[i].title.c_str(), i == 0 ? ImGuiTableColumnFlags_NoHide : 0);
+    drawHeaders(columns);
+    for (const RunRow& row : groups.rows) drawRow(gui, row);
+    ImGui::EndTable();
+}
+
+} // namespace rt::gui

@@ -1,0 +1,51 @@
+#include "Common/Gui/Panels/RunTexts.h"
+
+#include <cstdio>
+
+#include "Common/App/Interactive/RunGroups.h"
+
+namespace rt::gui {
+
+std::string engineText(const app::RunRecord& run) {
+    std::string text = (isGpuRun(run) ? "GPU " : "CPU ") + run.engine;
+    if (run.threads > 1) text += ", " + std::to_string(run.threads) + " threads";
+    return text;
+}
+
+std::string errorText(double value) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%.2e", value);
+    return value > 0 ? text : "-";
+}
+
+std::string errorKind(const app::RunRecord& run) {
+    if (run.relmse <= 0) return {};
+    return run.hasReference ? "measured" : "estimated";
+}
+
+std::string whatErrorKindMeans(const app::RunRecord& run) {
+    if (run.relmse <= 0) return "The error is not known";
+    if (!run.hasReference)
+        return "The film's own estimate, from how its samples differ; with one replicate of Sobol or strata it is too "
+               "high by factors";
+    std::string text = "Measured against a reference";
+    if (run.referenceError > 0) text += ", whose own relMSE is " + errorText(run.referenceError);
+    if (app::isReferenceTooNoisy(run.relmse, run.referenceError))
+        text += ": too noisy for this error. Render it with more samples";
+    return text;
+}
+
+std::string runDetails(const app::RunRecord& run) {
+    const std::string lacking = lackingIn(run);
+    return run.time + ", " + run.device +
+           (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
+}
+
+Mark markOf(const std::string& lightSampling) {
+    if (lightSampling == "mis-balance") return Mark::Square;
+    if (lightSampling == "mixture") return Mark::Diamond;
+    if (lightSampling == "bsdf") return Mark::Triangle;
+    return Mark::Circle;
+}
+
+} // namespace rt::gui

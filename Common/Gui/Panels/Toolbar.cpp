@@ -1,0 +1,167 @@
+// One line at the top of the window: what is done most, and what is shown.
+#include <algorithm>
+#include <string>
+
+#include "Common/Gui/Icons.h"
+#include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/ViewModes.h"
+#include "Common/Gui/Theme.h"
+#include "Common/Gui/Widgets.h"
+
+namespace rt::gui {
+namespace {
+
+using app::Activity;
+
+constexpr int kRightIcons = 5; // comparison, statistics, panels, help, errors
+
+float gap() {
+    return ImGui::GetStyle().ItemInnerSpacing.x;
+}
+void beside() {
+    ImGui::SameLine(0, gap());
+}
+// Between two groups.
+void apart() {
+    ImGui::SameLine(0, 3 * gap());
+}
+
+// By which program the window is.
+void drawBadge(const Gui& gui) {
+    const char* name = gui.isGpu ? "GPU" : "CPU";
+    const float height = ImGui::GetFrameHeight(), width = buttonWidth(name);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    ImGui::Dummy({width, height});
+    const ImVec4 color = engineColor(gui.isGpu, gui.settings.colorMode);
+    const bool isLight = gui.settings.colorMode == app::ColorMode::Light;
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(corner, {corner.x + width, corner.y + height}, ImGui::ColorConvertFloat4ToU32(color),
+                       ImGui::GetStyle().FrameRounding);
+    const ImVec2 extent = ImGui::CalcTextSize(name);
+    list.AddText({corner.x + 0.5f * (width - extent.x), corner.y + 0.5f * (height - extent.y)},
+                 isLight ? IM_COL32_WHITE : IM_COL32_BLACK, name);
+    tooltip(gui.isGpu ? "ray-tracing-gpu" : "ray-tracing-cpu");
+}
+
+// The first thing to do is one button, whatever it is at the moment.
+void drawRenderButtons(Gui& gui, bool isNarrow) {
+    const bool isPreview = gui.state.picture.isPreview;
+    const bool rendering = !isPreview && gui.state.activity == Activity::Rendering;
+    const bool paused = !isPreview && gui.state.activity == Activity::Paused;
+    const app::ColorMode colors = gui.settings.colorMode;
+    const float icon = ImGui::GetFrameHeight();
+    const float width = isNarrow ? icon : icon + ImGui::CalcTextSize("Resume").x + 2 * gap();
+    const char* text = rendering ? "Pause" : paused ? "Resume" : "Start";
+    if (primaryButton(
+            "render", rendering ? Icon::Pause : Icon::Start, text,
+            rendering ? "Pauses the render (Space)" : "Starts the render, or resumes it after a pause (Space)", true,
+            width, accentColor(colors), accentTextColor(colors))) {
+        if (rendering) {
+            gui.session.pause();
+        } else if (isPreview) {
+            gui.setRayTracing(true);
+        } else {
+            gui.session.render();
+        }
+    }
+    beside();
+    if (iconButton("stop", Icon::Stop, "Ends the render; what there is of it stays", rendering || paused))
+        gui.session.stop();
+    beside();
+    if (iconButton("restart", Icon::Restart, "Discards the samples and renders from the beginning (Ctrl+R)",
+                   !isPreview))
+        gui.session.reset();
+}
+
+float modesWidth() {
+    float width = -gap();
+    for (const ViewModeRow& mode : viewModes()) width += buttonWidth(mode.name) + gap();
+    return width;
+}
+
+float modeMenuWidth() {
+    return buttonWidth("Heat map") + ImGui::GetFrameHeight();
+}
+
+void choose(Gui& gui, const ViewModeRow& mode) {
+    const bool canBe = isAvailable(gui, mode.mode), isOn = gui.viewRequest.mode == mode.mode;
+    if (isOn) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const std::string tip = std::string(mode.tip) + (canBe ? "" : std::string("\n") + mode.missing);
+    if (button(mode.name, tip.c_str(), canBe)) gui.viewRequest.mode = mode.mode;
+    if (isOn) ImGui::PopStyleColor();
+}
+
+// A row of buttons, or a menu where there is no room.
+void drawModes(Gui& gui, float room) {
+    if (modesWidth() <= room) {
+        for (const ViewModeRow& mode : viewModes()) {
+            if (&mode != &viewModes().front()) beside();
+            choose(gui, mode);
+        }
+        return;
+    }
+    ImGui::SetNextItemWidth(std::max(1.0f, std::min(room, modeMenuWidth())));
+    if (!ImGui::BeginCombo("##mode", rowOf(gui.viewRequest.mode).name, ImGuiComboFlags_HeightLarge))
+        return tooltip("What is shown");
+    for (const ViewModeRow& mode : viewModes()) {
+        const auto flags = isAvailable(gui, mode.mode) ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled;
+        if (ImGui::Selectable(mode.name, mode.mode == gui.viewRequest.mode, flags)) gui.viewRequest.mode = mode.mode;
+        tooltip(mode.tip);
+    }
+    ImGui::EndCombo();
+}
+
+void drawRight(Gui& gui) {
+    app::GuiSettings& settings = gui.settings;
+    if (iconButton("comparison", Icon::Chart, "Comparison of runs (F3)", true, settings.showComparison))
+        settings.showComparison = !settings.showComparison;
+    beside();
+    const bool areFiguresOpen = settings.showPanels && settings.showStatistics && settings.openPanels["statistics"];
+    if (iconButton("statistics", Icon::Figures, "Statistics (F2)", true, areFiguresOpen)) gui.toggleStatistics();
+    beside();
+    if (iconButton("panels", Icon::Panels, "Panels at the side (F4)", true, settings.showPanels))
+        settings.showPanels = !settings.showPanels;
+    beside();
+    if (iconButton("help", Icon::Help, "Keys and mouse (F1)", true, gui.showHelp)) gui.showHelp = !gui.showHelp;
+    beside();
+    const bool isUnread = gui.errors.unread() != nullptr;
+    if (isUnread) ImGui::PushStyleColor(ImGuiCol_Text, errorColor(settings.colorMode));
+    if (iconButton("errors", Icon::Warning, "What went wrong so far", !gui.errors.all().empty(), gui.showErrors))
+        gui.showErrors = !gui.showErrors;
+    if (isUnread) ImGui::PopStyleColor();
+}
+
+} // namespace
+
+void drawToolbar(Gui& gui) {
+    const float icon = ImGui::GetFrameHeight(), all = ImGui::GetContentRegionAvail().x;
+    const float left = ImGui::GetCursorPosX();
+    const float right = kRightIcons * icon + (kRightIcons - 1) * gap();
+    // Badge, start, stop, restart; A/B, save, open; the gaps between groups.
+    const float fixed = buttonWidth("GPU") + 6 * icon + 12 * gap() + right;
+    const bool isNarrow = all - fixed - ImGui::CalcTextSize("Resume").x < modeMenuWidth();
+    drawBadge(gui);
+    apart();
+    drawRenderButtons(gui, isNarrow);
+    apart();
+    const float used = ImGui::GetCursorPosX() - left;
+    drawModes(gui, all - used - 3 * icon - 8 * gap() - right);
+    apart();
+    if (iconButton("split", Icon::Split,
+                   gui.held ? "Unpins the picture that is compared with (B)"
+                            : "Pins the picture for A/B comparison with the next one (B)",
+                   gui.held || gui.state.picture.image, gui.held != nullptr)) {
+        gui.hold();
+    }
+    beside();
+    if (iconButton("save", Icon::Save, "Saves the picture as PNG and EXR (F12, Ctrl+S); Ctrl+Shift+S asks where",
+                   gui.state.picture.image != nullptr)) {
+        gui.saveRequested = true;
+    }
+    beside();
+    if (iconButton("open", Icon::Open, "Opens a scene file or a model (Ctrl+O)")) gui.browse(BrowseFor::Scene);
+    ImGui::SameLine(std::max(ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + gap(), left + all - right));
+    drawRight(gui);
+}
+
+} // namespace rt::gui

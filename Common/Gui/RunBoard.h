@@ -1,0 +1,49 @@
+// Which runs of the history the comparison shows, and what the user has marked among them.
+#pragma once
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/RunGroups.h"
+#include "Common/App/Interactive/RunHistory.h"
+
+namespace rt::gui {
+
+class RunBoard {
+  public:
+    static constexpr std::size_t kMostRuns = 200; // the newest
+
+    // Once a frame, before all else: the runs of one scene, or of all where it is empty, but for the hidden ones.
+    void update(app::RunHistory& history, const std::string& scene);
+    // Valid until the next update.
+    const app::RunGroups& groups() const { return groups_; }
+    // The newest of equal work, among the selected runs where those have such.
+    const app::EnginePair& pair() const { return pair_; }
+
+    bool isSelected(const app::RunRecord& run) const { return selected_.count(keyOf(run)) > 0; }
+    void select(const app::RunRecord& run, bool isAdded); // in place of the others, or also; a selected one no more
+    std::vector<app::RunRecord> selected() const;         // of those that are shown
+    std::vector<app::RunRecord> shown() const;
+    void hideSelected();
+    void showHidden();
+    std::size_t hiddenCount() const { return hidden_.size(); }
+
+    // What the pointer is at, in the table or the chart: of the frame before.
+    bool isHovered(const app::RunRecord& run) const { return !hovered_.empty() && keyOf(run) == hovered_; }
+    void hover(const app::RunRecord& run) { hoveredNext_ = keyOf(run); }
+
+  private:
+    static std::string keyOf(const app::RunRecord& run);
+    void rebuild(const std::vector<app::RunRecord>& records);
+
+    std::string scene_;
+    std::uint64_t serial_ = ~std::uint64_t{0}; // of the history
+    bool isStale_ = true;
+    app::RunGroups groups_;
+    app::EnginePair pair_;
+    std::set<std::string> selected_, hidden_;
+    std::string hovered_, hoveredNext_;
+};
+
+} // namespace rt::gui

@@ -1,0 +1,90 @@
+// What a table and a chart say of several runs.
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Interactive/RunGroups.h"
+
+namespace rt::app {
+namespace {
+
+RunRecord run(const std::string& app, std::uint64_t spp) {
+    RunRecord r;
+    r.app = app;
+    r.scene = "a";
+    r.sceneHash = "0123456789abcdef";
+    r.camera = "{\"look_from\":[0,0,1]}";
+    r.lightSampling = "mis";
+    r.sampler = "sobol";
+    r.lightSelection = "contribution";
+    r.sphereLight = r.quadLight = r.triangleLight = "auto";
+    r.russianRoulette = r.oneSidedLights = "on";
+    r.adaptive = "off";
+    r.width = r.height = 8;
+    r.spp = spp;
+    return r;
+}
+
+bool isSaidOnce(const RunGroups& groups, const std::string& title) {
+    return std::any_of(groups.common.begin(), groups.common.end(), [&](const WorkField& f) { return f.title == title; });
+}
+
+TEST(RunGroups, WhatDiffersIsAColumnAndEqualWorkStandsTogether) {
+    const RunRecord cpu = run("ray-tracing-cpu", 16), more = run("ray-tracing-cpu", 64), gpu = run("ray-tracing-gpu", 16);
+    RunRecord moved = run("ray-tracing-cpu", 64);
+    moved.camera = "{\"look_from\":[0,0,2]}";
+    const RunGroups groups = groupByWork({&cpu, &more, &moved, &gpu});
+    EXPECT_EQ(groups.groups, 3u);
+    ASSERT_EQ(groups.columns.size(), 2u);
+    EXPECT_STREQ(groups.columns[0], "Camera");
+    EXPECT_STREQ(groups.columns[1], "SPP");
+    ASSERT_EQ(groups.rows.size(), 4u);
+    EXPECT_EQ(groups.rows[0].record, &cpu);
+    EXPECT_EQ(groups.rows[1].record, &gpu); // beside what it can be compared with
+    EXPECT_EQ(groups.rows[1].group, 0u);
+    EXPECT_EQ(groups.rows[1].cells, (std::vector<std::string>{"1", "16"}));
+    EXPECT_EQ(groups.rows[2].record, &more);
+    EXPECT_EQ(groups.rows[3].cells, (std::vector<std::string>{"2", "64"}));
+    EXPECT_TRUE(isSaidOnce(groups, "Scene"));
+    EXPECT_TRUE(isSaidOnce(groups, "Depth"));
+    EXPECT_FALSE(isSaidOnce(groups, "SPP"));
+}
+
+TEST(RunGroups, WhatARecordLacksIsAQuestion) {
+    const RunRecord whole = run("ray-tracing-cpu", 16);
+    RunRecord old = whole;
+    old.camera.clear();
+    const RunGroups groups = groupByWork({&whole, &old});
+    EXPECT_EQ(groups.groups, 2u);
+    ASSERT_EQ(groups.columns.size(), 1u);
+    EXPECT_EQ(groups.rows[1].cells, std::vector<std::string>{"?"});
+    EXPECT_EQ(groupByWork({}).groups, 0u);
+}
+
+// A tenth of the time for each sample and a twentieth of the time to the same error.
+TEST(RunGroups, SpeedUpsAreOfSamplesAndOfTimeToEqualError) {
+    RunRecord cpu = run("ray-tracing-cpu", 16), gpu = run("ray-tracing-gpu", 16);
+    cpu.samplesPerSecond = 1e6;
+    gpu.samplesPerSecond = 1e7;
+    cpu.renderSeconds = 10;
+    gpu.renderSeconds = 1;
+    EXPECT_EQ(compareRuns(cpu, gpu).timeToEqualError, 0); // no error is known
+    cpu.relmse = 0.02;
+    gpu.relmse = 0.01;
+    EXPECT_DOUBLE_EQ(compareRuns(cpu, gpu).samplesPerSecond, 10);
+    EXPECT_DOUBLE_EQ(compareRuns(cpu, gpu).timeToEqualError, 20);
+    EXPECT_FALSE(compareRuns(cpu, gpu).isMeasured);
+    gpu.hasReference = true;
+    EXPECT_EQ(compareRuns(cpu, gpu).timeToEqualError, 0); // an estimate and a measurement are two things
+    cpu.hasReference = true;
+    EXPECT_TRUE(compareRuns(cpu, gpu).isMeasured);
+}
+
+TEST(RunGroups, AReferenceIsToBeThreeTimesAsGoodAsWhatItMeasures) {
+    EXPECT_FALSE(isReferenceTooNoisy(0.09, 0.01));
+    EXPECT_TRUE(isReferenceTooNoisy(0.0899, 0.01));
+    EXPECT_FALSE(isReferenceTooNoisy(0.01, 0)); // nothing is known of it
+}
+
+} // namespace
+} // namespace rt::app
