@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -12,10 +11,10 @@
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Interactive/FilmFiles.h"
 #include "Common/App/Options/Names.h"
+#include "Common/App/OtherProgram.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OwnFolder.h"
-#include "Common/Core/Paths.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/Metrics.h"
 
@@ -27,31 +26,6 @@ using Phase = OtherState::Phase;
 
 constexpr auto kLook = std::chrono::milliseconds(50); // between two looks at the program
 constexpr const char* kProgressSeconds = "0.25";      // between two lines of its progress
-
-std::string textOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
-std::string lastLine(const std::string& text) {
-    std::istringstream lines(text);
-    std::string last;
-    for (std::string line; std::getline(lines, line);)
-        if (!line.empty()) last = line;
-    return last;
-}
-
-fs::path programFile(const fs::path& folder, const std::string& program) {
-    const fs::path own = executablePath();
-    fs::path file = (folder.empty() ? own.parent_path() : folder) / program;
-    file += own.extension();
-    std::error_code none;
-    if (!fs::is_regular_file(file, none))
-        throw RenderError(file.string() + ": is not there; it is built beside this program");
-    return file;
-}
 
 // What the program tells of its run, on top of what the work is. Throws RenderError, and what a JSON library throws.
 RunRecord recordOf(const OtherJob& job, const std::string& statistics) {
@@ -79,28 +53,13 @@ RunRecord recordOf(const OtherJob& job, const std::string& statistics) {
 } // namespace
 
 std::vector<std::string> argumentsFor(const OtherJob& job, const fs::path& picture, const fs::path& statistics) {
-    const RenderSettings& s = job.settings;
-    std::vector<std::string> list = {"--headless", "--no-config", "--progress-every", kProgressSeconds};
-    const auto add = [&list](const std::string& flag, const std::string& value) {
-        list.push_back(flag);
-        list.push_back(value);
-    };
-    add("--scene", job.scene.source);
-    if (!job.scene.assetsBelow.empty()) add("--assets-below", job.scene.assetsBelow);
-    add("--camera", CameraController::toText(job.camera));
-    add("--width", std::to_string(s.width));
-    add("--height", std::to_string(s.height));
-    add("--spp", std::to_string(s.spp));
-    add("--max-depth", std::to_string(s.maxDepth));
-    add("--seed", std::to_string(s.seed));
-    add("--replicates", std::to_string(s.replicates));
-    forEachMethod([&add](const char* key, const char*, const char*, const auto& table,
-                         const auto& value) { add(flagOf(key), nameOf(table, value)); },
-                  s);
-    add("--one-sided-lights", nameOf(kOnOff, job.scene.oneSidedLights));
-    add("--russian-roulette", nameOf(kOnOff, s.russianRoulette));
-    add("--output", picture.string());
-    add("--stats", statistics.string());
+    std::vector<std::string> list = {"--headless",     "--no-config", "--progress-every",
+                                     kProgressSeconds, "--scene",     job.scene.source};
+    if (!job.scene.assetsBelow.empty()) list.insert(list.end(), {"--assets-below", job.scene.assetsBelow});
+    list.insert(list.end(), {"--camera", CameraController::toText(job.camera), "--one-sided-lights",
+                             nameOf(kOnOff, job.scene.oneSidedLights)});
+    const std::vector<std::string> settings = flagsFor(job.settings, picture, statistics);
+    list.insert(list.end(), settings.begin(), settings.end());
     return list;
 }
 
@@ -161,7 +120,7 @@ void OtherEngine::start(const OtherJob& job) {
 void OtherEngine::work(const OtherJob& job) {
     const OwnFolder own;
     const fs::path picture = own / "picture.pfm", statistics = own / "statistics.json", log = own / "messages.txt";
-    ChildProcess child(programFile(folder, job.program), argumentsFor(job, picture, statistics), log);
+    ChildProcess child(programFile(job.program, folder), argumentsFor(job, picture, statistics), log);
     std::optional<int> code;
     while (!(code = child.exitCode()) && !cancel_) {
         std::this_thread::sleep_for(kLook);

@@ -1,0 +1,21 @@
+// A program of this project that another one runs: where it is, what it is told, what it says.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "Common/App/Session/Settings.h"
+
+namespace rt::app {
+
+// "ray-tracing-cpu" in `folder`, or beside the running program. Throws RenderError where it is not.
+std::filesystem::path programFile(const std::string& name, const std::filesystem::path& folder = {});
+
+// The flags that ask for these settings, but for a forced feature mask; its files besides.
+std::vector<std::string> flagsFor(const RenderSettings& settings, const std::filesystem::path& picture,
+                                  const std::filesystem::path& statistics);
+
+std::string textOf(const std::filesystem::path& file); // empty where there is none
+std::string lastLine(const std::string& text);         // that is not empty
+
+} // namespace rt::app
