@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::size_t kTileValues = std::size_t{Film::kTilePixels} * 3;
 
+constexpr std::size_t kRoom = 4096; // bytes that whoever sends packed tiles may add without a copy
+
 struct Header { // of a tile's state in one replicate
     std::uint32_t tile = 0;
     std::uint32_t replicate = 0;
@@ -113,9 +115,20 @@ std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tile
 }
 
 std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t> tiles) {
-    std::vector<std::byte> bytes;
+    const std::uint32_t replicates = film.desc().replicates;
+    std::size_t size = 0; // may be most of a film: room for it is asked for once
     for (const std::uint32_t tile : tiles) {
-        for (std::uint32_t replicate = 0; replicate < film.desc().replicates; ++replicate) {
+        for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
+            const Film::TileState state = film.state(tile, replicate);
+            size += sizeof(Header) + state.plan.size_bytes();
+            if (state.samples > 0)
+                size += state.sums.size_bytes() + state.squares.size_bytes() + state.open.size_bytes();
+        }
+    }
+    std::vector<std::byte> bytes;
+    bytes.reserve(size + kRoom);
+    for (const std::uint32_t tile : tiles) {
+        for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
             const Film::TileState state = film.state(tile, replicate);
             const Header header{tile, replicate, state.samples, film.hasPlan() ? 1u : 0u};
             append(bytes, std::span(&header, 1));

@@ -1,5 +1,6 @@
 // Ranks over MPI. A library of its own that is loaded when mpirun has started the program, so that the programs run
 // where there is no MPI.
+#include <chrono>
 #include <cstdlib>
 #include <list>
 #include <memory>
@@ -20,6 +21,8 @@
 
 namespace rt::app {
 namespace {
+
+constexpr std::chrono::milliseconds kPush{20};
 
 // MPI's default is to end all ranks when one of its calls fails, so results are not looked at.
 class MpiCommunicator final : public Communicator {
@@ -54,7 +57,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     std::optional<Received> receive() override {
-        forgetSent(); // and lets MPI go on with what is being sent
+        push();
         int arrived = 0;
         MPI_Status status;
         MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &status);
@@ -76,6 +79,14 @@ class MpiCommunicator final : public Communicator {
         Bytes message; // must stay where it is until it is sent
         MPI_Request request = MPI_REQUEST_NULL;
     };
+
+    // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is asleep
+    // between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped.
+    void push() {
+        const auto begin = std::chrono::steady_clock::now();
+        do forgetSent();
+        while (rank_ != 0 && !sending_.empty() && std::chrono::steady_clock::now() - begin < kPush);
+    }
 
     void forgetSent() {
         std::erase_if(sending_, [](Sending& sending) {

@@ -1,13 +1,15 @@
 #include "Common/App/Ranks/Message.h"
 
 #include <cstring>
+#include <utility>
 
 #include "Common/Core/Error.h"
 
 namespace rt::app {
 namespace {
 
-struct Head {
+// Tiles, JSON, and this.
+struct Tail {
     MessageKind kind = MessageKind::End;
     std::uint32_t jsonBytes = 0;
 };
@@ -20,25 +22,29 @@ Message failureMessage(const std::exception& error) {
     return {MessageKind::Failure, {{"code", static_cast<int>(code)}, {"what", error.what()}}, {}};
 }
 
-Bytes toBytes(const Message& message) {
+Bytes toBytes(Message message) {
     const std::string json = message.fields.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    const Head head{message.kind, static_cast<std::uint32_t>(json.size())};
-    Bytes bytes(sizeof head + json.size() + message.tiles.size());
-    std::memcpy(bytes.data(), &head, sizeof head);
-    std::memcpy(bytes.data() + sizeof head, json.data(), json.size());
-    if (!message.tiles.empty())
-        std::memcpy(bytes.data() + sizeof head + json.size(), message.tiles.data(), message.tiles.size());
+    const Tail tail{message.kind, static_cast<std::uint32_t>(json.size())};
+    Bytes bytes = std::move(message.tiles);
+    const std::size_t tiles = bytes.size();
+    bytes.resize(tiles + json.size() + sizeof tail);
+    std::memcpy(bytes.data() + tiles, json.data(), json.size());
+    std::memcpy(bytes.data() + tiles + json.size(), &tail, sizeof tail);
     return bytes;
 }
 
-Message toMessage(const Bytes& bytes) {
-    Head head;
-    if (bytes.size() < sizeof head) throw RenderError("a message of another rank is damaged");
-    std::memcpy(&head, bytes.data(), sizeof head);
-    if (bytes.size() - sizeof head < head.jsonBytes) throw RenderError("a message of another rank is damaged");
-    const char* const json = reinterpret_cast<const char*>(bytes.data() + sizeof head);
-    const auto tiles = bytes.begin() + static_cast<std::ptrdiff_t>(sizeof head + head.jsonBytes);
-    return {head.kind, nlohmann::json::parse(json, json + head.jsonBytes), Bytes(tiles, bytes.end())};
+Message toMessage(Bytes bytes) {
+    Tail tail;
+    const auto fail = [] { throw RenderError("a message of another rank is damaged"); };
+    if (bytes.size() < sizeof tail) fail();
+    const std::size_t end = bytes.size() - sizeof tail;
+    std::memcpy(&tail, bytes.data() + end, sizeof tail);
+    if (end < tail.jsonBytes) fail();
+    const char* const json = reinterpret_cast<const char*>(bytes.data() + end - tail.jsonBytes);
+    Message message{tail.kind, nlohmann::json::parse(json, json + tail.jsonBytes), {}};
+    bytes.resize(end - tail.jsonBytes);
+    message.tiles = std::move(bytes);
+    return message;
 }
 
 nlohmann::json toJson(const EngineReport& report) {

@@ -28,8 +28,9 @@ struct Message {
 
 Message failureMessage(const std::exception& error);
 
-Bytes toBytes(const Message& message);
-Message toMessage(const Bytes& bytes); // throws RenderError for what is none
+// Tiles may be most of a film: their bytes are moved, not copied.
+Bytes toBytes(Message message);
+Message toMessage(Bytes bytes); // throws RenderError for what is none
 
 nlohmann::json toJson(const EngineReport& report);
 EngineReport toReport(const nlohmann::json& json);

@@ -146,7 +146,7 @@ const image::Film& RankedEngine::film() {
 
 void RankedEngine::send(std::size_t rank, Message message) {
     if (rank == 0) return localRank_->send(std::move(message));
-    Bytes bytes = toBytes(message);
+    Bytes bytes = toBytes(std::move(message));
     states_[rank].figures.bytes += bytes.size();
     ranks_.send(static_cast<int>(rank), std::move(bytes));
 }
@@ -160,10 +160,10 @@ bool RankedEngine::receiveAll() {
         receive(0, *message);
         any = true;
     }
-    while (const std::optional<Received> received = ranks_.receive()) {
+    while (std::optional<Received> received = ranks_.receive()) {
         const auto rank = static_cast<std::size_t>(received->from);
         states_[rank].figures.bytes += received->message.size();
-        receive(rank, toMessage(received->message));
+        receive(rank, toMessage(std::move(received->message)));
         any = true;
     }
     return any;

@@ -44,8 +44,8 @@ void endRanks(Communicator& ranks, int exitCode, const char* failure = nullptr) 
             if (failure != nullptr) logWarning(failure);
             ranks.abort(exitCode);
         }
-        if (const auto received = ranks.receive()) {
-            if (toMessage(received->message).kind == MessageKind::Bye)
+        if (auto received = ranks.receive()) {
+            if (toMessage(std::move(received->message)).kind == MessageKind::Bye)
                 hasLeft[static_cast<std::size_t>(received->from)] = true;
         } else {
             std::this_thread::sleep_for(kPollInterval);
@@ -55,8 +55,8 @@ void endRanks(Communicator& ranks, int exitCode, const char* failure = nullptr) 
 
 void waitForEnd(Communicator& ranks) {
     for (;;) {
-        const auto received = ranks.receive();
-        if (received && toMessage(received->message).kind == MessageKind::End) return;
+        auto received = ranks.receive();
+        if (received && toMessage(std::move(received->message)).kind == MessageKind::End) return;
         if (!received) std::this_thread::sleep_for(kPollInterval);
     }
 }

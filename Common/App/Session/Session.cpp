@@ -82,11 +82,11 @@ class HeadlessRender {
         load();
         engine_ = makeEngine();
         engine_->setScene(scene_, nullptr);
-        const RankLink link{[this](const Message& message) { ranks_->send(0, toBytes(message)); },
+        const RankLink link{[this](Message message) { ranks_->send(0, toBytes(std::move(message))); },
                             [this]() -> std::optional<Message> {
-                                const std::optional<Received> received = ranks_->receive();
+                                std::optional<Received> received = ranks_->receive();
                                 if (!received) return std::nullopt;
-                                return toMessage(received->message);
+                                return toMessage(std::move(received->message));
                             }};
         serveLeases(*engine_, *scene_, options_.settings, link);
     }
