@@ -85,8 +85,8 @@ constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian 
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
                                         kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
 
-constexpr std::uint32_t kAssetFeatures = kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureImages |
-                                         kFeatureSkyImage | kFeaturePunctualLights;
+constexpr std::uint32_t kAssetFeatures =
+    kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
 constexpr std::uint32_t kBookFeatures =
     kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeaturePunctualLights | kFreeFeatures);
 

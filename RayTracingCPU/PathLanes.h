@@ -37,8 +37,7 @@ struct FieldsOf<PrincipledLobes>
 
 // Omitted: what only kernels with principled materials keep, in PathLanes::lobes.
 template <>
-struct FieldsOf<Bsdf>
-    : Fields<FieldList<&Bsdf::kind, &Bsdf::albedo, &Bsdf::parameter>, FieldList<&Bsdf::lobes>> {};
+struct FieldsOf<Bsdf> : Fields<FieldList<&Bsdf::kind, &Bsdf::albedo, &Bsdf::parameter>, FieldList<&Bsdf::lobes>> {};
 
 template <>
 struct FieldsOf<Vertex>

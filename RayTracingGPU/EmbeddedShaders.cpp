@@ -21,9 +21,9 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Preview.comp.h>
 #include <Preview.frag.h>
 #include <Preview.vert.h>
+#include <RayTracing.Full.rgen.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
-#include <RayTracing.Full.rgen.h>
 #include <RayTracing.Quad.rchit.h>
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>

@@ -73,8 +73,16 @@ class App {
           imgui_(window_, device_, presenter_.renderPass(), presenter_.imageCount(), layoutFile(options)),
           history_(historyFile(options)),
           session_(sessionSetup(options, program, settings_, device_, history_, isNews_)),
-          gui_{session_,       settings_, camera_, history_, window_, thumbnails_, options.program == app::kGpuProgram,
-               program.devices, other_, options.assetsBelow} {
+          gui_{session_,
+               settings_,
+               camera_,
+               history_,
+               window_,
+               thumbnails_,
+               options.program == app::kGpuProgram,
+               program.devices,
+               other_,
+               options.assetsBelow} {
         gui_.showFirstSteps = !std::exchange(settings_.sawFirstSteps, true);
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }

@@ -1,9 +1,8 @@
 #include "Common/Gui/Fonts.h"
 
+#include <UiFont.h>
 #include <algorithm>
 #include <iterator>
-
-#include <UiFont.h>
 
 namespace rt::gui {
 namespace {

@@ -64,8 +64,8 @@ struct Gui {
     std::vector<app::RunRecord> runsToDelete; // before the next frame draws any
     bool otherIsWanted = false;               // as soon as this render has ended
     std::uint64_t otherSerial = 0;            // of the picture of the other program that was pinned
-    Rect chart;                  // of the comparison, in the window's units
-    bool chartRequested = false; // as a file
+    Rect chart;                               // of the comparison, in the window's units
+    bool chartRequested = false;              // as a file
     UiFigures figures;
     bool showHelp = false;
     std::string revealPanel;  // id of one to bring to where it is seen

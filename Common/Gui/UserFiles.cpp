@@ -29,8 +29,7 @@ WindowPlace placeOf(const app::GuiSettings& settings) {
             settings.windowHeight, settings.windowPlaced, settings.windowMaximised};
 }
 
-KeptSettings::KeptSettings(const app::Options& options)
-    : file_(userFile(options, options.program + ".json")) {
+KeptSettings::KeptSettings(const app::Options& options) : file_(userFile(options, options.program + ".json")) {
     if (!file_.empty()) settings = app::loadGuiSettings(file_);
     override(settings, options);
     stored_ = settings;

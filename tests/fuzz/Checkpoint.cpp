@@ -1,11 +1,12 @@
 // Checkpoints, as they are and with hashes that fit: else no mutation would get past those. What is read can be written
 // and has the same bytes.
+#include "Common/Image/Checkpoint.h"
+
 #include <cstring>
 #include <span>
 #include <sstream>
 
 #include "Common/Core/Hash.h"
-#include "Common/Image/Checkpoint.h"
 #include "tests/fuzz/Fuzz.h"
 
 namespace {

@@ -306,9 +306,9 @@ TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
 TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
     Uniforms uniform(12);
     const std::pair<Bsdf, uint> materials[] = {{lambertian(), kFeatureLambertian},
-                                                   {metal(0), kFeatureMetal},
-                                                   {metal(0.3f), kFeatureMetal | kFeatureFuzz},
-                                                   {glass(1.5f), kFeatureDielectric}};
+                                               {metal(0), kFeatureMetal},
+                                               {metal(0.3f), kFeatureMetal | kFeatureFuzz},
+                                               {glass(1.5f), kFeatureDielectric}};
     for (const auto& [material, features] : materials) {
         for (int i = 0; i < 100; ++i) {
             const vec2 u = uniform.pair();
@@ -317,8 +317,7 @@ TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
             const BsdfSample b = sampleBsdf(kFeatureAll, material, kUp, 1, wo, u, u.x);
             ASSERT_EQ(a.wi, b.wi);
             ASSERT_EQ(a.pdf, b.pdf);
-            ASSERT_EQ(evalBsdf(features, material, kUp, wo, a.wi),
-                      evalBsdf(kFeatureAll, material, kUp, wo, a.wi));
+            ASSERT_EQ(evalBsdf(features, material, kUp, wo, a.wi), evalBsdf(kFeatureAll, material, kUp, wo, a.wi));
         }
     }
 }

@@ -89,11 +89,10 @@ TEST_P(Materials, SurviveASceneFile) {
             material[p.name] = test::sample(p, PrincipledDesc().*member);
         });
     const Json check = {{"type", "checker"}, {"scale", 1}, {"even", {1, 0, 0}}, {"odd", {0, 1, 0}}};
-    const Json file = {
-        {"version", 1},
-        {"textures", {{"check", check}, {"other", check}}},
-        {"materials", {{"it", material}}},
-        {"objects", {{{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"material", "it"}}}}};
+    const Json file = {{"version", 1},
+                       {"textures", {{"check", check}, {"other", check}}},
+                       {"materials", {{"it", material}}},
+                       {"objects", {{{"type", "sphere"}, {"center", {0, 0, 0}}, {"radius", 1}, {"material", "it"}}}}};
     const SceneDesc scene = parseScene(file.dump(), "test.json", {});
     EXPECT_EQ(parseScene(toJson(scene), "test.json", {}), scene);
     EXPECT_EQ(Json::parse(toJson(scene))["materials"]["it"], material);

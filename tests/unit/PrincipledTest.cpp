@@ -97,9 +97,7 @@ TEST_P(PrincipledCases, AreSampledAsTheirDensitySays) {
         for (const double cosine : {0.95, 0.6, 0.2}) {
             const vec3 wo = outgoing(cosine);
             const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(0.2f, 0.5f, 0.9f), wo);
-            const auto density = [&](double u, double v) {
-                return double(eval(b, wo, vec3(test::onSphere(u, v))).w);
-            };
+            const auto density = [&](double u, double v) { return double(eval(b, wo, vec3(test::onSphere(u, v))).w); };
             const std::vector<double> expected = test::cellMasses(density);
             const double integral = std::accumulate(expected.begin(), expected.end(), 0.0);
             std::vector<std::uint64_t> counts(expected.size());

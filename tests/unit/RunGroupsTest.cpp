@@ -26,11 +26,13 @@ RunRecord run(const std::string& app, std::uint64_t spp) {
 }
 
 bool isSaidOnce(const RunGroups& groups, const std::string& title) {
-    return std::any_of(groups.common.begin(), groups.common.end(), [&](const WorkField& f) { return f.title == title; });
+    return std::any_of(groups.common.begin(), groups.common.end(),
+                       [&](const WorkField& f) { return f.title == title; });
 }
 
 TEST(RunGroups, WhatDiffersIsAColumnAndEqualWorkStandsTogether) {
-    const RunRecord cpu = run("ray-tracing-cpu", 16), more = run("ray-tracing-cpu", 64), gpu = run("ray-tracing-gpu", 16);
+    const RunRecord cpu = run("ray-tracing-cpu", 16), more = run("ray-tracing-cpu", 64),
+                    gpu = run("ray-tracing-gpu", 16);
     RunRecord moved = run("ray-tracing-cpu", 64);
     moved.camera = "{\"look_from\":[0,0,2]}";
     const RunGroups groups = groupByWork({&cpu, &more, &moved, &gpu});

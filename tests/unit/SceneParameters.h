@@ -53,8 +53,7 @@ inline Json sample(const SceneParameter& p, const std::optional<std::uint32_t>&)
     return sample(p, 0u);
 }
 template <typename Enumeration>
-    requires std::is_enum_v<Enumeration>
-Json sample(const SceneParameter& p, Enumeration) {
+requires std::is_enum_v<Enumeration> Json sample(const SceneParameter& p, Enumeration) {
     return p.choices().back();
 }
 
@@ -95,8 +94,7 @@ inline Json schemaOf(const SceneParameter& p, std::uint32_t usual) {
     return schema;
 }
 template <typename Enumeration>
-    requires std::is_enum_v<Enumeration>
-Json schemaOf(const SceneParameter& p, Enumeration) {
+requires std::is_enum_v<Enumeration> Json schemaOf(const SceneParameter& p, Enumeration) {
     return {{"enum", p.choices()}};
 }
 

@@ -46,7 +46,7 @@ struct RenderRequest {
     // Per pixel. Accumulated: a frame is shown when it has so many more samples, or after half a second; frames of an
     // old sum may have more. 0: as many as there is time for between two frames.
     std::uint32_t samplesPerFrame = 25;
-    bool loop = false;               // begin again when done, with the next seed
+    bool loop = false; // begin again when done, with the next seed
     // Budgets: what is reached first ends the film, of which only its samples must be bounded.
     std::optional<double> timeLimit;   // seconds of sampling
     std::optional<double> targetError; // estimated relMSE
@@ -123,7 +123,7 @@ struct SessionState {
     EngineReport report;
     std::optional<LastRun> lastRun;
 
-    std::string reference;           // what it is; empty: there is none
+    std::string reference; // what it is; empty: there is none
     std::shared_ptr<const image::Image> referenceImage;
     double referenceError = 0;       // its own relMSE, estimated; 0: not known
     bool referenceFits = false;      // it is of this scene, camera, size and depth

@@ -56,7 +56,7 @@ class OtherEngine {
     OtherEngine(const OtherEngine&) = delete;
     OtherEngine& operator=(const OtherEngine&) = delete;
 
-    void start(const OtherJob& job); // does nothing while one runs
+    void start(const OtherJob& job);  // does nothing while one runs
     void cancel() { cancel_ = true; } // ends the program soon
     void close();                     // and waits for that
     OtherState state() const;

@@ -63,8 +63,8 @@ class RunHistory {
 
     std::filesystem::path file_;
     std::vector<RunRecord> records_;
-    std::mutex mutex_;                 // guards what follows
-    std::vector<RunRecord> unfiled_;   // without a file: appended and not in the records yet
+    std::mutex mutex_;               // guards what follows
+    std::vector<RunRecord> unfiled_; // without a file: appended and not in the records yet
     std::filesystem::file_time_type readTime_{};
     std::uintmax_t readSize_ = 0;
     bool wasRead_ = false;

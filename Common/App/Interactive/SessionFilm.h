@@ -32,12 +32,12 @@ class SessionFilm {
     // The film goes on with another number of samples or other budgets, from the samples that it has. False: what is
     // asked for is another film.
     bool goOn(const FilmSubject& subject);
-    void discard();   // which the engine does not hold any more
+    void discard(); // which the engine does not hold any more
 
     bool isStale() const { return isStale_; } // another is wanted, or there is none
     bool hasSamples() const { return run_ && run_->status().samplesDone > 0; }
     bool isFinished() const { return run_ && run_->status().finished; } // it has all its samples
-    bool hasFirstSamples() const; // of all pixels, and is not stale
+    bool hasFirstSamples() const;                                       // of all pixels, and is not stale
     const std::optional<FilmRun>& run() const { return run_; }
 
     // A film is not begun where its draft has been seen and the camera moves on; this does it.

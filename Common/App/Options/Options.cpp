@@ -66,11 +66,13 @@ void addScene(FlagSet& flags, Parsed& parsed) {
     flags
         .add("--scene", "S", "id of --list-scenes, a .json scene, an .obj, .gltf or .glb file",
              [&options](const std::string& flag, const std::string& text) {
-                 if (text.empty()) refuseValue(flag, text, "an id of --list-scenes, a .json scene, an .obj, .gltf or .glb file");
+                 if (text.empty())
+                     refuseValue(flag, text, "an id of --list-scenes, a .json scene, an .obj, .gltf or .glb file");
                  options.scene = text;
              })
         ->default_str(options.scene);
-    flags.add("--camera", "POSE", "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...; or the name of one "
+    flags.add("--camera", "POSE",
+              "in place of the scene's, as a window copies it: JSON of look_from, look_at, ...; or the name of one "
               "of the scene's cameras",
               [&options](const std::string& flag, const std::string& text) {
                   if (text.empty()) refuseValue(flag, text, "a pose as JSON, or the name of a camera");

@@ -61,7 +61,7 @@ class FilmRun {
     const RenderSettings& settings() const { return settings_; }
     const RenderStatus& status() const { return status_; }
     std::uint64_t pixels() const { return std::uint64_t{settings_.width} * settings_.height; }
-    EngineReport report() const; // the engine's, with rays and samples of the whole run
+    EngineReport report() const;                // the engine's, with rays and samples of the whole run
     double seconds() const { return seconds_; } // of sampling alone: neither checkpoints nor error estimates
     std::uint64_t samplesRestored() const { return samplesRestored_; } // over all pixels, of the film it went on from
     ProgressState progress() const;

@@ -13,11 +13,11 @@ namespace rt::gui {
 inline bool isGpuRun(const app::RunRecord& run) {
     return run.app == app::kGpuProgram;
 }
-std::string engineText(const app::RunRecord& run);             // "CPU multi, 8 threads"
-std::string errorText(double value);                           // "1.23e-04"; "-": not known
-std::string errorKind(const app::RunRecord& run);              // "measured", "estimated"; empty: there is none
-std::string whatErrorKindMeans(const app::RunRecord& run);     // a sentence
-std::string runDetails(const app::RunRecord& run);             // what no column shows
-Mark markOf(const std::string& lightSampling);                 // of an estimator
+std::string engineText(const app::RunRecord& run);         // "CPU multi, 8 threads"
+std::string errorText(double value);                       // "1.23e-04"; "-": not known
+std::string errorKind(const app::RunRecord& run);          // "measured", "estimated"; empty: there is none
+std::string whatErrorKindMeans(const app::RunRecord& run); // a sentence
+std::string runDetails(const app::RunRecord& run);         // what no column shows
+Mark markOf(const std::string& lightSampling);             // of an estimator
 
 } // namespace rt::gui

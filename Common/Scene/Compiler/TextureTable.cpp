@@ -158,7 +158,8 @@ TexelData TextureTable::load(const ImageTexture& source) {
 }
 
 std::uint32_t TextureTable::image(const ImageTexture& source) {
-    const std::string key = source.file + '\n' + source.standIn + '\n' + (source.image ? std::to_string(*source.image) : "") +
+    const std::string key = source.file + '\n' + source.standIn + '\n' +
+                            (source.image ? std::to_string(*source.image) : "") +
                             (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
     const auto [entry, isNew] = images_.try_emplace(key, shared::kNone);
     if (!isNew) return entry->second;
@@ -174,7 +175,8 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
         for (std::uint32_t& word : data.words)
             word = shared::floatBitsToUint(static_cast<float>(srgbDecode(shared::uintBitsToFloat(word))));
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
-    if (out_.texels.size() > shared::kNone) throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
+    if (out_.texels.size() > shared::kNone)
+        throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
     return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
 }

@@ -50,7 +50,7 @@ class ParameterReader {
                             : references_.file(at(p), record_.has("stand_in"));
     }
     template <typename Enumeration>
-        requires std::is_enum_v<Enumeration>
+    requires std::is_enum_v<Enumeration>
     void read(const SceneParameter& p, Enumeration& value) const {
         value = enumeration<Enumeration>(at(p), p.choices());
     }

@@ -16,7 +16,7 @@ struct SceneParameter {
     double least = -kLargest; // numbers
     double most = kLargest;
     const std::vector<std::string>& (*choices)() = nullptr; // strings; enumerations, in the order of their values
-    const char* section = nullptr; // strings: the name of one of its members instead
+    const char* section = nullptr;                          // strings: the name of one of its members instead
 };
 
 inline constexpr double kSmallest = 1 / kLargest;

@@ -75,9 +75,9 @@ struct TextureType<ImageTexture> {
     static void forEachParameter(const Visit& visit) {
         visit(SceneParameter{"file", true}, &ImageTexture::file);
         visit(SceneParameter{.name = "stand_in",
-                               .isRequired = false,
-                               .help = "a generated map for when the file is missing",
-                               .choices = planetMapNames},
+                             .isRequired = false,
+                             .help = "a generated map for when the file is missing",
+                             .choices = planetMapNames},
               &ImageTexture::standIn);
         visit(SceneParameter{"tint", false}, &ImageTexture::tint);
         visit(SceneParameter{"image", false, "its number, where the file is one of glTF", 0, kMaxImages},

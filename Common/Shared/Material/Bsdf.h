@@ -18,7 +18,7 @@ RT_FN Bsdf makeBsdf(RT_IN(Material) m, vec3 albedo) {
 // isLambertian(features, m), and so on. Kinds that the scene lacks are false by `features` alone, which keeps them out
 // of the code.
 #define RT_IS_KIND(Name, kind_, bit, name, help, parameters)     \
-    RT_FN bool is##Name(uint features, RT_IN(Bsdf) m) {      \
+    RT_FN bool is##Name(uint features, RT_IN(Bsdf) m) {          \
         return has(features, kFeature##Name) && m.kind == kind_; \
     }
 #define RT_NOTHING(Name, kind_, name, help, parameters)

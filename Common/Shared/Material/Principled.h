@@ -18,7 +18,7 @@ RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
 #ifdef RT_FULL
 
 const float kLeastSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
-const float kCoatReflectance = 0.04f; // of a clear coat at normal incidence
+const float kCoatReflectance = 0.04f;     // of a clear coat at normal incidence
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -36,7 +36,8 @@ RT_FN bool isMirror(float alpha) {
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
 // for the exponent 1 / roughness^2.
 RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
-    float density = (2.0f + exponent) * 0.5f * kInvPi * exponential(0.5f * exponent * log1p(-min(square(h.z), 0.999999f)));
+    float density =
+        (2.0f + exponent) * 0.5f * kInvPi * exponential(0.5f * exponent * log1p(-min(square(h.z), 0.999999f)));
     return density / (4.0f * (wo.z + wi.z - wo.z * wi.z));
 }
 

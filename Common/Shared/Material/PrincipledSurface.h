@@ -95,7 +95,8 @@ RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
 }
 
 // The shading normal that a map asks for, on the side of `shading`; `facing` is 1 on the front and -1 on the back.
-RT_FN vec3 mappedNormal(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading, float facing) {
+RT_FN vec3 mappedNormal(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
+                        float facing) {
     if (!has(features, kTexturedFeatures) || p.normalTexture == kNone || s.tangent.w == 0.0f) return shading;
     vec3 tangent = vec3(s.tangent) - shading * dot(vec3(s.tangent), shading);
     float length2 = dot(tangent, tangent);
@@ -196,7 +197,8 @@ vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
 vec3 mappedNormal(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing) {
     return shading;
 }
-PrincipledLobes makeLobes(uint features, SceneRef scene, Principled p, Surface s, vec3 albedo, float cosine, bool front) {
+PrincipledLobes makeLobes(uint features, SceneRef scene, Principled p, Surface s, vec3 albedo, float cosine,
+                          bool front) {
     return noLobes();
 }
 

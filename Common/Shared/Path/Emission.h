@@ -34,8 +34,7 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
 }
 
 // Emitted radiance at a point of a surface with this material, both sides alike.
-RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv,
-                            vec2 uv2) {
+RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv, vec2 uv2) {
     if (material.emissionTexture == kNone) return material.emission;
     return material.emission *
            vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));

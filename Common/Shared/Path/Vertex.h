@@ -34,7 +34,8 @@ RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint tex
 RT_FN vec3 surfaceAlbedo(uint features, SceneRef scene, RT_IN(Material) material, RT_IN(Surface) s) {
     vec3 albedo = material.albedo;
     if (has(features, kTexturedFeatures) && material.texture != kNone) {
-        albedo = vec3(evalTexture(features, scene, material.texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2));
+        albedo =
+            vec3(evalTexture(features, scene, material.texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2));
     }
     if (isPrincipled(features, material)) albedo = clamp(albedo * vec3(s.color), vec3(0.0f), vec3(1.0f));
     return albedo;
