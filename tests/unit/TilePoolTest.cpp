@@ -1,5 +1,6 @@
 // How tiles are shared out, in a simulation: ranks take the time that their speed says.
 #include <algorithm>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <set>
@@ -32,7 +33,9 @@ class Simulation {
     double run(const std::function<void()>& afterEach = {}) {
         double now = 0;
         while (!pool_.isDone()) {
-            for (std::size_t rank = 0; rank < busy_.size(); ++rank) give(rank, now);
+            for (std::size_t rank = 0; rank < busy_.size(); ++rank)
+                if (!pool_.isLeased(rank)) give(rank, now);
+            for (std::size_t rank = 0; rank < busy_.size(); ++rank) give(rank, now); // ahead
             const auto next = std::min_element(busy_.begin(), busy_.end(),
                                                [](const Busy& a, const Busy& b) { return a.until < b.until; });
             if (now > 1e4) return kNever;
@@ -48,39 +51,59 @@ class Simulation {
 
   private:
     struct Busy {
-        Lease lease;
+        std::deque<Lease> leases; // it works at the first
         double since = 0, until = kNever;
     };
 
     void give(std::size_t rank, double now) {
         Busy& busy = busy_[rank];
-        if (pool_.isLeased(rank)) return;
         const auto lease = pool_.lease(rank, kLeast, now);
         if (!lease) return;
-        busy = {*lease, now, kNever};
+        if (const auto recalled = pool_.recalled()) takeBack(*recalled, now);
+        busy.leases.push_back(*lease);
+        if (busy.leases.size() == 1) begin(rank, now);
+    }
+
+    void takeBack(const Recalled& recalled, double now) {
+        std::deque<Lease>& leases = busy_[recalled.rank].leases;
+        ASSERT_EQ(leases.size(), 2u);
+        ASSERT_EQ(leases.back().id, recalled.id);
+        leases.pop_back();
+        pool_.giveBack(recalled.rank, recalled.id, 0, 0, now);
+    }
+
+    void begin(std::size_t rank, double now) {
+        Busy& busy = busy_[rank];
+        busy.since = now;
+        busy.until = kNever;
+        if (busy.leases.empty()) return;
+        const Lease& lease = busy.leases.front();
         double samples = 0;
-        for (const std::uint32_t tile : lease->tiles) samples += 1.0 * (lease->spp - film_.samples(tile));
+        for (const std::uint32_t tile : lease.tiles)
+            samples += std::max(0.0, 1.0 * lease.spp - static_cast<double>(film_.samples(tile)));
         const double seconds = samples * Film::kTilePixels / speed_(rank, now);
-        if (seconds < kNever) busy.until = now + std::min(seconds, lease->seconds);
+        if (seconds < kNever) busy.until = now + std::min(seconds, lease.seconds);
     }
 
     // What fits into the time of the lease, in whole blocks, of all of its tiles.
     void finish(std::size_t rank, double now) {
         Busy& busy = busy_[rank];
+        const Lease lease = busy.leases.front();
+        busy.leases.pop_front();
         const double perTile = speed_(rank, busy.since) * (now - busy.since) / Film::kTilePixels /
-                               static_cast<double>(busy.lease.tiles.size());
+                               static_cast<double>(lease.tiles.size());
         std::uint64_t made = 0;
-        for (const std::uint32_t tile : busy.lease.tiles) {
+        for (const std::uint32_t tile : lease.tiles) {
             const auto before = static_cast<std::uint32_t>(film_.samples(tile));
             const double reached = before + perTile * (1 + 1e-9);
-            std::uint32_t samples = busy.lease.spp;
+            std::uint32_t samples = lease.spp;
             if (reached < samples) samples = static_cast<std::uint32_t>(reached) / Film::kBlock * Film::kBlock;
             if (samples <= before) continue;
             film_.assign(tile, 0, {samples, sums_, {}, {}});
             made += std::uint64_t{samples - before} * Film::kTilePixels;
         }
-        pool_.giveBack(rank, made, now - busy.since);
-        busy.until = kNever;
+        pool_.giveBack(rank, lease.id, made, now - busy.since, now);
+        begin(rank, now);
     }
 
     std::uint32_t spp_;
@@ -159,7 +182,7 @@ TEST(TilePool, GoesOnToAPlan) {
         while (!pool.isDone()) {
             const auto lease = pool.lease(1, 2, now);
             ASSERT_TRUE(lease);
-            pool.giveBack(1, render(*lease), 1);
+            pool.giveBack(1, lease->id, render(*lease), 1, now);
         }
     };
     work();
@@ -173,7 +196,7 @@ TEST(TilePool, GoesOnToAPlan) {
     EXPECT_TRUE(pool.isLeased(0)); // it gets no other before it answers
     work();
     for (const std::uint32_t tile : all) EXPECT_EQ(film.samples(tile, 1), kPilot / 2 + tile % 3) << tile;
-    pool.giveBack(0, 0, 200);
+    pool.giveBack(0, stuck->id, 0, 200, now);
     EXPECT_FALSE(pool.lease(0, 2, now));
     EXPECT_TRUE(pool.isDone());
 }
@@ -191,7 +214,7 @@ TEST(TilePool, CopiesThatComeBackUnfinishedAreMadeAnew) {
         const std::uint32_t tile = lease->tiles[static_cast<std::size_t>(recalls) % lease->tiles.size()];
         const std::uint32_t samples = film.samples(tile, 0) + (film.samples(tile, 0) < lease->spp ? Film::kBlock : 0);
         film.assign(tile, 0, {samples, sums, {}, {}});
-        pool.giveBack(1, Film::kBlock * Film::kTilePixels, 0.2);
+        pool.giveBack(1, lease->id, Film::kBlock * Film::kTilePixels, 0.2, 100);
     }
     EXPECT_EQ(film.minSamples(), 64u);
 }

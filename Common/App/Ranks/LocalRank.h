@@ -1,4 +1,4 @@
-// The rank that rank 0 is itself: its engine, on a thread of its own.
+// The engine of a rank, on a thread of its own, so that it need not wait for messages to other ranks.
 #pragma once
 #include <deque>
 #include <functional>
@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "Common/App/Ranks/RankWorker.h"
+#include "Common/App/Ranks/Ranks.h"
 
 namespace rt::app {
 
@@ -31,7 +32,7 @@ class MessageQueue {
     std::deque<Message> messages_;
 };
 
-// The engine, which has its scene, must be left alone while this exists.
+// The engine, which is as serveLeases() requires, must be left alone while this exists.
 class LocalRank {
   public:
     LocalRank(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings)
@@ -60,5 +61,19 @@ class LocalRank {
     RankLink link_;
     std::thread thread_;
 };
+
+// Takes messages from rank 0 to this rank, and back, until rank 0 ends it.
+inline void connect(LocalRank& rank, Communicator& ranks) {
+    for (bool isEnd = false; !isEnd;) {
+        bool any = false;
+        for (; auto message = rank.receive(); any = true) ranks.send(0, toBytes(std::move(*message)));
+        for (std::optional<Received> received; !isEnd && (received = ranks.receive()); any = true) {
+            Message message = toMessage(std::move(received->message));
+            isEnd = message.kind == MessageKind::End;
+            rank.send(std::move(message));
+        }
+        if (!any) std::this_thread::sleep_for(kPollInterval);
+    }
+}
 
 } // namespace rt::app

@@ -1,6 +1,7 @@
 #include "Common/App/Ranks/RankWorker.h"
 
 #include <chrono>
+#include <deque>
 #include <thread>
 #include <utility>
 
@@ -24,56 +25,81 @@ class Worker {
                      {"height", settings_.height},
                      {"report", toJson(engine_.report())}},
                     {}});
-        for (;;) {
-            const std::optional<Message> message = link_.receive();
-            if (!message) {
-                std::this_thread::sleep_for(kPollInterval);
-            } else if (message->kind == MessageKind::Begin) {
-                begin(message->fields);
-            } else if (message->kind == MessageKind::Lease) {
-                if (!render(*message)) return;
-            } else if (message->kind == MessageKind::End) {
-                return;
-            }
+        while (!isEnd_) {
+            if (!listen() && leases_.empty()) std::this_thread::sleep_for(kPollInterval);
+            if (leases_.empty() || isEnd_) continue;
+            const Message lease = std::move(leases_.front());
+            leases_.pop_front();
+            render(lease);
         }
     }
 
   private:
+    // What has arrived; whether there was anything.
+    bool listen() {
+        bool any = false;
+        for (; std::optional<Message> message = link_.receive(); any = true) {
+            if (message->kind == MessageKind::Begin) begin(message->fields);
+            if (message->kind == MessageKind::Lease) leases_.push_back(std::move(*message));
+            if (message->kind == MessageKind::Recall) recall(message->fields);
+            if (message->kind == MessageKind::End) isEnd_ = true;
+        }
+        return any;
+    }
+
     void begin(const nlohmann::json& fields) {
-        settings_.secondMoments = fields.at("second_moments");
-        settings_.sppIsKnown = fields.at("spp_is_known");
+        const bool secondMoments = fields.at("second_moments"), sppIsKnown = fields.at("spp_is_known");
+        if (secondMoments == settings_.secondMoments && sppIsKnown == settings_.sppIsKnown) return;
+        settings_.secondMoments = secondMoments;
+        settings_.sppIsKnown = sppIsKnown;
         engine_.reset(scene_.camera, settings_);
     }
 
-    // False: that was the end.
-    bool render(const Message& lease) {
+    // One lease, or all. What was not begun goes back at once.
+    void recall(const nlohmann::json& fields) {
+        const auto isMeant = [&fields](std::uint64_t id) { return fields.is_null() || fields.at("id") == id; };
+        isRecalled_ = isRecalled_ || (current_ != 0 && isMeant(current_));
+        std::erase_if(leases_, [&](const Message& lease) {
+            const std::uint64_t id = lease.fields.at("id");
+            if (isMeant(id)) giveBack(id, 0, 0, {});
+            return isMeant(id);
+        });
+    }
+
+    void giveBack(std::uint64_t id, std::uint64_t samples, double busy, Bytes tiles) {
+        link_.send({MessageKind::Result,
+                    {{"id", id}, {"samples", samples}, {"busy", busy}, {"report", toJson(engine_.report())}},
+                    std::move(tiles)});
+    }
+
+    void render(const Message& lease) {
         const Stopwatch watch;
         const image::TileList tiles = lease.fields.at("tiles");
         const double seconds = lease.fields.at("seconds");
+        current_ = lease.fields.at("id");
+        isRecalled_ = false;
         engine_.renderOnly(tiles, lease.fields.at("spp"), lease.tiles);
         const std::uint64_t before = image::totalSamples(engine_.film(), tiles);
-        bool isRecalled = false, isEnd = false;
-        while (!isRecalled && !isEnd && watch.seconds() < seconds) {
+        while (!isRecalled_ && !isEnd_ && watch.seconds() < seconds) {
             if (engine_.renderSome({std::chrono::duration<double>(kSlice), nullptr}).finished) break;
-            if (const std::optional<Message> message = link_.receive()) {
-                isEnd = message->kind == MessageKind::End;
-                isRecalled = message->kind == MessageKind::Recall;
-            }
+            listen();
         }
-        if (isEnd) return false;
-        const image::Film& film = engine_.film();
-        Message result{MessageKind::Result, {}, image::packTiles(film, tiles)};
-        result.fields = {{"samples", image::totalSamples(film, tiles) - before},
-                         {"busy", watch.seconds()},
-                         {"report", toJson(engine_.report())}};
-        link_.send(std::move(result));
-        return true;
+        if (!isEnd_) {
+            const image::Film& film = engine_.film();
+            giveBack(current_, image::totalSamples(film, tiles) - before, watch.seconds(),
+                     image::packTiles(film, tiles));
+        }
+        current_ = 0;
     }
 
     Engine& engine_;
     const scene::CompiledScene& scene_;
     RenderSettings settings_;
     const RankLink& link_;
+    std::deque<Message> leases_; // that it has not begun
+    std::uint64_t current_ = 0;  // the lease that it works at; 0: none
+    bool isRecalled_ = false;    // that one
+    bool isEnd_ = false;
 };
 
 } // namespace

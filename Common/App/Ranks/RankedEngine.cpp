@@ -16,9 +16,10 @@
 namespace rt::app {
 namespace {
 
+constexpr double kStart = 1;                   // seconds that ranks are waited for before the first samples
 constexpr double kRecall = 1;                  // seconds that ranks get to give back what they hold
 constexpr std::uint32_t kTilesOfThread = 8;    // of a lease, at least: its threads end together, nearly
-constexpr std::uint32_t kTilesOfDevice = 1024; // likewise: 65 536 pixels
+constexpr std::uint32_t kTilesOfDevice = 512; // likewise: 32 768 pixels
 
 std::string engineKind(const EngineReport& report) {
     return report.threads > 0 ? "cpu" : report.engine;
@@ -67,6 +68,7 @@ class RankedEngine final : public Engine {
 
     void send(std::size_t rank, Message message);
     bool receiveAll();
+    void awaitReady();
     void receive(std::size_t rank, const Message& message);
     void greet(std::size_t rank, const nlohmann::json& fields);
     void takeResult(std::size_t rank, const Message& message);
@@ -100,6 +102,15 @@ void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& 
     isPart_ = false;
     pool_.reset();
     localRank_.emplace(*local_, *scene_, settings_);
+    awaitReady();
+}
+
+// Time is counted from the first samples on, and all begin together, if nobody takes far longer to get ready.
+void RankedEngine::awaitReady() {
+    const auto isMissing = [](const RankState& state) { return !state.isReady; };
+    const Stopwatch watch;
+    while (!failure_ && watch.seconds() < kStart && std::any_of(states_.begin(), states_.end(), isMissing))
+        if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
 }
 
 RenderStatus RankedEngine::renderSome(const Budget& budget) {
@@ -109,7 +120,9 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
         if (budget.cancel != nullptr && budget.cancel->load(std::memory_order_relaxed)) break;
         const bool isBusy = receiveAll();
         if (failure_) throw *failure_;
-        for (std::size_t rank = 0; rank < states_.size(); ++rank) lease(rank);
+        for (std::size_t rank = 0; rank < states_.size(); ++rank)
+            if (!pool_->isLeased(rank)) lease(rank);
+        for (std::size_t rank = 0; rank < states_.size(); ++rank) lease(rank); // ahead
         if (watch.seconds() >= budget.time.count()) break;
         if (!isBusy) std::this_thread::sleep_for(kPollInterval);
     }
@@ -182,7 +195,7 @@ void RankedEngine::receive(std::size_t rank, const Message& message) {
 // Is thrown by the next renderSome().
 void RankedEngine::fail(std::size_t rank, const Error& error) {
     states_[rank].isReady = false;
-    if (pool_) pool_->giveBack(rank, 0, 0);
+    if (pool_) pool_->giveUp(rank, clock_.seconds());
     if (!failure_) failure_ = error;
 }
 
@@ -217,17 +230,18 @@ void RankedEngine::takeResult(std::size_t rank, const Message& message) {
     const double busy = message.fields.at("busy");
     state.figures.samples += samples;
     state.figures.busySeconds += busy;
-    pool_->giveBack(rank, samples, busy);
+    pool_->giveBack(rank, message.fields.at("id"), samples, busy, clock_.seconds());
 }
 
 void RankedEngine::lease(std::size_t rank) {
     const RankState& state = states_[rank];
-    if (!state.isReady || pool_->isLeased(rank)) return;
+    if (!state.isReady || state.isSilent) return;
     const std::uint32_t least = state.report.threads > 0 ? kTilesOfThread * state.report.threads : kTilesOfDevice;
     const std::optional<Lease> lease = pool_->lease(rank, least, clock_.seconds());
     if (!lease) return;
+    if (const auto& recalled = pool_->recalled()) send(recalled->rank, {MessageKind::Recall, {{"id", recalled->id}}, {}});
     send(rank, {MessageKind::Lease,
-                {{"tiles", lease->tiles}, {"spp", lease->spp}, {"seconds", lease->seconds}},
+                {{"tiles", lease->tiles}, {"spp", lease->spp}, {"seconds", lease->seconds}, {"id", lease->id}},
                 image::packTiles(film_, lease->tiles)});
 }
 

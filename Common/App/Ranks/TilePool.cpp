@@ -1,17 +1,34 @@
 #include "Common/App/Ranks/TilePool.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace rt::app {
 namespace {
 
+constexpr std::size_t kAhead = 2;            // leases that a rank holds at most
 constexpr double kPart = 0.5;                // of what is left for a rank when it asks, that it gets
 constexpr double kLongest = 4;               // seconds, of a lease as expected: what is lost with a rank that dies
 constexpr double kLongestLeast = 1;          // seconds, of the least number of tiles
 constexpr double kPatience = 2;              // times as long as expected a lease may take, and
 constexpr double kLeastPatience = 0.25;      // seconds more
 constexpr std::size_t kMostSlots = 1u << 16; // of a lease: 100 MB, or 200 MB with second moments
+constexpr std::size_t kRun = 16;             // tiles side by side
+
+// Runs from all over the image, so that a lease costs what any other of its size costs.
+image::TileList spread(const image::TileList& tiles) {
+    const std::size_t runs = (tiles.size() + kRun - 1) / kRun;
+    std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(0.618 * static_cast<double>(runs)));
+    while (std::gcd(step, runs) > 1) ++step;
+    image::TileList order;
+    order.reserve(tiles.size());
+    for (std::size_t i = 0; i < runs; ++i) {
+        const std::size_t first = i * step % runs * kRun;
+        for (std::size_t k = first; k < std::min(first + kRun, tiles.size()); ++k) order.push_back(tiles[k]);
+    }
+    return order;
+}
 
 } // namespace
 
@@ -24,9 +41,10 @@ TilePool::TilePool(const image::Film& film, TilePlan plan, std::size_t ranks)
 void TilePool::goOn(TilePlan plan) {
     plan_ = std::move(plan);
     for (Rank& rank : ranks_) {
-        if (!rank.lease) continue;
-        for (const std::uint32_t tile : rank.lease->tiles) --holders_[tile];
-        rank.lease->tiles.clear();
+        for (Lease& lease : rank.leases) {
+            release(lease.tiles);
+            lease.tiles.clear();
+        }
     }
     isDrained_ = false;
     refill();
@@ -68,7 +86,7 @@ void TilePool::refill() {
         while (end <= fewest) end *= 2;
     }
     round_ = static_cast<std::uint32_t>(std::min<std::uint64_t>(end, plan_.spp));
-    for (const std::uint32_t tile : plan_.tiles) enqueue(tile, End::Back);
+    for (const std::uint32_t tile : spread(plan_.tiles)) enqueue(tile, End::Back);
 }
 
 double TilePool::totalRate() const {
@@ -82,18 +100,33 @@ double TilePool::totalRate() const {
     return count == 0 ? 0 : known / static_cast<double>(count) * static_cast<double>(ranks_.size());
 }
 
-void TilePool::keep(std::size_t rank, Lease lease, double now) {
+void TilePool::keep(std::size_t rank, Lease& lease, double now) {
+    lease.id = ++leaseCount_;
     for (const std::uint32_t tile : lease.tiles) ++holders_[tile];
     Rank& holder = ranks_[rank];
-    holder.since = now;
-    holder.lease = std::move(lease);
+    if (holder.leases.empty()) holder.since = now;
+    holder.leases.push_back(lease);
+}
+
+void TilePool::release(const image::TileList& tiles) {
+    for (const std::uint32_t tile : tiles) --holders_[tile];
 }
 
 std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, double now) {
+    recalled_.reset();
+    const std::size_t held = ranks_[rank].leases.size();
+    if (held >= kAhead) return std::nullopt;
+    // The next round begins when others do not hold this one back.
+    if (waiting_.empty() && held == 0) {
+        if (auto taken = takeUnbegun(rank, now)) {
+            keep(rank, *taken, now);
+            return taken;
+        }
+    }
     if (waiting_.empty() && !isDrained_) refill();
     isDrained_ = waiting_.empty();
     if (isDrained_) {
-        auto copy = copyOverdue(now);
+        auto copy = held == 0 ? copyOverdue(now) : std::nullopt;
         if (copy) keep(rank, *copy, now);
         return copy;
     }
@@ -104,7 +137,7 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
         atLeast = kLongestLeast * rate;
     }
     const std::size_t most = std::max<std::size_t>(1, kMostSlots / film_.desc().replicates);
-    Lease lease{{}, 0, 0};
+    Lease lease;
     double samples = 0;
     while (!waiting_.empty() && lease.tiles.size() < most) {
         const Waiting& next = waiting_.front();
@@ -124,14 +157,43 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
     return lease;
 }
 
+double TilePool::expectedSeconds(const Rank& rank, const Lease& lease) const {
+    if (rank.rate <= 0) return (lease.seconds - kLeastPatience) / kPatience;
+    return static_cast<double>(image::missingSamples(film_, lease.tiles, lease.spp)) / rank.rate;
+}
+
+// Of the rank that would begin it last, if `rank`, which has nothing to do, is expected to be done with it before.
+std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
+    std::optional<Lease> taken;
+    double latest = 0; // seconds from now
+    for (std::size_t from = 0; from < ranks_.size(); ++from) {
+        const Rank& holder = ranks_[from];
+        if (holder.leases.size() < 2 || holder.leases.back().tiles.empty()) continue;
+        const Lease& last = holder.leases.back();
+        const double begin =
+            std::max(0.0, holder.since + (holder.leases.front().seconds - kLeastPatience) / kPatience - now);
+        const bool isFaster = expectedSeconds(ranks_[rank], last) < begin + expectedSeconds(holder, last);
+        if (!isFaster || begin < latest) continue;
+        latest = begin;
+        taken = last;
+        recalled_ = Recalled{from, last.id};
+    }
+    if (!taken) return taken;
+    Lease& left = ranks_[recalled_->rank].leases.back();
+    release(left.tiles);
+    left.tiles.clear();
+    taken->seconds = kPatience * expectedSeconds(ranks_[rank], *taken) + kLeastPatience;
+    return taken;
+}
+
 // Of the rank that is most overdue, the tiles that nobody else holds. A copy that comes back unfinished is made anew.
 std::optional<Lease> TilePool::copyOverdue(double now) const {
     std::optional<Lease> copy;
     double most = 0;
     for (const Rank& rank : ranks_) {
-        const double late = rank.lease ? now - rank.since - rank.lease->seconds : 0;
+        const double late = rank.leases.empty() ? 0 : now - rank.since - rank.leases.front().seconds;
         if (late <= most) continue;
-        Lease lease = *rank.lease;
+        Lease lease = rank.leases.front();
         std::erase_if(lease.tiles, [&](std::uint32_t tile) {
             return holders_[tile] > 1 || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
         });
@@ -142,17 +204,23 @@ std::optional<Lease> TilePool::copyOverdue(double now) const {
     return copy;
 }
 
-void TilePool::giveBack(std::size_t rank, std::uint64_t samples, double busy) {
+void TilePool::giveBack(std::size_t rank, std::uint64_t id, std::uint64_t samples, double busy, double now) {
     Rank& holder = ranks_[rank];
-    if (!holder.lease) return;
+    const auto isIt = [id](const Lease& lease) { return lease.id == id; };
+    const auto found = std::find_if(holder.leases.begin(), holder.leases.end(), isIt);
+    if (found == holder.leases.end()) return;
     if (samples > 0 && busy > 0) holder.rate = static_cast<double>(samples) / busy;
-    for (const std::uint32_t tile : holder.lease->tiles) {
-        --holders_[tile];
-        enqueue(tile, End::Front);
-    }
-    holder.lease.reset();
+    if (found == holder.leases.begin()) holder.since = now;
+    const image::TileList tiles = std::move(found->tiles);
+    holder.leases.erase(found);
+    release(tiles);
+    for (const std::uint32_t tile : tiles) enqueue(tile, End::Front);
     isDrained_ = false;
     updateDone();
+}
+
+void TilePool::giveUp(std::size_t rank, double now) {
+    while (isLeased(rank)) giveBack(rank, ranks_[rank].leases.back().id, 0, 0, now);
 }
 
 } // namespace rt::app

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Ranks/RankWorker.h"
+#include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
@@ -82,13 +82,9 @@ class HeadlessRender {
         load();
         engine_ = makeEngine();
         engine_->setScene(scene_, nullptr);
-        const RankLink link{[this](Message message) { ranks_->send(0, toBytes(std::move(message))); },
-                            [this]() -> std::optional<Message> {
-                                std::optional<Received> received = ranks_->receive();
-                                if (!received) return std::nullopt;
-                                return toMessage(std::move(received->message));
-                            }};
-        serveLeases(*engine_, *scene_, options_.settings, link);
+        engine_->reset(scene_->camera, options_.settings);
+        LocalRank rank(*engine_, *scene_, options_.settings);
+        connect(rank, *ranks_);
     }
 
   private:
