@@ -90,8 +90,8 @@ class Simulation {
         Busy& busy = busy_[rank];
         const Lease lease = busy.leases.front();
         busy.leases.pop_front();
-        const double perTile = speed_(rank, busy.since) * (now - busy.since) / Film::kTilePixels /
-                               static_cast<double>(lease.tiles.size());
+        const double perTile =
+            speed_(rank, busy.since) * (now - busy.since) / Film::kTilePixels / static_cast<double>(lease.tiles.size());
         std::uint64_t made = 0;
         for (const std::uint32_t tile : lease.tiles) {
             const auto before = static_cast<std::uint32_t>(film_.samples(tile));

@@ -16,9 +16,9 @@
 namespace rt::app {
 namespace {
 
-constexpr double kStart = 1;                   // seconds that ranks are waited for before the first samples
-constexpr double kRecall = 1;                  // seconds that ranks get to give back what they hold
-constexpr std::uint32_t kTilesOfThread = 8;    // of a lease, at least: its threads end together, nearly
+constexpr double kStart = 1;                  // seconds that ranks are waited for before the first samples
+constexpr double kRecall = 1;                 // seconds that ranks get to give back what they hold
+constexpr std::uint32_t kTilesOfThread = 8;   // of a lease, at least: its threads end together, nearly
 constexpr std::uint32_t kTilesOfDevice = 512; // likewise: 32 768 pixels
 
 std::string engineKind(const EngineReport& report) {
@@ -239,7 +239,8 @@ void RankedEngine::lease(std::size_t rank) {
     const std::uint32_t least = state.report.threads > 0 ? kTilesOfThread * state.report.threads : kTilesOfDevice;
     const std::optional<Lease> lease = pool_->lease(rank, least, clock_.seconds());
     if (!lease) return;
-    if (const auto& recalled = pool_->recalled()) send(recalled->rank, {MessageKind::Recall, {{"id", recalled->id}}, {}});
+    if (const auto& recalled = pool_->recalled())
+        send(recalled->rank, {MessageKind::Recall, {{"id", recalled->id}}, {}});
     send(rank, {MessageKind::Lease,
                 {{"tiles", lease->tiles}, {"spp", lease->spp}, {"seconds", lease->seconds}, {"id", lease->id}},
                 image::packTiles(film_, lease->tiles)});

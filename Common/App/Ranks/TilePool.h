@@ -87,7 +87,7 @@ class TilePool {
     std::uint32_t round_ = 0;            // leads to so many samples
     bool isDrained_ = false;             // no tile can be waiting before one is given back
     bool isDone_ = false;
-    std::uint64_t leaseCount_ = 0;       // so far
+    std::uint64_t leaseCount_ = 0; // so far
     std::optional<Recalled> recalled_;
 };
 
