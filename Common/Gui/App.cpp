@@ -286,7 +286,7 @@ void App::rescue() {
 
 ExitCode runWindow(const app::Options& options, const WindowProgram& program) {
     app::checkOutputs(options); // before hours are spent
-    app::Interrupt interrupt; // longer than the window: a signal while it opens or closes is none that kills
+    app::Interrupt interrupt;   // longer than the window: a signal while it opens or closes is none that kills
     ExitCode code;
     {
         App app(options, program);
