@@ -87,7 +87,7 @@ class App {
         window_.onDrop([this](const std::vector<std::string>& files) { dropped_ = files; });
     }
 
-    ExitCode run();
+    ExitCode run(const std::atomic<bool>& isInterrupted);
 
   private:
     bool isAwake() const;
@@ -126,10 +126,8 @@ class App {
     app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
 };
 
-ExitCode App::run() {
-    app::Interrupt interrupt;
-    interrupt.defer(); // there may be something to write
-    while (!window_.shouldClose() && !interrupt.requested()) {
+ExitCode App::run(const std::atomic<bool>& isInterrupted) {
+    while (!window_.shouldClose() && !isInterrupted) {
         wait();
         turn();
     }
@@ -137,7 +135,7 @@ ExitCode App::run() {
     kept_.keep(window_);
     if (const std::vector<std::string> failures = session_.close(); !failures.empty())
         throw RenderError(failures.front());
-    return interrupt.requested() ? ExitCode::Interrupted : ExitCode::Done;
+    return isInterrupted ? ExitCode::Interrupted : ExitCode::Done;
 }
 
 // Whether something may move by itself.
@@ -288,7 +286,13 @@ void App::rescue() {
 
 ExitCode runWindow(const app::Options& options, const WindowProgram& program) {
     app::checkOutputs(options); // before hours are spent
-    const ExitCode code = App(options, program).run();
+    app::Interrupt interrupt;   // longer than the window: a signal while it opens or closes is none that kills
+    ExitCode code;
+    {
+        App app(options, program);
+        interrupt.defer(); // there may be something to write
+        code = app.run(interrupt.requested());
+    }
     if (const std::uint64_t messages = vulkan::Instance::allValidationMessages(); messages > 0)
         throw RenderError(std::to_string(messages) + " messages of Vulkan's validation");
     return code;

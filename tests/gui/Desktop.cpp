@@ -112,16 +112,17 @@ void Desktop::launch(const std::string& program, const std::vector<std::string>&
 void Desktop::start(const std::string& program, const std::vector<std::string>& arguments) {
     launch(program, arguments);
     window_.clear();
-    ASSERT_TRUE(eventually([&] {
-        if (!isRunning()) return true;
-        window_ = output("DISPLAY=" + display_ + " xdotool search --onlyvisible --pid " + std::to_string(program_));
-        return !window_.empty();
-    }));
+    ASSERT_TRUE(eventually([&] { return !isRunning() || isVisible(); }));
     ASSERT_FALSE(window_.empty()) << log();
     // The scene is there when the title names it.
     ASSERT_TRUE(eventually([&] { return !isRunning() || title().find(" - ") != std::string::npos; }));
     ASSERT_TRUE(isRunning()) << log();
     act("mousemove " + std::to_string(kWidth - 200) + " 300"); // keys go to the window under the pointer
+}
+
+bool Desktop::isVisible() {
+    window_ = output("DISPLAY=" + display_ + " xdotool search --onlyvisible --pid " + std::to_string(program_));
+    return !window_.empty();
 }
 
 bool Desktop::isRunning() {

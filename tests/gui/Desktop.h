@@ -26,6 +26,7 @@ class Desktop : public testing::Test {
     int quit();
     int endBySignal(int signal); // the exit code
     int waitForEnd();            // of the program, by itself: the exit code
+    bool isVisible();            // whether its window is there, from now on the one that is acted on
     bool isRunning();
     std::string log() const; // what the program has written
 

@@ -94,6 +94,13 @@ TEST_P(WindowStateTest, ASignalClosesItAndNothingIsLost) {
     EXPECT_EQ(settings()["ui_scale"], 1.25);
 }
 
+// The window is seen before there is a device to draw it and an engine.
+TEST_P(WindowStateTest, ASignalWhileItOpensEndsIt) {
+    launch(GetParam(), {"--window"});
+    ASSERT_TRUE(eventually([&] { return !isRunning() || isVisible(); }));
+    EXPECT_EQ(endBySignal(SIGTERM), 130) << log();
+}
+
 // There is nothing to fall back to that the user has asked for.
 TEST_P(WindowStateTest, ASceneThatThereIsNoneOfIsToldOnce) {
     launch(GetParam(), {"--scene", "cornel"});
