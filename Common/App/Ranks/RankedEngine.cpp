@@ -69,6 +69,7 @@ class RankedEngine final : public Engine {
     void send(std::size_t rank, Message message);
     bool receiveAll();
     void awaitReady();
+    void receiveWhile(const std::function<bool()>& isWaiting, double seconds);
     void receive(std::size_t rank, const Message& message);
     void greet(std::size_t rank, const nlohmann::json& fields);
     void takeResult(std::size_t rank, const Message& message);
@@ -108,9 +109,7 @@ void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& 
 // Time is counted from the first samples on, and all begin together, if nobody takes far longer to get ready.
 void RankedEngine::awaitReady() {
     const auto isMissing = [](const RankState& state) { return !state.isReady; };
-    const Stopwatch watch;
-    while (!failure_ && watch.seconds() < kStart && std::any_of(states_.begin(), states_.end(), isMissing))
-        if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
+    receiveWhile([&] { return !failure_ && std::any_of(states_.begin(), states_.end(), isMissing); }, kStart);
 }
 
 RenderStatus RankedEngine::renderSome(const Budget& budget) {
@@ -150,9 +149,8 @@ const image::Film& RankedEngine::film() {
         send(rank, {MessageKind::Recall, nullptr, {}});
         awaited.push_back(rank);
     }
-    const Stopwatch watch;
-    while (std::erase_if(awaited, std::not_fn(isAwaited)), !awaited.empty() && watch.seconds() < kRecall)
-        if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
+    const auto isAnyAwaited = [&] { return std::erase_if(awaited, std::not_fn(isAwaited)), !awaited.empty(); };
+    receiveWhile(isAnyAwaited, kRecall);
     for (const std::size_t rank : awaited) states_[rank].isSilent = true;
     return film_;
 }
@@ -180,6 +178,13 @@ bool RankedEngine::receiveAll() {
         any = true;
     }
     return any;
+}
+
+// For so many seconds at most.
+void RankedEngine::receiveWhile(const std::function<bool()>& isWaiting, double seconds) {
+    const Stopwatch watch;
+    while (isWaiting() && watch.seconds() < seconds)
+        if (!receiveAll()) std::this_thread::sleep_for(kPollInterval);
 }
 
 void RankedEngine::receive(std::size_t rank, const Message& message) {

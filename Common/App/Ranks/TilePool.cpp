@@ -16,6 +16,14 @@ constexpr double kLeastPatience = 0.25;      // seconds more
 constexpr std::size_t kMostSlots = 1u << 16; // of a lease: 100 MB, or 200 MB with second moments
 constexpr std::size_t kRun = 16;             // tiles side by side
 
+double patience(double expectedSeconds) {
+    return kPatience * expectedSeconds + kLeastPatience;
+}
+// What the lease was expected to take when it was made.
+double expectedAtFirst(const Lease& lease) {
+    return (lease.seconds - kLeastPatience) / kPatience;
+}
+
 // Runs from all over the image, so that a lease costs what any other of its size costs.
 image::TileList spread(const image::TileList& tiles) {
     const std::size_t runs = (tiles.size() + kRun - 1) / kRun;
@@ -150,15 +158,14 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
         waiting_.pop_front();
     }
     lease.spp = lengthOf(lease.tiles);
-    const double expected = rate > 0 ? samples / rate : kLongest / kPatience;
-    lease.seconds = kPatience * expected + kLeastPatience;
+    lease.seconds = patience(rate > 0 ? samples / rate : kLongest / kPatience);
     std::sort(lease.tiles.begin(), lease.tiles.end());
     keep(rank, lease, now);
     return lease;
 }
 
 double TilePool::expectedSeconds(const Rank& rank, const Lease& lease) const {
-    if (rank.rate <= 0) return (lease.seconds - kLeastPatience) / kPatience;
+    if (rank.rate <= 0) return expectedAtFirst(lease);
     return static_cast<double>(image::missingSamples(film_, lease.tiles, lease.spp)) / rank.rate;
 }
 
@@ -170,8 +177,7 @@ std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
         const Rank& holder = ranks_[from];
         if (holder.leases.size() < 2 || holder.leases.back().tiles.empty()) continue;
         const Lease& last = holder.leases.back();
-        const double begin =
-            std::max(0.0, holder.since + (holder.leases.front().seconds - kLeastPatience) / kPatience - now);
+        const double begin = std::max(0.0, holder.since + expectedAtFirst(holder.leases.front()) - now);
         const bool isFaster = expectedSeconds(ranks_[rank], last) < begin + expectedSeconds(holder, last);
         if (!isFaster || begin < latest) continue;
         latest = begin;
@@ -182,7 +188,7 @@ std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
     Lease& left = ranks_[recalled_->rank].leases.back();
     release(left.tiles);
     left.tiles.clear();
-    taken->seconds = kPatience * expectedSeconds(ranks_[rank], *taken) + kLeastPatience;
+    taken->seconds = patience(expectedSeconds(ranks_[rank], *taken));
     return taken;
 }
 

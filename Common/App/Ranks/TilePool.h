@@ -38,11 +38,11 @@ class TilePool {
     // Begins another plan, when all is done. What ranks still hold is of no use any more, whenever they give it back.
     void goOn(TilePlan plan);
 
-    // If there is anything for the rank to do, besides the lease that it works at: it holds two at most, so that it need
-    // not wait for the next. Leases take a rank about as long as a fraction of what is left takes all ranks, so that
-    // they shrink towards the end; of fewer than `least` tiles a rank does not make the best. When no tile is left to be
-    // handed out, a rank without a lease gets one that another has not begun, which is then recalled(), or the tiles of
-    // one that takes far longer than it was expected to.
+    // If there is anything for the rank to do, besides the lease that it works at: it holds two at most, so that it
+    // need not wait for the next. Leases take a rank about as long as a fraction of what is left takes all ranks, so
+    // that they shrink towards the end; of fewer than `least` tiles a rank does not make the best. When no tile is
+    // left to be handed out, a rank without a lease gets one that another has not begun, which is then recalled(), or
+    // the tiles of one that takes far longer than it was expected to.
     std::optional<Lease> lease(std::size_t rank, std::uint32_t least, double now);
     // What the last lease() has taken from another rank.
     const std::optional<Recalled>& recalled() const { return recalled_; }
