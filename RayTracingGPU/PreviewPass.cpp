@@ -124,7 +124,10 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     const VkDevice device = context_.device();
     const VkDescriptorSetLayoutBinding binding{kConstantsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kStages,
                                                nullptr};
-    bindings_ = vulkan::DescriptorSet(device, std::span(&binding, 1), kWhat);
+    const std::array bindings{
+        binding, VkDescriptorSetLayoutBinding{shared::kPreviewDrawnBinding, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 1,
+                                              VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
+    bindings_ = vulkan::DescriptorSet(device, bindings, kWhat);
     bindings_.write(kConstantsBinding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, constants_.get());
     layout_ = vulkan::makePipelineLayout(device, {kStages, 0, sizeof launch_}, bindings_.layout(), kWhat);
 
@@ -152,6 +155,9 @@ vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCach
     // Of a cube around a sphere the far faces are drawn: they are there when the camera is in the cube, too.
     rasterization.cull = shape == shared::kSphere ? VK_CULL_MODE_FRONT_BIT : VK_CULL_MODE_NONE;
     rasterization.depth = &depth;
+    rasterization.samples = kPreviewSampleBit;
+    // Outlines that fragments find, and not the edges of primitives.
+    rasterization.shadesSamples = shape == shared::kSphere || shared::has(features_, shared::kFeatureOpacity);
     return vulkan::makeGraphicsPipeline(device, cache.get(), layout_.get(), clearing_.get(), stages, rasterization,
                                         kWhat);
 }
@@ -231,10 +237,7 @@ void PreviewPass::drawBand(const Band& band) {
 
 void PreviewPass::finishBand(const Band& band) {
     const std::uint32_t width = target_.extent().width;
-    launch_.firstPixel = band.first * width;
     context_.run([&](VkCommandBuffer commands) {
-        target_.copy(commands, band);
-        vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kComputeRead | vulkan::kComputeWrite);
         bind(commands, VK_PIPELINE_BIND_POINT_COMPUTE, finishing_.get());
         vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
         vkCmdDispatch(commands, (band.count * width + kGroup - 1) / kGroup, 1, 1);
@@ -245,12 +248,15 @@ void PreviewPass::finishBand(const Band& band) {
 app::Preview PreviewPass::render(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height) {
     if (target_.extent().width != width || target_.extent().height != height) {
         target_ = {};
-        target_ = PreviewTarget(context_, clearing_.get(), {width, height});
+        target_ = PreviewTarget(context_, clearing_.get(), {width, height}, std::max(1u, kBandPixels / width));
+        bindings_.write(shared::kPreviewDrawnBinding, target_.drawn());
         launch_.pixels = target_.pixels().address();
     }
     uploadConstants(camera, width, height);
-    for (Band band{0, std::max(1u, kBandPixels / width)}; band.first < height; band.first += band.count) {
+    for (Band band{0, target_.bandRows()}; band.first < height; band.first += band.count) {
         band.count = std::min(band.count, height - band.first);
+        launch_.firstRow = band.first;
+        launch_.rowCount = band.count;
         drawBand(band);
         finishBand(band);
     }

@@ -1,5 +1,6 @@
 #include "RayTracingGPU/PreviewTarget.h"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -17,14 +18,14 @@ constexpr const char* kWhat = "Preparing the preview";
 vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears) {
     std::array<VkAttachmentDescription, 2> attachments{};
     for (VkAttachmentDescription& attachment : attachments) {
-        attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+        attachment.samples = kPreviewSampleBit;
         attachment.loadOp = clears ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
         attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
         attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
     }
     attachments[0].format = kPreviewColor;
-    attachments[0].finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    attachments[0].finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
     attachments[1].format = vulkan::kDepthFormat;
     attachments[1].finalLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
     if (!clears) {
@@ -37,7 +38,7 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &color;
     subpass.pDepthStencilAttachment = &depth;
-    // Before: what was drawn to the attachments, and copied from them. Behind: their copy.
+    // Before: what was drawn to the attachments, and read of them. Behind: reading.
     constexpr VkPipelineStageFlags kDrawing = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
                                               VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
                                               VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
@@ -46,13 +47,13 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     std::array<VkSubpassDependency, 2> dependencies{};
     dependencies[0] = {VK_SUBPASS_EXTERNAL,
                        0,
-                       kDrawing | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                       kDrawing | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
                        kDrawing,
                        kWriting,
                        kWriting | VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
                        0};
-    dependencies[1] = {0,        VK_SUBPASS_EXTERNAL,         kDrawing, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                       kWriting, VK_ACCESS_TRANSFER_READ_BIT, 0};
+    dependencies[1] = {0,        VK_SUBPASS_EXTERNAL,       kDrawing, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                       kWriting, VK_ACCESS_SHADER_READ_BIT, 0};
     VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
     info.attachmentCount = static_cast<std::uint32_t>(attachments.size());
     info.pAttachments = attachments.data();
@@ -65,27 +66,29 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     return {device, renderPass, vkDestroyRenderPass};
 }
 
-PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent)
-    : extent_(extent) {
+PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent,
+                             std::uint32_t bandRows)
+    : extent_(extent), band_{extent.width, std::min(bandRows, extent.height)} {
     const std::uint32_t most = context.limits().maxDrawnSide;
     if (extent.width > most || extent.height > most) {
         throw RenderError("the preview of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                           " pixels: " + context.info().name + " draws at most " + std::to_string(most) + " a side");
     }
     color_ = {context.memory(),
-              {kPreviewColor, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-               VK_IMAGE_ASPECT_COLOR_BIT},
+              {kPreviewColor, band_, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+               VK_IMAGE_ASPECT_COLOR_BIT, kPreviewSampleBit},
               kWhat};
     depth_ = {context.memory(),
-              {vulkan::kDepthFormat, extent, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT},
+              {vulkan::kDepthFormat, band_, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT,
+               kPreviewSampleBit},
               kWhat};
     const std::array<VkImageView, 2> views{color_.view(), depth_.view()};
     VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
     info.renderPass = renderPass;
     info.attachmentCount = static_cast<std::uint32_t>(views.size());
     info.pAttachments = views.data();
-    info.width = extent.width;
-    info.height = extent.height;
+    info.width = band_.width;
+    info.height = band_.height;
     info.layers = 1;
     VkFramebuffer framebuffer = VK_NULL_HANDLE;
     check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), kWhat);
@@ -99,22 +102,15 @@ void PreviewTarget::begin(VkCommandBuffer commands, VkRenderPass renderPass, con
     VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     info.renderPass = renderPass;
     info.framebuffer = framebuffer_.get();
-    info.renderArea = {{0, static_cast<std::int32_t>(band.first)}, {extent_.width, band.count}};
+    info.renderArea = {{0, 0}, {extent_.width, band.count}};
     info.clearValueCount = static_cast<std::uint32_t>(zero.size());
     info.pClearValues = zero.data();
     vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport{0, 0, static_cast<float>(extent_.width), static_cast<float>(extent_.height), 0, 1};
+    const VkViewport viewport{
+        0, -static_cast<float>(band.first), static_cast<float>(extent_.width), static_cast<float>(extent_.height), 0,
+        1};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &info.renderArea);
-}
-
-void PreviewTarget::copy(VkCommandBuffer commands, const Band& band) const {
-    VkBufferImageCopy region{};
-    region.bufferOffset = VkDeviceSize{band.first} * extent_.width * 4 * sizeof(float);
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageOffset.y = static_cast<std::int32_t>(band.first);
-    region.imageExtent = {extent_.width, band.count, 1};
-    vkCmdCopyImageToBuffer(commands, color_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, pixels_.get(), 1, &region);
 }
 
 } // namespace rt::gpu

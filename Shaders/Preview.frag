@@ -48,7 +48,8 @@ bool isClear(SceneRef scene, Surface surface) {
 void main() {
     SceneRef scene;
     scene.unused = 0u;
-    Ray ray = previewRay(uvec2(gl_FragCoord.xy));
+    // The place of the sample where single ones are shaded, else the pixel's middle.
+    Ray ray = previewRay(gl_FragCoord.xy + vec2(0.0f, float(launch.firstRow)));
     Hit hit;
     hit.t = 0.0f;
     hit.kind = kShape;

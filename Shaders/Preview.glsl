@@ -6,10 +6,11 @@ layout(constant_id = kShapeId) const uint kShape = kSphere; // that a draw's pri
 
 layout(push_constant, scalar) uniform Launch { PreviewLaunch launch; };
 
-// Through the middle of a pixel, from the middle of the lens, when the shutter opens.
-Ray previewRay(uvec2 pixel) {
+// Through a place on the image, in pixels, from the middle of the lens, when the shutter opens.
+Ray previewRay(vec2 place) {
     uvec2 size = uvec2(constants.params.width, constants.params.height);
-    return generateCameraRay(kFeatures, constants.camera, pixel, size, vec2(0.5f), vec2(0.5f), 0.0f);
+    vec2 pixel = floor(place);
+    return generateCameraRay(kFeatures, constants.camera, uvec2(pixel), size, place - pixel, vec2(0.5f), 0.0f);
 }
 
 // What a light adds to the radiance of a white diffuse surface at `position`, were there nothing in between: the form

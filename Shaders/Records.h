@@ -216,6 +216,9 @@ const uint kAovValues = 7u;
 
 RT_MUTABLE_ARRAY(MutableFourArray, vec4)
 
+const int kPreviewSamples = 4;           // of each pixel: what every device has
+const uint kPreviewDrawnBinding = 2u; // what was drawn, for Preview.comp
+
 // Push constants of Preview.vert, .frag and .comp. A point p is drawn at (clipX, clipY, near, clipW), each row times
 // (p, 1).
 struct PreviewLaunch {
@@ -227,7 +230,8 @@ struct PreviewLaunch {
     vec3 ambient; // radiance from all around
     float near;
     uint lightCount;
-    uint firstPixel; // of the rows that Preview.comp finishes
+    uint firstRow; // of the image, in the band that is drawn
+    uint rowCount; // of the band
 };
 
 // ---- shader binding table ------------------------------------------------------------------------------------------

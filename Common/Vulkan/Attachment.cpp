@@ -11,7 +11,7 @@ Attachment::Attachment(DeviceMemory& from, const AttachmentDesc& desc, const cha
     info.format = desc.format;
     info.extent = {desc.extent.width, desc.extent.height, 1};
     info.mipLevels = info.arrayLayers = 1;
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.samples = desc.samples;
     info.usage = desc.usage;
     VkImage image = VK_NULL_HANDLE;
     check(vkCreateImage(device, &info, nullptr, &image), what);

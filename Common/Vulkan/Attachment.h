@@ -12,6 +12,7 @@ struct AttachmentDesc {
     VkExtent2D extent;
     VkImageUsageFlags usage;
     VkImageAspectFlags aspect;
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
 class Attachment {

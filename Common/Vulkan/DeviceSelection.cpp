@@ -92,6 +92,9 @@ bool canDraw(VkPhysicalDevice device, std::uint32_t queueFamily) {
     std::vector<VkQueueFamilyProperties> families(count);
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     if (queueFamily >= count || (families[queueFamily].queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) return false;
+    VkPhysicalDeviceFeatures features;
+    vkGetPhysicalDeviceFeatures(device, &features);
+    if (!features.sampleRateShading) return false;
     VkFormatProperties format;
     vkGetPhysicalDeviceFormatProperties(device, kDepthFormat, &format);
     return (format.optimalTilingFeatures & VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) != 0;

@@ -19,7 +19,7 @@ struct DeviceInfo {
     std::string version; // of Vulkan
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     std::uint32_t queueFamily = 0;
-    bool draws = false;             // its queue rasterises, too, into kDepthFormat
+    bool draws = false;             // its queue rasterises, too, into kDepthFormat, and shades single samples
     bool hasShaderClock = false;    // shaders may ask what time it is
     bool hasRayQueries = false;     // any shader may trace rays; of no use to us, but see computeIsFaster()
     std::string missing;            // what it lacks to render at all, in words

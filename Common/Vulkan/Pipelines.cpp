@@ -65,7 +65,9 @@ Handle<VkPipeline> makeGraphicsPipeline(VkDevice device, VkPipelineCache cache, 
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    samples.rasterizationSamples = rasterization.samples;
+    samples.sampleShadingEnable = rasterization.shadesSamples ? VK_TRUE : VK_FALSE;
+    samples.minSampleShading = 1;
     VkPipelineColorBlendAttachmentState attachment{};
     attachment.colorWriteMask =
         VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
@@ -130,6 +132,17 @@ void DescriptorSet::write(std::uint32_t binding, VkDescriptorType type, VkBuffer
     write.descriptorCount = 1;
     write.descriptorType = type;
     write.pBufferInfo = &info;
+    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+}
+
+void DescriptorSet::write(std::uint32_t binding, VkImageView sampled) const {
+    const VkDescriptorImageInfo info{VK_NULL_HANDLE, sampled, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+    write.dstSet = set_;
+    write.dstBinding = binding;
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+    write.pImageInfo = &info;
     vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
 }
 

@@ -24,10 +24,12 @@ Handle<VkPipelineLayout> makePipelineLayout(VkDevice device, const VkPushConstan
 Handle<VkPipeline> makeComputePipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,
                                        VkShaderModule module, const VkSpecializationInfo* constants, const char* what);
 
-// Triangles without vertex buffers, one sample a pixel, no blending; viewport and scissor are set while recording.
+// Triangles without vertex buffers, no blending; viewport and scissor are set while recording.
 struct Rasterization {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;                     // counter-clockwise is front
     const VkPipelineDepthStencilStateCreateInfo* depth = nullptr; // null: the render pass has no depth
+    VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+    bool shadesSamples = false; // each on its own; else once a pixel
 };
 Handle<VkPipeline> makeGraphicsPipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,
                                         VkRenderPass renderPass,
@@ -44,6 +46,7 @@ class DescriptorSet {
     const VkDescriptorSet& get() const { return set_; }
     void write(std::uint32_t binding, VkDescriptorType type, VkBuffer buffer) const;
     void write(std::uint32_t binding, VkAccelerationStructureKHR structure) const;
+    void write(std::uint32_t binding, VkImageView sampled) const; // whose texels are fetched by shaders
 
   private:
     VkDevice device_ = VK_NULL_HANDLE;

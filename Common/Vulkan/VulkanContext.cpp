@@ -63,7 +63,8 @@ void VulkanContext::createDevice() {
         core.pNext = &clock;
         extensions.push_back(VK_KHR_SHADER_CLOCK_EXTENSION_NAME);
     }
-    const VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
+    features.features.sampleRateShading = info_.draws ? VK_TRUE : VK_FALSE;
 
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
