@@ -26,6 +26,8 @@ vec3 throughMedia(SceneRef scene, Ray ray, vec3 behind, float far) {
     return behind * transmittance(depth) + scattered / depth * collisionProbability(depth);
 }
 
+// A sample as it is seen. Sky and media are taken along the ray through the pixel's middle, which for them is near
+// enough to the sample's own.
 vec3 finished(SceneRef scene, Ray ray, vec4 seen) {
     bool isDrawn = seen.w > 0.0f;
     vec3 radiance = seen.xyz;

@@ -216,7 +216,7 @@ const uint kAovValues = 7u;
 
 RT_MUTABLE_ARRAY(MutableFourArray, vec4)
 
-const int kPreviewSamples = 4;           // of each pixel: what every device has
+const int kPreviewSamples = 4;        // of each pixel: what every device has
 const uint kPreviewDrawnBinding = 2u; // what was drawn, for Preview.comp
 
 // Push constants of Preview.vert, .frag and .comp. A point p is drawn at (clipX, clipY, near, clipW), each row times

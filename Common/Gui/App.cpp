@@ -262,7 +262,7 @@ void App::drawInterface() {
         layOut(panels, scale,
                {[this] { drawToolbar(gui_); }, [this] { drawProgress(gui_); }, [this] { drawStatusLine(gui_); }});
     picture_.place(area, innerArea(gui_, area, scale));
-    gui_.previewWidth = picture_.previewWidth(device_.isSoftware());
+    gui_.previewWidth = picture_.previewWidth();
     picture_.handlePointer();
     drawViewLegend(gui_, area, scale);
     drawChips(gui_, area, picture_.imageRect(), scale);

@@ -35,15 +35,13 @@ float PictureArea::filmPixels() const {
     return static_cast<float>(gui_.state.settings.width) / static_cast<float>(image->width);
 }
 
-std::uint32_t PictureArea::previewWidth(bool isSoftware) const {
-    constexpr float kMostPixels = 4e6f;
+std::uint32_t PictureArea::previewWidth() const {
     const float width = static_cast<float>(gui_.state.settings.width);
     const float height = static_cast<float>(gui_.state.settings.height);
     if (gui_.view.zoom > 0 || !(width > 0 && height > 0)) return 0;
     const float fit = std::min(inner_.width / width, inner_.height / height);
     const float shown = std::max(1.0f, fit * width * ImGui::GetIO().DisplayFramebufferScale.x);
-    const bool isFine = !isSoftware && 4 * shown * shown * height / width < kMostPixels;
-    return static_cast<std::uint32_t>(std::lround(isFine ? 2 * shown : shown));
+    return static_cast<std::uint32_t>(std::lround(shown));
 }
 
 Rect PictureArea::imageRect() const {

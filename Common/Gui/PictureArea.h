@@ -24,9 +24,8 @@ class PictureArea {
     // Looks, orbits, pans, zooms, picks and inspects; within a frame of ImGui, after the panels.
     void handlePointer();
     PresentConstants constants() const;
-    // Pixels of a row of the preview that suit the window: two by two for one of it, whose mean is shown, where that
-    // is not too many and no software draws.
-    std::uint32_t previewWidth(bool isSoftware) const;
+    // Pixels of a row of the preview that suit the window: one for each that it shows; 0: the picture's own.
+    std::uint32_t previewWidth() const;
 
   private:
     using Pixel = std::array<std::uint32_t, 2>;
