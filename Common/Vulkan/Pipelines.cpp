@@ -124,26 +124,27 @@ DescriptorSet::DescriptorSet(VkDevice device, std::span<const VkDescriptorSetLay
     check(vkAllocateDescriptorSets(device, &allocation, &set_), what);
 }
 
+void DescriptorSet::update(std::uint32_t binding, VkWriteDescriptorSet what) const {
+    what.dstSet = set_;
+    what.dstBinding = binding;
+    what.descriptorCount = 1;
+    vkUpdateDescriptorSets(device_, 1, &what, 0, nullptr);
+}
+
 void DescriptorSet::write(std::uint32_t binding, VkDescriptorType type, VkBuffer buffer) const {
     const VkDescriptorBufferInfo info{buffer, 0, VK_WHOLE_SIZE};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set_;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
     write.descriptorType = type;
     write.pBufferInfo = &info;
-    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    update(binding, write);
 }
 
 void DescriptorSet::write(std::uint32_t binding, VkImageView sampled) const {
     const VkDescriptorImageInfo info{VK_NULL_HANDLE, sampled, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-    write.dstSet = set_;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     write.pImageInfo = &info;
-    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    update(binding, write);
 }
 
 void DescriptorSet::write(std::uint32_t binding, VkAccelerationStructureKHR structure) const {
@@ -152,11 +153,8 @@ void DescriptorSet::write(std::uint32_t binding, VkAccelerationStructureKHR stru
     info.accelerationStructureCount = 1;
     info.pAccelerationStructures = &structure;
     VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET, &info};
-    write.dstSet = set_;
-    write.dstBinding = binding;
-    write.descriptorCount = 1;
     write.descriptorType = VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
-    vkUpdateDescriptorSets(device_, 1, &write, 0, nullptr);
+    update(binding, write);
 }
 
 } // namespace rt::vulkan

@@ -49,6 +49,8 @@ class DescriptorSet {
     void write(std::uint32_t binding, VkImageView sampled) const; // whose texels are fetched by shaders
 
   private:
+    void update(std::uint32_t binding, VkWriteDescriptorSet what) const; // fills in where
+
     VkDevice device_ = VK_NULL_HANDLE;
     Handle<VkDescriptorSetLayout> layout_;
     Handle<VkDescriptorPool> pool_;

@@ -52,17 +52,27 @@ app::AovImages firstHits(const Scene& scene, scene::CameraDesc camera, std::uint
     return engine->renderAovs({true, true, true}, 1);
 }
 
+struct Range {
+    float low = 1e30f, high = 0;
+};
+
+// Of the values of a channel in and around a pixel.
+Range rangeAround(const Image& image, std::uint32_t x, std::uint32_t y, std::uint32_t channel) {
+    Range range;
+    for (std::uint32_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, image.height); ++j) {
+        for (std::uint32_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, image.width); ++i) {
+            range.low = std::min(range.low, image.pixel(i, j)[channel]);
+            range.high = std::max(range.high, image.pixel(i, j)[channel]);
+        }
+    }
+    return range;
+}
+
 // Whether each value of `traced` in a pixel is, up to this relative margin, among those that `preview` has in the pixel
 // and around it: the ray of a sample does not go through the pixel's middle.
 bool agrees(const Image& preview, const Image& traced, std::uint32_t x, std::uint32_t y, float margin) {
     for (std::uint32_t channel = 0; channel < traced.channels; ++channel) {
-        float low = 1e30f, high = 0;
-        for (std::uint32_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, preview.height); ++j) {
-            for (std::uint32_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, preview.width); ++i) {
-                low = std::min(low, preview.pixel(i, j)[channel]);
-                high = std::max(high, preview.pixel(i, j)[channel]);
-            }
-        }
+        const auto [low, high] = rangeAround(preview, x, y, channel);
         const float value = traced.pixel(x, y)[channel];
         if (!(value >= (1 - margin) * low && value <= (1 + margin) * high)) return false;
     }
@@ -82,13 +92,7 @@ double depthAgreement(const Image& preview, const Image& traced) {
 // pixel's samples has a colour that no ray finds.
 bool isAwayFromOutlines(const Image& image, std::uint32_t x, std::uint32_t y) {
     for (std::uint32_t c = 0; c < image.channels; ++c) {
-        float low = 1e30f, high = 0;
-        for (std::uint32_t j = y > 0 ? y - 1 : 0; j < std::min(y + 2, image.height); ++j) {
-            for (std::uint32_t i = x > 0 ? x - 1 : 0; i < std::min(x + 2, image.width); ++i) {
-                low = std::min(low, image.pixel(i, j)[c]);
-                high = std::max(high, image.pixel(i, j)[c]);
-            }
-        }
+        const auto [low, high] = rangeAround(image, x, y, c);
         if (high > 1.2f * low) return false;
     }
     return true;
