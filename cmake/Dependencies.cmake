@@ -58,6 +58,7 @@ rt_require(stb libstb-dev stb HEADER stb_image.h)
 # The header only, as with stb: Common/Scene/Gltf/TinyGltf.cpp compiles it.
 rt_require(tinygltf libtinygltf-dev tinygltf HEADER tiny_gltf.h)
 rt_require(png libpng-dev libpng PACKAGE PNG TARGETS PNG::PNG png_shared png_static PKGCONFIG libpng)
+rt_require(openexr libopenexr-dev openexr PACKAGE OpenEXR TARGETS OpenEXR::OpenEXR PKGCONFIG OpenEXR)
 
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.
 rt_dependency(glfw PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)

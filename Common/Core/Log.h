@@ -1,4 +1,4 @@
-// Messages for the user: to standard error and, if asked, to a file. Until setUpLog() warnings go to standard error.
+// Messages for the user: to standard error and, if asked, to a file, once setUpLog() was called.
 #pragma once
 #include <string>
 

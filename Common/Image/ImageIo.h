@@ -1,6 +1,7 @@
 // Image files. In memory everything is linear; the extension of the name, in any case, decides the format:
 //   .png                    8 bits, sRGB-encoded, display-referred: [0,1] is what a screen can show
-//   .exr .pfm               linear, 32-bit float, bit for bit
+//   .exr .pfm               linear, 32-bit float, bit for bit; of an .exr of others also half and uint, any compression,
+//                           tiles (the largest level) and the first of several parts, with a warning of the others
 //   .hdr                    linear, shared exponent: 8 significant bits, nothing negative
 //   .jpg .jpeg .bmp .tga    like .png, read only
 #pragma once
@@ -27,7 +28,7 @@ struct Texels {
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
-// channels, or one where an EXR or PFM file has just one. Values are as in the file, infinities and NaN included.
+// channels, or one where a PFM file has just one or an EXR file has Y but not R, G and B. Values are as in the file, infinities and NaN included.
 Image readImage(const std::filesystem::path& path);
 
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.

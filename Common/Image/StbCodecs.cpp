@@ -6,7 +6,6 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Image/Codecs.h"
-#include "Common/Image/Inflate.h"
 
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
@@ -87,14 +86,6 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
         texels.alpha8.push_back(pixel[3]);
     }
     return texels;
-}
-
-bool inflate(std::span<const std::byte> in, std::span<std::byte> out) {
-    constexpr std::size_t kLargest = std::numeric_limits<int>::max();
-    if (in.size() > kLargest || out.size() > kLargest) return false;
-    const int written = stbi_zlib_decode_buffer(reinterpret_cast<char*>(out.data()), static_cast<int>(out.size()),
-                                                reinterpret_cast<const char*>(in.data()), static_cast<int>(in.size()));
-    return written == static_cast<int>(out.size());
 }
 
 } // namespace rt::image

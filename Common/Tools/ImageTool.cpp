@@ -11,6 +11,7 @@
 
 #include "Common/App/Options/Names.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Display.h"
@@ -162,6 +163,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what());
     }
+    setUpLog({kProgram, false, false, ""}); // of what is left out of images
     if (app.get_subcommands().empty()) throw UsageError("a subcommand is required: diff, info, convert or merge");
     if (diffs->parsed()) return diff(arguments);
     if (merges->parsed()) return merge(arguments);

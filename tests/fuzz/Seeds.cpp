@@ -19,6 +19,7 @@
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/fuzz/Fuzz.h"
+#include "tests/unit/ExrFiles.h"
 #include "tests/unit/GltfBuilder.h"
 
 namespace {
@@ -206,6 +207,17 @@ void writeImages(const Seeds& seeds) {
         fs::copy_file(entry.path(), seeds.place(format, entry.path().filename().string()),
                       fs::copy_options::overwrite_existing);
     }
+    using rt::test::exrFile;
+    for (const auto compression :
+         {Imf::RLE_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION,
+          Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION})
+        for (const auto type : {Imf::UINT, Imf::HALF, Imf::FLOAT})
+            seeds.write("exr", "lines-" + std::to_string(compression) + '-' + std::to_string(type),
+                        exrFile(image, {.type = type, .compression = compression}));
+    seeds.write("exr", "tiles", exrFile(image, {.type = Imf::HALF, .levels = Imf::ONE_LEVEL}));
+    seeds.write("exr", "levels", exrFile(image, {.compression = Imf::ZIP_COMPRESSION, .levels = Imf::RIPMAP_LEVELS}));
+    seeds.write("exr", "parts", rt::test::exrFileOfParts({image, image}, {.lineOrder = Imf::DECREASING_Y}));
+    seeds.write("exr", "deep", rt::test::deepExrFile());
     // 1 x 1, 24 bits, uncompressed.
     const char bmp[] =
         "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0\0\0\0\0\0\0"

@@ -4,6 +4,7 @@
 
 #include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
+#include "tests/unit/ExrFiles.h"
 
 namespace rt::test {
 namespace {
@@ -96,6 +97,17 @@ TEST_F(ImageTool, InfoDescribes) {
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_NE(result.out.find("size 16 9\nchannels 3\nmin 0\nmax 0.5625\nmean "), std::string::npos) << result.out;
     EXPECT_NE(result.out.find("\nnonfinite 0\n"), std::string::npos) << result.out;
+}
+
+TEST_F(ImageTool, WarnsOfPartsOnStandardError) {
+    writeFile("parts.exr", exrFileOfParts({image::Image(4, 4), image::Image(2, 2)}));
+    const auto info = tool({"info", "parts.exr"});
+    EXPECT_EQ(info.exitCode, 0);
+    EXPECT_EQ(info.out.rfind("size 4 4\n", 0), 0u) << info.out;
+    EXPECT_EQ(info.err,
+              "ray-tracing-image: warning: parts.exr: of several parts the first is read, \"a\"; left out: \"b\"\n");
+    EXPECT_EQ(tool({"diff", "parts.exr", "small.exr", "--max", "0"}).exitCode, 0);
+    EXPECT_EQ(tool({"info", "small.exr"}).err, "");
 }
 
 TEST_F(ImageTool, HelpAndVersion) {

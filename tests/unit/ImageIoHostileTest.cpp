@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Image/Codecs.h"
 #include "tests/TempFolder.h"
+#include "tests/unit/ExrFiles.h"
 
 namespace rt::image {
 namespace {
@@ -37,8 +38,13 @@ std::vector<File> makeFiles() {
         writeImage(folder / name, image);
         files.push_back({name, contentOf(folder / name)});
     }
-    for (const std::string name : {"rle-half.exr", "zip-half.exr", "gradient.hdr", "gradient.jpg"})
+    for (const std::string name : {"rle-half.exr", "zip-half.exr", "piz-half.exr", "gradient.hdr", "gradient.jpg"})
         files.push_back({name, dataFile(name)});
+    for (const auto& [name, compression] :
+         {std::pair{"pxr24.exr", Imf::PXR24_COMPRESSION}, std::pair{"b44.exr", Imf::B44_COMPRESSION},
+          std::pair{"dwaa.exr", Imf::DWAA_COMPRESSION}, std::pair{"dwab.exr", Imf::DWAB_COMPRESSION}})
+        files.push_back({name, test::exrFile(image, {.type = Imf::HALF, .compression = compression})});
+    files.push_back({"tiles.exr", test::exrFile(image, {.levels = Imf::ONE_LEVEL})});
     return files;
 }
 
@@ -99,14 +105,54 @@ TEST(ImageIoHostile, ClaimsBeyondTheFileAreNotBelieved) {
 }
 
 TEST(ImageIoHostile, SaysWhatIsNotSupported) {
-    EXPECT_NE(errorOf("piz.exr", dataFile("piz-half.exr")).find("compression PIZ is not"), std::string::npos);
-    std::string tiled = dataFile("none-float.exr");
-    tiled[5] = 2;
-    EXPECT_NE(errorOf("tiled.exr", tiled).find("tiled"), std::string::npos);
+    EXPECT_NE(errorOf("deep.exr", test::deepExrFile()).find("type \"deepscanline\" are not supported"),
+              std::string::npos);
     EXPECT_NE(errorOf("xyz.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n1234").find("xyze"),
               std::string::npos);
     EXPECT_NE(errorOf("turned.hdr", "#?RADIANCE\n\n+X 1 -Y 1\n1234").find("-Y height +X width"), std::string::npos);
     EXPECT_NE(errorOf("text.png", "this is text"), "");
+}
+
+// Of the bytes behind `key`, those from `offset` on replaced.
+std::string patched(std::string bytes, const std::string& key, std::size_t offset, const std::string& by) {
+    const std::size_t at = bytes.find(key);
+    EXPECT_NE(at, std::string::npos) << key;
+    return at == std::string::npos ? bytes : bytes.replace(at + key.size() + offset, by.size(), by);
+}
+
+TEST(ImageIoHostile, ExrHeadersAreNotBelieved) {
+    const auto expectError = [](const std::string& bytes, const std::string& what) {
+        EXPECT_NE(errorOf("a.exr", bytes).find(what), std::string::npos) << errorOf("a.exr", bytes) << " / " << what;
+    };
+    const std::string plain = test::exrFile(Image(9, 1), {.compression = Imf::DWAB_COMPRESSION});
+    const std::string tiles = test::exrFile(Image(9, 1), {.levels = Imf::ONE_LEVEL});
+    const std::string huge("\xff\xff\xff\x7f", 4), none(4, '\0'), large("\x60\xea\0\0", 4); // 60000
+    constexpr std::size_t kSize = 4;                                                        // of an attribute
+
+    expectError("v/1\2" + plain.substr(4), "not an EXR file");
+    expectError(std::string(plain).replace(4, 1, "\3"), "version 3");
+    expectError(patched(plain, std::string("compression\0compression\0", 24), kSize, "\x4d"), "compression");
+    const std::string window("dataWindow\0box2i\0", 17), aspect("pixelAspectRatio\0float\0", 23);
+    expectError(patched(plain, window, 0, huge), "truncated");
+    expectError(patched(plain, aspect, 0, none), "attribute \"pixelAspectRatio\" of type float has 0 bytes");
+    expectError(patched(plain, std::string("channels\0chlist\0", 16), 0, std::string("\x24\0\0\0", 4)), "truncated");
+    expectError(patched(plain, window, kSize + 8, large), "chunks of 184323072 bytes in a file of ");
+    expectError(patched(plain, window, kSize + 12, large), "truncated");
+    expectError(patched(plain, window, kSize + 8, huge), "window"); // whose width overflows
+    const std::string tileSize("tiles\0tiledesc\0", 15);
+    expectError(patched(tiles, tileSize, kSize, std::string("\0\0\0\4", 4)), "chunks of 6442450944 bytes");
+    expectError(patched(tiles, tileSize, kSize, none), "tile size");
+    expectError(patched(plain, std::string("R\0\2\0\0\0", 6), 4, std::string("\3\0\0\0", 4)),
+                "EXR channel R is subsampled");
+    expectError(plain.substr(0, 8) + std::string("a\0idmanifest\0\x08\0\0\0", 17) + plain.substr(8), "ID manifest");
+}
+
+// Errors with texts of the file are one printable line.
+TEST(ImageIoHostile, TextsInExrFilesAreMadePrintable) {
+    const std::string error =
+        errorOf("a.exr", test::exrFile(Image(1, 1), {.channels = {"x\x1b[2J", "\n", std::string(250, 'y')}}));
+    EXPECT_NE(error.find("(it has: \\n, x\\x1b[2J, yy"), std::string::npos) << error;
+    EXPECT_LT(error.size(), 400u);
 }
 
 TEST(ImageIoHostile, MissingFilesAndFolders) {

@@ -262,8 +262,8 @@ TEST(ImageIo, WritesNothingThatIsNotFinite) {
 
 // Written by tinyexr and stb: R = x/16, G = y/16, B = xy/256.
 TEST(ImageIo, ReadsFilesOfOthers) {
-    for (const std::string name :
-         {"none-float.exr", "rle-half.exr", "zips-float.exr", "zip-half.exr", "zip-float.exr", "gradient.hdr"}) {
+    for (const std::string name : {"none-float.exr", "rle-half.exr", "zips-float.exr", "zip-half.exr", "zip-float.exr",
+                                   "piz-half.exr", "gradient.hdr"}) {
         const Image image = readImage(dataFile(name));
         ASSERT_EQ(image.width, 21u) << name;
         ASSERT_EQ(image.height, 19u) << name;
