@@ -1,6 +1,6 @@
 // Encoders and decoders of single formats, for ImageIo. Decoders throw InputError naming `name`; they allocate no more
-// than the bytes at hand can fill, whatever the header claims. Encoders expect finite values, and hold no more than a
-// few rows in memory; whether `out` took it all is asked of that.
+// than the bytes at hand can fill, whatever the header claims (EXR: or a few times a chunk of 64 MiB). Encoders expect
+// finite values, and hold no more than a few rows in memory; whether `out` took it all is asked of that.
 #pragma once
 #include <cstddef>
 #include <iosfwd>
@@ -14,6 +14,8 @@
 namespace rt::image {
 
 inline constexpr const char* kDescriptionKey = "ray-tracing"; // under which PNG and EXR keep a description
+
+inline constexpr double kDensest = 1100; // bytes from one: deflate reaches 1032
 
 // Throws unless both sides are in 1 to 65536 and `fileBytes` can hold `decodedBytes` in the densest compression there
 // is.

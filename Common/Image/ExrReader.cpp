@@ -105,11 +105,11 @@ class Part {
         checkDimensions(name_, width(), height(), isDwa ? halves / kDensityOfDwa : halves, fileBytes);
 
         // The library takes memory for a whole chunk, however little of it there is.
-        constexpr double kUsualChunk = 64 << 20, kDensest = 1100;
+        constexpr double kUsualChunk = 64 << 20;
         const double most = std::max(kUsualChunk, kDensest * double(fileBytes));
-        if (const double chunk = bytesPerPixel(false) * chunkPixels(); chunk > most)
-            fail("truncated EXR file: chunks of " + std::to_string(std::int64_t(chunk)) + " bytes in a file of " +
-                 std::to_string(fileBytes));
+        if (bytesPerPixel(false) * chunkPixels() > most)
+            fail("truncated EXR file: chunks of more than " + std::to_string(std::int64_t(most)) +
+                 " bytes in a file of " + std::to_string(fileBytes));
     }
 
     // R, G, B, or else Y alone; throws when there is neither.

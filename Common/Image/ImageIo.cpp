@@ -100,7 +100,6 @@ void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::st
 } // namespace
 
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes) {
-    constexpr double kDensest = 1100; // deflate reaches 1032
     const auto text = [](double side) { return std::to_string(static_cast<std::int64_t>(side)); };
     const auto good = [](double side) { return side >= 1 && side <= kMaxSide && side == std::floor(side); };
     if (!good(width) || !good(height))

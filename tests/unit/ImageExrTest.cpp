@@ -83,6 +83,16 @@ TEST(ImageExr, EveryCompressionAndType) {
     }
 }
 
+// Nothing is denser: such files are not taken for truncated ones.
+TEST(ImageExr, BlackInEveryCompression) {
+    const Image image(1024, 512);
+    for (const Compression& compression : kCompressions)
+        for (const Imf::PixelType type : {Imf::HALF, Imf::FLOAT}) {
+            const Image back = decode(exrFile(image, {.type = type, .compression = compression.value}));
+            EXPECT_TRUE(back.data == image.data) << compression.name;
+        }
+}
+
 TEST(ImageExr, Tiles) {
     const Image image = makeGradient(37, 21, false);
     for (const Imf::LevelMode levels : {Imf::ONE_LEVEL, Imf::MIPMAP_LEVELS, Imf::RIPMAP_LEVELS})
