@@ -1,5 +1,6 @@
 // OpenEXR images, read by the format's own library: any compression and channel type, scan lines or tiles, the largest
 // level of several, the first part of several.
+#include <Iex.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -12,9 +13,9 @@
 #include <ImfTiledInputPart.h>
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <new>
+#include <string_view>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
@@ -33,13 +34,18 @@ class ByteStream : public Imf::IStream {
   public:
     explicit ByteStream(std::span<const std::byte> bytes) : IStream(kNoName), bytes_(bytes) {}
 
+    // What there is is read before the exception: newer versions of the library ask for more than they need.
     bool read(char to[], int count) override {
-        const auto wanted = static_cast<std::uint64_t>(std::max(count, 0));
-        isTruncated_ = isTruncated_ || at_ > bytes_.size() || bytes_.size() - at_ < wanted;
-        if (isTruncated_) throw Iex::InputExc("Early end of file.");
-        std::memcpy(to, bytes_.data() + at_, wanted);
-        at_ += wanted;
-        return at_ < bytes_.size();
+        const auto rest = bytes_.subspan(std::min<std::uint64_t>(at_, bytes_.size()));
+        const auto wanted = static_cast<std::size_t>(std::max(count, 0));
+        const std::size_t found = std::min(wanted, rest.size());
+        std::copy_n(rest.begin(), found, reinterpret_cast<std::byte*>(to));
+        at_ += found;
+        if (found < wanted) {
+            isTruncated_ = true;
+            throw Iex::InputExc("Early end of file.");
+        }
+        return found < rest.size();
     }
     std::uint64_t tellg() override { return at_; }
     void seekg(std::uint64_t position) override { at_ = position; }
@@ -70,8 +76,10 @@ auto readExr(std::span<const std::byte> bytes, const std::string& name, const Re
     checkExrHeaders(bytes, name);
     ByteStream stream(bytes);
     try {
-        Imf::MultiPartInputFile file(stream, 0, false); // no threads; a file of which the table of rows was not written
-        return read(file);                              // is truncated
+        constexpr int kThreads = 0;
+        constexpr bool kMendsTables = false; // a file whose table of chunks was never written is incomplete
+        Imf::MultiPartInputFile file(stream, kThreads, kMendsTables);
+        return read(file);
     } catch (const Error&) {
         throw;
     } catch (const std::bad_alloc&) {

@@ -28,7 +28,8 @@ struct Texels {
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
-// channels, or one where a PFM file has just one or an EXR file has Y but not R, G and B. Values are as in the file, infinities and NaN included.
+// channels, or one where a PFM file has just one or an EXR file has Y but not R, G and B. Values are as in the file,
+// infinities and NaN included.
 Image readImage(const std::filesystem::path& path);
 
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
