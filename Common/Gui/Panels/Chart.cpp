@@ -7,6 +7,8 @@
 namespace rt::gui {
 namespace {
 
+constexpr float kLegendMark = 1; // what a mark in the legend takes of the line, in heights of the font
+
 struct Axis {
     double low = 1e300, high = 0; // log10 after settle()
 
@@ -113,19 +115,39 @@ class Plot {
     Axis x_, y_;
 };
 
-void drawLegend(ImDrawList& list, const std::vector<ChartLegendRow>& rows, float right, float top) {
-    const float em = ImGui::GetFontSize();
-    float y = top + 4;
+// The legend is above the plot, where there are no points: entries from left to right, in as many lines as they need.
+struct LegendLayout {
+    std::vector<ImVec2> places; // of the entries
+    float bottom = 0;
+};
+
+// Entries fit between `left` and `right`; those of the first line follow a label that ends at `labelEnd`.
+LegendLayout layOutLegend(const std::vector<ChartLegendRow>& rows, float left, float labelEnd, float right, float top) {
+    const float em = ImGui::GetFontSize(), line = ImGui::GetTextLineHeightWithSpacing();
+    LegendLayout layout;
+    ImVec2 at{labelEnd + em, top};
     for (const ChartLegendRow& row : rows) {
-        const float x = right - ImGui::CalcTextSize(row.text.c_str()).x - 6;
-        list.AddText({x, y}, ImGui::GetColorU32(ImGuiCol_Text), row.text.c_str());
-        const ImVec2 middle{x - 0.6f * em, y + 0.5f * em};
+        const float width = kLegendMark * em + ImGui::CalcTextSize(row.text.c_str()).x;
+        if (at.x + width > right && at.x > left) at = {left, at.y + line};
+        layout.places.push_back(at);
+        at.x += width + em;
+    }
+    layout.bottom = at.y + line;
+    return layout;
+}
+
+void drawLegend(ImDrawList& list, const std::vector<ChartLegendRow>& rows, const LegendLayout& layout) {
+    const float em = ImGui::GetFontSize();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const ChartLegendRow& row = rows[i];
+        const ImVec2 place = layout.places[i];
+        const ImVec2 middle{place.x + 0.4f * em, place.y + 0.5f * em};
         if (row.mark == Mark::Line) {
             list.AddLine({middle.x - 0.4f * em, middle.y}, {middle.x + 0.3f * em, middle.y}, row.color, 0.12f * em);
         } else {
             drawMark(list, row.mark, middle, 0.25f * em, row.color, row.isHollow);
         }
-        y += ImGui::GetTextLineHeightWithSpacing();
+        list.AddText({place.x + kLegendMark * em, place.y}, ImGui::GetColorU32(ImGuiCol_Text), row.text.c_str());
     }
 }
 
@@ -167,12 +189,15 @@ ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLa
     y.settle();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
-    const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.4f * font, top = 1.3f * font;
+    const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.4f * font, right = size.x - 0.8f * font;
+    const LegendLayout legendLayout = layOutLegend(
+        legend, corner.x + left, corner.x + std::max(left, ImGui::CalcTextSize(yLabel).x), corner.x + right, corner.y);
+    const float top = legendLayout.bottom - corner.y + 0.3f * font; // half a label of the highest decade
     const bool isClicked = ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
     const bool isPointedAt = ImGui::IsItemHovered();
     if (size.x < left + 3 * font || size.y < bottom + top + 2 * font) return {}; // no room
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const ImVec2 inner{size.x - left - 0.8f * font, size.y - bottom - top};
+    const ImVec2 inner{right - left, size.y - bottom - top};
     const Plot plot({corner.x + left, corner.y + top}, inner, x, y);
     plot.drawGrid(list);
     const ImU32 dim = ImGui::GetColorU32(ImGuiCol_TextDisabled);
@@ -187,7 +212,7 @@ ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLa
         return {};
     }
     for (const ChartSeries& s : series) plot.drawSeries(list, s);
-    drawLegend(list, legend, corner.x + left + inner.x, corner.y + top);
+    drawLegend(list, legend, legendLayout);
     if (!isPointedAt) return {};
     return {plot.nearest(series, ImGui::GetIO().MousePos), isClicked};
 }
