@@ -61,7 +61,8 @@ class Plot {
             list.AddLine({x, corner_.y}, {x, corner_.y + size_.y}, e == x_.low ? line : faint);
             if ((e - static_cast<int>(x_.low)) % everyX != 0) continue;
             const std::string label = decadeText(e);
-            list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, corner_.y + size_.y + 2}, text,
+            const float below = 0.4f * ImGui::GetFontSize(); // of the lowest label at the left
+            list.AddText({x - 0.5f * ImGui::CalcTextSize(label.c_str()).x, corner_.y + size_.y + below}, text,
                          label.c_str());
         }
         for (int e = static_cast<int>(y_.low); e <= static_cast<int>(y_.high); ++e) {
@@ -189,7 +190,7 @@ ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLa
     y.settle();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const float font = ImGui::GetFontSize();
-    const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.4f * font, right = size.x - 0.8f * font;
+    const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.6f * font, right = size.x - 0.8f * font;
     const LegendLayout legendLayout = layOutLegend(
         legend, corner.x + left, corner.x + std::max(left, ImGui::CalcTextSize(yLabel).x), corner.x + right, corner.y);
     const float top = legendLayout.bottom - corner.y + 0.3f * font; // half a label of the highest decade
