@@ -341,12 +341,13 @@ std::uint64_t NightlyControlsTest::bytesAtRest() {
 }
 
 // What 2,000 actions leave behind: a program that runs, answers and ends as it should, with nothing that validation
-// has to say. Each round does the same as the first one, which has met what is built once: scenes, thumbnails, fonts,
-// pipelines; whatever each later action keeps is lost. A quarter of the smallest picture on average, 48 by 48 pixels of
-// 12 bytes, is what the heap of a program that loses nothing grows by where pieces do not fit together again.
+// has to say. Each round does the same as the one before. In the first half the program meets what is made once
+// (scenes, thumbnails, fonts) and a software driver compiles what it keeps; what the second half keeps beyond that is
+// lost. In eight rounds the memory of ray-tracing-gpu stops growing after the fifth and moves by 2.5 % from one round
+// to the next, hence the bound: of 160 MB it is 8 kB an action.
 TEST_P(NightlyControlsTest, SurvivesRandomActions) {
     constexpr int kRounds = 4, kActions = 500, kUntilResize = 50;
-    constexpr std::uint64_t kMostLost = (kRounds - 1) * kActions * std::uint64_t{48 * 48 * 12 / 4};
+    constexpr double kMostGrowth = 1.05;
     writeScene("rest.json", "At rest");
     start();
     ASSERT_FALSE(HasFatalFailure());
@@ -365,7 +366,9 @@ TEST_P(NightlyControlsTest, SurvivesRandomActions) {
         }
         bytes.push_back(bytesAtRest());
     }
-    EXPECT_LT(bytes.back(), bytes.front() + kMostLost) << testing::PrintToString(bytes);
+    const std::uint64_t half = bytes[kRounds / 2 - 1];
+    EXPECT_LT(static_cast<double>(bytes.back()), kMostGrowth * static_cast<double>(half))
+        << testing::PrintToString(bytes);
     act("mousemove 1000 700");
     expectCleanEnd();
 }
