@@ -13,7 +13,7 @@ class WindowStateTest : public WindowTest {};
 INSTANTIATE_TEST_SUITE_P(, WindowStateTest, kBothPrograms, nameOfProgram);
 
 TEST_P(WindowStateTest, SurvivesEverySize) {
-    start();
+    start({"--no-config"});
     ASSERT_FALSE(HasFatalFailure());
     for (const auto& [width, height] :
          {std::pair{1, 1}, {2, 700}, {1200, 3}, {40, 40}, {1279, 899}, {300, 200}, {1, 1}}) {
@@ -27,6 +27,7 @@ TEST_P(WindowStateTest, SurvivesEverySize) {
         pause(300);
     }
     expectCleanEnd();
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "config")); // no settings, no layout, no run
 }
 
 // All is twice as large: the first header is where the second one would be otherwise.
