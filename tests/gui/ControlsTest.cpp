@@ -302,9 +302,9 @@ INSTANTIATE_TEST_SUITE_P(, NightlyControlsTest, kBothPrograms, nameOfProgram);
 // One of the actions that nobody would think of.
 void NightlyControlsTest::actAtRandom(std::mt19937& random) {
     static constexpr const char* kKeys[] = {
-        "F1",     "F2",   "F3",    "F4",        "space",      "1",      "2",         "5",      "r",
-        "f",      "h",    "b",     "F12",       "Tab",        "Return", "Escape",    "Down",   "Right",
-        "ctrl+r", "9",    "Next",  "ctrl+plus", "ctrl+minus", "p",      "shift+Tab", "ctrl+o", "ctrl+shift+c",
+        "F1",          "F2", "F3",   "F4",        "space",      "1",      "2",         "5",      "r",
+        "f",           "h",  "b",    "F12",       "Tab",        "Return", "Escape",    "Down",   "Right",
+        "ctrl+r",      "9",  "Next", "ctrl+plus", "ctrl+minus", "p",      "shift+Tab", "ctrl+o", "ctrl+shift+c",
         "ctrl+shift+v"};
     const std::string button = std::to_string(1 + below(random, 3));
     switch (below(random, 7)) {
