@@ -21,18 +21,13 @@ static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && 
 constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
 constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
 
-// Exact for what toDouble() returned. In vectors, because GCC 12's vectorizer gets a loop over the components wrong.
+// Exact for what a StateReader returned. In vectors, because GCC 12's vectorizer gets a loop over the components wrong.
 FilmSum toPair(const double* values) {
     const glm::dvec3 exact(values[0], values[1], values[2]);
     FilmSum sum;
     sum.high = vec3(exact);
     sum.low = vec3(exact - glm::dvec3(sum.high));
     return sum;
-}
-
-void toDouble(const FilmSum& sum, double* values) {
-    const glm::dvec3 exact = glm::dvec3(sum.high) + glm::dvec3(sum.low);
-    for (int c = 0; c < 3; ++c) values[c] = exact[c];
 }
 
 void appendPairs(std::span<const double> values, std::vector<FilmSum>& pairs) {
@@ -43,12 +38,6 @@ void appendTriples(std::span<const float> values, std::vector<vec3>& triples) {
     for (std::size_t i = 0; i < kTileValues; i += 3) {
         triples.push_back(values.empty() ? vec3(0.0f) : vec3(values[i], values[i + 1], values[i + 2]));
     }
-}
-
-std::span<const double> toDoubles(const FilmSum* sums, std::vector<double>& values) {
-    values.resize(kTileValues);
-    for (std::size_t i = 0; i < kTilePixels; ++i) toDouble(sums[i], &values[3 * i]);
-    return values;
 }
 
 } // namespace
@@ -133,9 +122,10 @@ void DeviceFilm::loadPlan(const Film& film) {
 }
 
 void DeviceFilm::clear() {
+    const VkDeviceSize bytes = VkDeviceSize{slotCount()} * kTilePixels * sizeof(FilmSum);
     context_.run([&](VkCommandBuffer commands) {
         for (const vulkan::Buffer* buffer : {&sums_, &squares_}) {
-            if (*buffer) vkCmdFillBuffer(commands, buffer->get(), 0, VK_WHOLE_SIZE, 0);
+            if (*buffer && bytes > 0) vkCmdFillBuffer(commands, buffer->get(), 0, bytes, 0);
         }
         vulkan::barrier(commands, vulkan::kTransferWrite, context_.bufferUses());
     });
@@ -146,8 +136,6 @@ void DeviceFilm::store(Film& film) const {
     std::vector<FilmSum> sums;
     std::vector<FilmSum> squares;
     std::vector<vec3> open;
-    std::vector<double> sumValues;
-    std::vector<double> squareValues;
     if (open_) film.reserveOpenBlocks();
     for (std::uint32_t first = 0; first < slotCount(); first += kChunk) {
         const std::uint32_t count = std::min(kChunk, slotCount() - first);
@@ -160,17 +148,48 @@ void DeviceFilm::store(Film& film) const {
         fetch(sums_, sums);
         fetch(squares_, squares);
         fetch(open_, open);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::size_t pixel = std::size_t{i} * kTilePixels;
-            Film::TileState state;
-            state.samples = samples_[first + i];
-            state.sums = toDoubles(&sums[pixel], sumValues);
-            if (squares_) state.squares = toDoubles(&squares[pixel], squareValues);
-            if (state.samples % Film::kBlock != 0) state.open = {&open[pixel].x, kTileValues};
-            const std::uint32_t slot = first + i;
-            film.assign(tiles_[slot / desc_.replicates], slot % desc_.replicates, state);
-        }
+        StateReader reader({sums, squares, open});
+        for (std::uint32_t slot = first; slot < first + count; ++slot)
+            film.assign(tiles_[slot / desc_.replicates], slot % desc_.replicates,
+                        reader.read(slot - first, samples_[slot]));
     }
+}
+
+app::TilesToPack DeviceFilm::take(ReadBackPool& readBacks) const {
+    const std::size_t pixels = std::size_t{slotCount()} * kTilePixels;
+    const std::size_t sumBytes = pixels * sizeof(FilmSum);
+    const std::size_t squareBytes = squares_ ? sumBytes : 0;
+    const std::size_t openBytes = open_ ? pixels * sizeof(vec3) : 0;
+    const auto memory = readBacks.take(sumBytes + squareBytes + openBytes);
+    context_.run([&](VkCommandBuffer commands) {
+        const auto copy = [&](const vulkan::Buffer& from, std::size_t offset, std::size_t bytes) {
+            const VkBufferCopy region{0, offset, bytes};
+            if (bytes > 0) vkCmdCopyBuffer(commands, from.get(), memory->get(), 1, &region);
+        };
+        copy(sums_, 0, sumBytes);
+        copy(squares_, sumBytes, squareBytes);
+        copy(open_, sumBytes + squareBytes, openBytes);
+        vulkan::barrier(commands, vulkan::kTransferWrite, vulkan::kHostRead);
+    });
+    const std::byte* const bytes = memory->mapped<const std::byte>().data();
+    const auto* const squares = reinterpret_cast<const FilmSum*>(bytes + sumBytes);
+    const auto* const open = reinterpret_cast<const vec3*>(bytes + sumBytes + squareBytes);
+    const FilmCopy film{{reinterpret_cast<const FilmSum*>(bytes), pixels},
+                        {squares, squareBytes / sizeof(FilmSum)},
+                        {open, openBytes / sizeof(vec3)}};
+    return [memory, film, samples = samples_, tiles = tiles_, plan = plan_, replicates = desc_.replicates] {
+        StateReader reader(film);
+        const auto stateOf = [&](std::size_t slot) {
+            Film::TileState state = reader.read(slot, samples[slot]);
+            if (!plan.empty()) state.plan = std::span(plan).subspan(slot * kTilePixels, kTilePixels);
+            return state;
+        };
+        const std::size_t size = samples.empty() ? 0 : image::TilePacker::packedSize(stateOf(0));
+        image::TilePacker packer(samples.size() * size);
+        for (std::size_t slot = 0; slot < samples.size(); ++slot)
+            packer.add(tiles[slot / replicates], static_cast<std::uint32_t>(slot % replicates), stateOf(slot));
+        return packer.take();
+    };
 }
 
 void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const {

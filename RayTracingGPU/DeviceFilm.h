@@ -9,6 +9,7 @@
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
+#include "RayTracingGPU/FilmCopy.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
@@ -58,6 +59,8 @@ class DeviceFilm {
     void load(const image::Film& film, const image::TileList& tiles, std::size_t first);
     // Copies the contents into the film.
     void store(image::Film& film) const;
+    // Copies the contents, of some tiles at least, to the host.
+    app::TilesToPack take(ReadBackPool& readBacks) const;
     // What Film::resolve() would return, and the samples of each tile; isImage() is required.
     app::Snapshot snapshot(FilmResolver& resolver) const;
     // Makes room for blocks that stay open.

@@ -41,7 +41,8 @@ class GpuEngine final : public app::Engine {
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                     Memory::Device, "constants"),
-          launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}) {}
+          launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}),
+          readBacks_(context) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
         auto prepared = std::make_unique<GpuScene>(context_, engine_, std::move(compiled), cancel);
@@ -57,6 +58,7 @@ class GpuEngine final : public app::Engine {
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override;
     app::RenderStatus renderSome(const app::Budget& budget) override;
     const Film& film() override;
+    app::TilesToPack takeTiles(const image::TileList& tiles) override;
     app::Snapshot snapshot() override;
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override;
     bool knowsCost(app::Cost cost) const override { return cost == app::Cost::Rays || context_.info().hasShaderClock; }
@@ -88,6 +90,7 @@ class GpuEngine final : public app::Engine {
     std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer uniforms_;              // RenderConstants
     LaunchQueue launches_;
+    ReadBackPool readBacks_;
 
     std::unique_ptr<GpuScene> scene_;
     std::optional<PreviewPass> preview_; // of the scene, once it was asked for
@@ -326,6 +329,19 @@ const Film& GpuEngine::film() {
         }
     }
     return film_;
+}
+
+// From the device at once, which leaves the rest of the work to whoever packs them.
+app::TilesToPack GpuEngine::takeTiles(const image::TileList& tiles) {
+    if (failed_ || !dirty_ || tiles.empty() || !region_->isWhole()) return Engine::takeTiles(tiles);
+    try {
+        app::TilesToPack taken = region_->take(readBacks_);
+        dirty_ = false;
+        return taken;
+    } catch (const RenderError&) {
+        failed_ = true; // the next call returns what there is
+        throw;
+    }
 }
 
 app::Snapshot GpuEngine::snapshot() {

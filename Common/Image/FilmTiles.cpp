@@ -114,32 +114,40 @@ std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tile
     return total;
 }
 
+TilePacker::TilePacker(std::size_t bytes) {
+    bytes_.reserve(bytes + kRoom);
+}
+
+std::size_t TilePacker::packedSize(const Film::TileState& state) {
+    const std::size_t sums = state.sums.size_bytes() + state.squares.size_bytes() + state.open.size_bytes();
+    return sizeof(Header) + state.plan.size_bytes() + (state.samples > 0 ? sums : 0);
+}
+
+void TilePacker::add(std::uint32_t tile, std::uint32_t replicate, const Film::TileState& state) {
+    const Header header{tile, replicate, state.samples, state.plan.empty() ? 0u : 1u};
+    append(bytes_, std::span(&header, 1));
+    append(bytes_, state.plan);
+    if (state.samples == 0) return;
+    append(bytes_, state.sums);
+    append(bytes_, state.squares);
+    append(bytes_, state.open);
+}
+
 std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t> tiles) {
     const std::uint32_t replicates = film.desc().replicates;
+    const auto forEachState = [&](const auto& visit) {
+        for (const std::uint32_t tile : tiles)
+            for (std::uint32_t replicate = 0; replicate < replicates; ++replicate)
+                visit(tile, replicate, film.state(tile, replicate));
+    };
     std::size_t size = 0; // may be most of a film: room for it is asked for once
-    for (const std::uint32_t tile : tiles) {
-        for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
-            const Film::TileState state = film.state(tile, replicate);
-            size += sizeof(Header) + state.plan.size_bytes();
-            if (state.samples > 0)
-                size += state.sums.size_bytes() + state.squares.size_bytes() + state.open.size_bytes();
-        }
-    }
-    std::vector<std::byte> bytes;
-    bytes.reserve(size + kRoom);
-    for (const std::uint32_t tile : tiles) {
-        for (std::uint32_t replicate = 0; replicate < replicates; ++replicate) {
-            const Film::TileState state = film.state(tile, replicate);
-            const Header header{tile, replicate, state.samples, film.hasPlan() ? 1u : 0u};
-            append(bytes, std::span(&header, 1));
-            append(bytes, state.plan);
-            if (state.samples == 0) continue;
-            append(bytes, state.sums);
-            append(bytes, state.squares);
-            append(bytes, state.open);
-        }
-    }
-    return bytes;
+    forEachState(
+        [&size](std::uint32_t, std::uint32_t, const Film::TileState& state) { size += TilePacker::packedSize(state); });
+    TilePacker packer(size);
+    forEachState([&packer](std::uint32_t tile, std::uint32_t replicate, const Film::TileState& state) {
+        packer.add(tile, replicate, state);
+    });
+    return packer.take();
 }
 
 TileList unpackTiles(std::span<const std::byte> bytes, Film& film) {

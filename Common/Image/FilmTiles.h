@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "Common/Image/Film.h"
@@ -22,6 +23,19 @@ std::uint64_t missingSamples(const Film& film, std::span<const std::uint32_t> ti
 // Pixels inside of the image, and samples of all of them.
 std::uint64_t pixelCount(const Film& film, std::span<const std::uint32_t> tiles);
 std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tiles);
+
+// Makes packed tiles of the states of tiles, in the order in which they are added.
+class TilePacker {
+  public:
+    // `bytes` of room, as packedSize() adds up to.
+    explicit TilePacker(std::size_t bytes);
+    static std::size_t packedSize(const Film::TileState& state);
+    void add(std::uint32_t tile, std::uint32_t replicate, const Film::TileState& state);
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+  private:
+    std::vector<std::byte> bytes_;
+};
 
 // What these tiles hold and what a plan gives them, to be sent between processes of one program on machines of one
 // kind; a tile without samples and plan takes few bytes.

@@ -12,31 +12,35 @@
 
 namespace rt::app {
 
-// Messages from one thread to another.
-class MessageQueue {
+// From one thread to another.
+template <class T>
+class Queue {
   public:
-    void put(Message message) {
+    void put(T message) {
         const std::scoped_lock lock(mutex_);
         messages_.push_back(std::move(message));
     }
-    std::optional<Message> take() {
+    std::optional<T> take() {
         const std::scoped_lock lock(mutex_);
         if (messages_.empty()) return std::nullopt;
-        std::optional<Message> message = std::move(messages_.front());
+        std::optional<T> message = std::move(messages_.front());
         messages_.pop_front();
         return message;
     }
 
   private:
     std::mutex mutex_;
-    std::deque<Message> messages_;
+    std::deque<T> messages_;
 };
 
 // The engine, which is as serveLeases() requires, must be left alone while this exists.
 class LocalRank {
   public:
     LocalRank(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings)
-        : link_{[this](Message message) { outbox_.put(std::move(message)); }, [this] { return inbox_.take(); }},
+        : link_{[this](Message message, TilesToPack tiles) {
+                    outbox_.put({std::move(message), std::move(tiles)});
+                },
+                [this] { return inbox_.take(); }},
           thread_([this, &engine, &scene, settings] { serve(engine, scene, settings); }) {}
     ~LocalRank() {
         inbox_.put({MessageKind::End, nullptr, {}});
@@ -46,18 +50,30 @@ class LocalRank {
     LocalRank& operator=(const LocalRank&) = delete;
 
     void send(Message message) { inbox_.put(std::move(message)); }
-    std::optional<Message> receive() { return outbox_.take(); }
+    // Tiles are packed here, while the engine goes on with the next lease.
+    std::optional<Message> receive() {
+        std::optional<Outgoing> next = outbox_.take();
+        if (!next) return std::nullopt;
+        if (next->tiles) next->message.tiles = next->tiles();
+        return std::move(next->message);
+    }
 
   private:
+    struct Outgoing {
+        Message message;
+        TilesToPack tiles;
+    };
+
     void serve(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings) {
         try {
             serveLeases(engine, scene, settings, link_);
         } catch (const std::exception& error) {
-            outbox_.put(failureMessage(error));
+            outbox_.put({failureMessage(error), nullptr});
         }
     }
 
-    MessageQueue inbox_, outbox_;
+    Queue<Message> inbox_;
+    Queue<Outgoing> outbox_;
     RankLink link_;
     std::thread thread_;
 };

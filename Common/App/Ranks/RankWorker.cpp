@@ -24,7 +24,8 @@ class Worker {
                      {"width", settings_.width},
                      {"height", settings_.height},
                      {"report", toJson(engine_.report())}},
-                    {}});
+                    {}},
+                   nullptr);
         while (!isEnd_) {
             if (!listen() && leases_.empty()) std::this_thread::sleep_for(kPollInterval);
             if (leases_.empty() || isEnd_) continue;
@@ -61,15 +62,16 @@ class Worker {
         isRecalled_ = isRecalled_ || (current_ != 0 && isMeant(current_));
         std::erase_if(leases_, [&](const Message& lease) {
             const std::uint64_t id = lease.fields.at("id");
-            if (isMeant(id)) giveBack(id, 0, 0, {});
+            if (isMeant(id)) giveBack(id, 0, 0, nullptr);
             return isMeant(id);
         });
     }
 
-    void giveBack(std::uint64_t id, std::uint64_t samples, double busy, Bytes tiles) {
+    void giveBack(std::uint64_t id, std::uint64_t samples, double busy, TilesToPack tiles) {
         link_.send({MessageKind::Result,
                     {{"id", id}, {"samples", samples}, {"busy", busy}, {"report", toJson(engine_.report())}},
-                    std::move(tiles)});
+                    {}},
+                   std::move(tiles));
     }
 
     void render(const Message& lease) {
@@ -80,14 +82,14 @@ class Worker {
         isRecalled_ = false;
         engine_.renderOnly(tiles, lease.fields.at("spp"), lease.tiles);
         const std::uint64_t before = image::totalSamples(engine_.film(), tiles);
-        while (!isRecalled_ && !isEnd_ && watch.seconds() < seconds) {
-            if (engine_.renderSome({std::chrono::duration<double>(kSlice), nullptr}).finished) break;
-            listen();
+        RenderStatus status{.samplesDone = before};
+        while (!status.finished && !isRecalled_ && !isEnd_ && watch.seconds() < seconds) {
+            status = engine_.renderSome({std::chrono::duration<double>(kSlice), nullptr});
+            if (!status.finished) listen();
         }
         if (!isEnd_) {
-            const image::Film& film = engine_.film(); // copied from a device: part of the work
-            const double busy = watch.seconds();
-            giveBack(current_, image::totalSamples(film, tiles) - before, busy, image::packTiles(film, tiles));
+            TilesToPack taken = engine_.takeTiles(tiles); // copied from a device: part of the work
+            giveBack(current_, status.samplesDone - before, watch.seconds(), std::move(taken));
         }
         current_ = 0;
     }

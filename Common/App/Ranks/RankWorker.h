@@ -11,7 +11,7 @@ namespace rt::app {
 
 // To rank 0, and from it. Rank 0 itself has one within the process.
 struct RankLink {
-    std::function<void(Message)> send;
+    std::function<void(Message, TilesToPack)> send;  // the message's tiles, where there are any, are still to be packed
     std::function<std::optional<Message>()> receive; // does not wait
 };
 

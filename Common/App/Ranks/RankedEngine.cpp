@@ -19,7 +19,7 @@ namespace {
 constexpr double kStart = 1;                  // seconds that ranks are waited for before the first samples
 constexpr double kRecall = 1;                 // seconds that ranks get to give back what they hold
 constexpr std::uint32_t kTilesOfThread = 8;   // of a lease, at least: its threads end together, nearly
-constexpr std::uint32_t kTilesOfDevice = 512; // likewise: 32 768 pixels
+constexpr std::uint32_t kTilesOfDevice = 256; // likewise: 16 384 pixels
 
 std::string engineKind(const EngineReport& report) {
     return report.threads > 0 ? "cpu" : report.engine;

@@ -10,4 +10,9 @@ Snapshot Engine::snapshot() {
     return result;
 }
 
+TilesToPack Engine::takeTiles(const image::TileList& tiles) {
+    const auto packed = std::make_shared<std::vector<std::byte>>(image::packTiles(film(), tiles));
+    return [packed] { return std::move(*packed); };
+}
+
 } // namespace rt::app

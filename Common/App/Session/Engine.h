@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -95,6 +96,10 @@ enum class Cost {
     Time, // by the processor's clock, in seconds, or by that of the device's shaders, in its ticks
 };
 
+// Packs tiles (FilmTiles.h). May be called once, by any thread and while the engine goes on with other work, but not when
+// that has been destroyed.
+using TilesToPack = std::function<std::vector<std::byte>()>;
+
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
 struct Engine {
     virtual ~Engine() = default;
@@ -114,6 +119,8 @@ struct Engine {
     // The film on the host, up to date; the reference stays valid until the next reset. When it cannot be brought up to
     // date that is a RenderError, once: later calls return it as it was.
     virtual const image::Film& film() = 0;
+    // After renderOnly: its tiles as far as they got. Whoever takes them need not find them on film() any more.
+    virtual TilesToPack takeTiles(const image::TileList& tiles);
     // film() resolved, but for rounding; it may cost far less than the film on the host.
     virtual Snapshot snapshot();
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
