@@ -212,7 +212,7 @@ TEST_P(ControlsTest, ExportsRunsAndChart) {
     ASSERT_TRUE(eventually([&] { return fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"); })) << log();
     // Places from the picture.
     for (const auto& [file, place] :
-         {std::pair{"ray-tracing-history.csv", "850 689"}, {"ray-tracing-errors.png", "427 718"}}) {
+         {std::pair{"ray-tracing-history.csv", "812 638"}, {"ray-tracing-errors.png", "909 638"}}) {
         EXPECT_TRUE(eventually([&, file = file, place = std::string(place)] {
             act("mousemove " + place + " sleep 0.3 click 1 sleep 0.3");
             return fs::exists(folder_ / "pictures" / file);
