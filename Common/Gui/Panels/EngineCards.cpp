@@ -107,7 +107,7 @@ void drawOther(Gui& gui) {
             runs && state.sppWanted > 0
                 ? static_cast<float>(static_cast<double>(state.spp) / static_cast<double>(state.sppWanted))
                 : 0.0f;
-        const std::string text = !runs            ? "waits for this render to end"
+        const std::string text = !runs            ? "after this render"
                                  : state.spp == 0 ? name + ": starting"
                                                   : name + ": " + std::to_string(state.spp) + " / " +
                                                         std::to_string(state.sppWanted) + " spp";
