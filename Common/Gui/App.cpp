@@ -17,6 +17,7 @@
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/SavePaths.h"
 #include "Common/Gui/PictureArea.h"
+#include "Common/Gui/PresentThread.h"
 #include "Common/Gui/Presenter.h"
 #include "Common/Gui/SessionLink.h"
 #include "Common/Gui/Shortcuts.h"
@@ -37,6 +38,7 @@ constexpr double kSoftFrameSeconds = 1.0 / 30; // between quick frames where sof
 constexpr double kSoftNewsSeconds = 0.1; // between frames of what is new where software draws and nobody does anything
 constexpr double kAwakeSeconds = 0.4, kSoftAwakeSeconds = 0.15; // of quick frames after the last input, likewise
 constexpr double kLongestStep = 0.1;                            // seconds of flight in one frame
+constexpr double kPresentingSeconds = 0.002; // between two looks whether a frame under way has been presented
 
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
                                             app::GuiSettings& settings, const GraphicsDevice& device,
@@ -93,6 +95,7 @@ class App {
     bool isAwake() const;
     bool isFrameDue();
     void wait();
+    void waitForPresenting();
     void turn();
     void save();
     void saveChart(const std::function<void(VkCommandBuffer)>& drawInterface);
@@ -123,6 +126,7 @@ class App {
     std::uint64_t historySerial_ = 0; // shown
     TurnMeter meter_;
     bool flying_ = false;
+    PresentThread presenting_{presenter_};             // behind all that a frame draws
     app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
 };
 
@@ -131,6 +135,7 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
         wait();
         turn();
     }
+    waitForPresenting();
     window_.hide(); // what follows may take a while
     kept_.keep(window_);
     if (const std::vector<std::string> failures = session_.close(); !failures.empty())
@@ -164,8 +169,14 @@ void App::wait() {
     const app::Stopwatch watch;
     while (!isFrameDue() && watch.seconds() < longest)
         window_.waitEvents(isAwake() || isNews_ ? kBusySeconds : restful);
+    waitForPresenting();
     window_.waitEvents(0);
     isNews_ = false;
+}
+
+// What the frame before shows stays as it is until it has been presented; the user is listened to meanwhile.
+void App::waitForPresenting() {
+    while (!presenting_.isIdle()) window_.waitEvents(kPresentingSeconds);
 }
 
 void App::turn() {
@@ -183,6 +194,7 @@ void App::turn() {
         window_.waitEvents(kIdleSeconds);
         return;
     }
+    presenter_.renew();
     gui_.followOther();
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
     // A table with new rows finds the width of its columns in the frame after.
@@ -195,7 +207,8 @@ void App::turn() {
         imgui_.draw(commands);
     };
     if (gui_.chartRequested) saveChart(drawInterface);
-    presenter_.present(picture_.constants(), drawInterface);
+    const auto upload = [this](VkCommandBuffer commands) { thumbnails_.upload(commands); };
+    presenting_.present({{width, height}, picture_.constants(), upload, drawInterface});
     meter_.add(busy.seconds());
     gui_.figures = meter_.figures();
     session_.tell(gui_.figures.window);

@@ -12,6 +12,7 @@
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/App/Interactive/OtherEngine.h"
 #include "Common/Gui/FileBrowser.h"
+#include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/RunBoard.h"
 #include "Common/Gui/Thumbnails.h"
@@ -24,11 +25,6 @@ namespace rt::gui {
 struct PictureView {
     float zoom = 0;           // pixels of the window for one of the image; 0: as large as fits
     float panX = 0, panY = 0; // of the image's middle from that of its part, in pixels of the window
-};
-
-// A row of the inspector: of the picture, and where one is pinned of that and their difference.
-struct InspectedRow {
-    std::string name, picture, held, difference;
 };
 
 // What the file browser is open for.

@@ -11,9 +11,10 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kSideWidth = 372;    // of the fixed layout, at scale 1
-constexpr float kBottomShare = 0.4f; // of the height
-constexpr float kToolbarPadding = 5; // above and below its buttons, at scale 1
+constexpr float kSideWidth = 372;                             // of the fixed layout, at scale 1
+constexpr float kBottomShare = 0.4f;                          // of the height; where that is too low
+constexpr float kBottomHeight = 21, kMostBottomShare = 0.55f; // in heights of the font, and at most
+constexpr float kToolbarPadding = 5;                          // above and below its buttons, at scale 1
 
 bool hasSide(std::span<const Panel> panels) {
     return std::any_of(panels.begin(), panels.end(),
@@ -139,7 +140,8 @@ Rect layOut(std::span<const Panel> panels, float scale, const Edges& edges) {
     }
     for (const Panel& panel : panels) {
         if (!panel.isShown || panel.place != Panel::Place::Bottom) continue;
-        const float share = std::floor(kBottomShare * height);
+        const float low = std::min(kBottomHeight * ImGui::GetFontSize(), kMostBottomShare * height);
+        const float share = std::floor(std::max(kBottomShare * height, low));
         rest.height -= share;
         ImGui::SetNextWindowPos({viewport->Pos.x + side, viewport->Pos.y + top + rest.height});
         ImGui::SetNextWindowSize({rest.width, share});

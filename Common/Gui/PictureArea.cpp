@@ -111,31 +111,8 @@ void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected.clear();
     const app::Picture& picture = gui_.state.picture;
     if (!gui_.viewRequest.inspect || !pixel || !picture.radiance) return;
-    const std::uint32_t x = (*pixel)[0], y = (*pixel)[1]; // Clang 14 captures no structured bindings
-    const auto find = [&](const std::shared_ptr<const image::Image>& image) {
-        return image && x < image->width && y < image->height ? image->pixel(x, y) : nullptr;
-    };
-    const float* rgb = find(picture.radiance);
-    if (rgb == nullptr) return;
-    const auto text = [](const char* pattern, auto... values) {
-        char buffer[96];
-        std::snprintf(buffer, sizeof buffer, pattern, values...);
-        return std::string(buffer);
-    };
-    constexpr const char* kPattern = "%.4g  %.4g  %.4g";
-    gui_.inspected.push_back({"pixel", text("%u, %u", x, y), "", ""});
-    InspectedRow radiance{"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""};
-    if (const float* held = gui_.held ? find(gui_.heldRadiance) : nullptr) {
-        gui_.inspected.front() = {"pixel", "B: picture", "A: pinned", "B - A"};
-        gui_.inspected.push_back({"", text("%u, %u", x, y), "", ""});
-        radiance.held = text(kPattern, held[0], held[1], held[2]);
-        radiance.difference = text("%+.3g  %+.3g  %+.3g", rgb[0] - held[0], rgb[1] - held[1], rgb[2] - held[2]);
-    }
-    gui_.inspected.push_back(std::move(radiance));
-    if (const float* variance = find(picture.variance))
-        gui_.inspected.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
-    if (const float* samples = find(picture.samples))
-        gui_.inspected.push_back({"samples", text("%.0f", *samples), "", ""});
+    gui_.inspected = inspectPixel(picture, gui_.held ? gui_.heldRadiance.get() : nullptr, *pixel);
+    if (gui_.inspected.empty()) return;
     const std::string material = materialAt(*pixel, *picture.radiance);
     if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMostNameBytes), "", ""});
 }

@@ -29,9 +29,9 @@ Presenter::Presenter(GraphicsDevice& device, const Window& window) : device_(dev
         makeWindowRenderPass(device.device(), format_.format,
                              VK_ATTACHMENT_LOAD_OP_DONT_CARE, // the picture and its surroundings cover everything
                              VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    createFrames();
+    createSlots();
     film_ = std::make_unique<FilmPass>(device, renderPass_.get());
-    provideSwapchain();
+    provideSwapchain(window.framebufferSize());
 }
 
 Presenter::~Presenter() {
@@ -55,25 +55,25 @@ void Presenter::chooseFormat() {
     }
 }
 
-void Presenter::createFrames() {
+void Presenter::createSlots() {
     const VkDevice device = device_.device();
-    for (Frame& frame : frames_) {
+    for (FrameSlot& slot : slots_) {
         VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
         poolInfo.queueFamilyIndex = device_.queueFamily();
         VkCommandPool pool = VK_NULL_HANDLE;
         check(vkCreateCommandPool(device, &poolInfo, nullptr, &pool), "Creating a command pool");
-        frame.pool = {device, pool, vkDestroyCommandPool};
+        slot.pool = {device, pool, vkDestroyCommandPool};
         VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
         allocation.commandPool = pool;
         allocation.commandBufferCount = 1;
-        check(vkAllocateCommandBuffers(device, &allocation, &frame.commands), "Creating a command buffer");
+        check(vkAllocateCommandBuffers(device, &allocation, &slot.commands), "Creating a command buffer");
         VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT;
         VkFence fence = VK_NULL_HANDLE;
         check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
-        frame.done = {device, fence, vkDestroyFence};
-        frame.acquired = createSemaphore(device);
+        slot.done = {device, fence, vkDestroyFence};
+        slot.acquired = createSemaphore(device);
     }
 }
 
@@ -82,7 +82,7 @@ void Presenter::dropSwapchain() {
     images_.clear();
     swapchain_ = {};
     // An image may have been acquired without being drawn to: its semaphore cannot be used again.
-    for (Frame& frame : frames_) frame.acquired = createSemaphore(device_.device());
+    for (FrameSlot& slot : slots_) slot.acquired = createSemaphore(device_.device());
 }
 
 void Presenter::createImage(VkImage image, SwapImage& to) {
@@ -109,15 +109,17 @@ void Presenter::createImage(VkImage image, SwapImage& to) {
     to.rendered = createSemaphore(device);
 }
 
-// False where the window has no area.
-bool Presenter::provideSwapchain() {
-    const auto [width, height] = window_.framebufferSize();
-    if (width <= 0 || height <= 0) return false;
-    if (surfaceLost_) {
-        dropSwapchain();
-        device_.renewSurface(window_);
-        surfaceLost_ = false;
-    }
+void Presenter::renew() {
+    if (!surfaceLost_) return;
+    dropSwapchain();
+    device_.renewSurface(window_);
+    surfaceLost_ = false;
+}
+
+// False where the window has no area, or its surface is lost.
+bool Presenter::provideSwapchain(const std::array<int, 2>& size) {
+    const auto [width, height] = size;
+    if (width <= 0 || height <= 0 || surfaceLost_) return false;
     const bool fits = swapchain_ && extent_.width == static_cast<std::uint32_t>(width) &&
                       extent_.height == static_cast<std::uint32_t>(height);
     if (fits) return true;
@@ -189,35 +191,34 @@ void Presenter::setHeld(std::shared_ptr<const image::Image> held) {
     newHeld_ = std::move(held);
 }
 
-bool Presenter::present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface) {
-    if (!provideSwapchain()) return false;
+void Presenter::present(const WindowFrame& frame) {
+    if (!provideSwapchain(frame.size)) return;
     const VkDevice device = device_.device();
-    Frame& frame = frames_[frame_];
-    const VkFence done = frame.done.get();
+    FrameSlot& slot = slots_[slot_];
+    const VkFence done = slot.done.get();
     check(vkWaitForFences(device, 1, &done, VK_TRUE, kForever), "Drawing on " + device_.name());
 
     std::uint32_t index = 0;
     const VkResult acquired =
-        vkAcquireNextImageKHR(device, swapchain_.get(), kForever, frame.acquired.get(), VK_NULL_HANDLE, &index);
+        vkAcquireNextImageKHR(device, swapchain_.get(), kForever, slot.acquired.get(), VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_SURFACE_LOST_KHR) surfaceLost_ = true;
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR || acquired == VK_ERROR_SURFACE_LOST_KHR) {
-        dropSwapchain();
-        return false;
+        return dropSwapchain();
     }
     if (acquired != VK_SUBOPTIMAL_KHR) check(acquired, "Drawing to the window");
 
     const SwapImage& target = images_[index];
-    record(frame, target, constants, drawInterface);
+    record(slot, target, frame);
     check(vkResetFences(device, 1, &done), "Drawing on " + device_.name());
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkSemaphore wait = frame.acquired.get();
+    const VkSemaphore wait = slot.acquired.get();
     const VkSemaphore signal = target.rendered.get();
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.waitSemaphoreCount = 1;
     submit.pWaitSemaphores = &wait;
     submit.pWaitDstStageMask = &stage;
     submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &frame.commands;
+    submit.pCommandBuffers = &slot.commands;
     submit.signalSemaphoreCount = 1;
     submit.pSignalSemaphores = &signal;
     check(vkQueueSubmit(device_.queue(), 1, &submit, done), "Drawing on " + device_.name());
@@ -230,7 +231,7 @@ bool Presenter::present(const PresentConstants& constants, const std::function<v
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
     const VkResult presented = vkQueuePresentKHR(device_.queue(), &info);
-    frame_ = (frame_ + 1) % kFramesInFlight;
+    slot_ = (slot_ + 1) % kFramesInFlight;
     if (presented == VK_ERROR_SURFACE_LOST_KHR) surfaceLost_ = true;
     if (presented == VK_ERROR_OUT_OF_DATE_KHR || presented == VK_SUBOPTIMAL_KHR ||
         presented == VK_ERROR_SURFACE_LOST_KHR) {
@@ -238,29 +239,28 @@ bool Presenter::present(const PresentConstants& constants, const std::function<v
     } else {
         check(presented, "Drawing to the window");
     }
-    return true;
 }
 
-void Presenter::record(Frame& frame, const SwapImage& target, const PresentConstants& constants,
-                       const std::function<void(VkCommandBuffer)>& drawInterface) {
-    check(vkResetCommandPool(device_.device(), frame.pool.get(), 0), "Recording commands");
+void Presenter::record(FrameSlot& slot, const SwapImage& target, const WindowFrame& frame) {
+    check(vkResetCommandPool(device_.device(), slot.pool.get(), 0), "Recording commands");
     VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(frame.commands, &begin), "Recording commands");
-    if (newPicture_) film_->upload(frame.commands, frame_, FilmPass::Slot::Picture, *newPicture_);
-    if (newHeld_) film_->upload(frame.commands, frame_, FilmPass::Slot::Held, *newHeld_);
+    check(vkBeginCommandBuffer(slot.commands, &begin), "Recording commands");
+    if (newPicture_) film_->upload(slot.commands, slot_, FilmPass::Slot::Picture, *newPicture_);
+    if (newHeld_) film_->upload(slot.commands, slot_, FilmPass::Slot::Held, *newHeld_);
     newPicture_ = nullptr;
     newHeld_ = nullptr;
+    frame.upload(slot.commands);
 
     VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
     pass.renderPass = renderPass_.get();
     pass.framebuffer = target.framebuffer.get();
     pass.renderArea.extent = extent_;
-    vkCmdBeginRenderPass(frame.commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
-    film_->draw(frame.commands, extent_, constants);
-    drawInterface(frame.commands);
-    vkCmdEndRenderPass(frame.commands);
-    check(vkEndCommandBuffer(frame.commands), "Recording commands");
+    vkCmdBeginRenderPass(slot.commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+    film_->draw(slot.commands, extent_, frame.constants);
+    frame.drawInterface(slot.commands);
+    vkCmdEndRenderPass(slot.commands);
+    check(vkEndCommandBuffer(slot.commands), "Recording commands");
 }
 
 } // namespace rt::gui

@@ -15,6 +15,13 @@
 
 namespace rt::gui {
 
+struct WindowFrame {
+    std::array<int, 2> size{}; // of the window, in pixels
+    PresentConstants constants;
+    std::function<void(VkCommandBuffer)> upload;        // outside of the render pass: what the interface needs
+    std::function<void(VkCommandBuffer)> drawInterface; // over the picture
+};
+
 class Presenter {
   public:
     Presenter(GraphicsDevice& device, const Window& window);
@@ -30,12 +37,14 @@ class Presenter {
     void setPicture(std::shared_ptr<const image::Image> picture);
     void setHeld(std::shared_ptr<const image::Image> held);
 
-    // Shows a frame: the picture, then what `drawInterface` draws over it. False where there is nothing to draw on, as
-    // while the window is minimised. Throws RenderError or DeviceLostError.
-    bool present(const PresentConstants& constants, const std::function<void(VkCommandBuffer)>& drawInterface);
+    // On the window's thread, before a frame: what the window system has taken away is replaced. Throws RenderError.
+    void renew();
+    // Shows a frame, on any thread; nothing where there is nothing to draw on, as while the window changes its size.
+    // Throws RenderError or DeviceLostError.
+    void present(const WindowFrame& frame);
 
   private:
-    struct Frame {
+    struct FrameSlot {
         vulkan::Handle<VkCommandPool> pool;
         VkCommandBuffer commands = VK_NULL_HANDLE;
         vulkan::Handle<VkFence> done;
@@ -49,21 +58,20 @@ class Presenter {
     };
 
     void chooseFormat();
-    void createFrames();
-    bool provideSwapchain();
+    void createSlots();
+    bool provideSwapchain(const std::array<int, 2>& size);
     bool createSwapchain(const VkSurfaceCapabilitiesKHR& able, VkExtent2D extent);
     void dropSwapchain();
     void createImage(VkImage image, SwapImage& to);
-    void record(Frame& frame, const SwapImage& target, const PresentConstants& constants,
-                const std::function<void(VkCommandBuffer)>& drawInterface);
+    void record(FrameSlot& slot, const SwapImage& target, const WindowFrame& frame);
 
     GraphicsDevice& device_;
     const Window& window_;
     VkSurfaceFormatKHR format_{};
     vulkan::Handle<VkRenderPass> renderPass_;
     std::unique_ptr<FilmPass> film_;
-    std::array<Frame, kFramesInFlight> frames_;
-    std::uint32_t frame_ = 0;
+    std::array<FrameSlot, kFramesInFlight> slots_;
+    std::uint32_t slot_ = 0;
 
     vulkan::Handle<VkSwapchainKHR> swapchain_;
     VkExtent2D extent_{};

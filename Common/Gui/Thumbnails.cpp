@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
@@ -44,10 +45,15 @@ Thumbnails::Sheet Thumbnails::load() {
 void Thumbnails::beginFrame() {
     tiles_.clear();
     if (!loading_.valid() || loading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-    const Sheet sheet = loading_.get();
-    if (sheet.places.empty()) return;
-    device_.run([&](VkCommandBuffer commands) { pass_.upload(commands, 0, FilmPass::Slot::Picture, sheet.image); });
-    places_ = sheet.places;
+    Sheet sheet = loading_.get();
+    newSheet_ = std::move(sheet.image);
+    places_ = std::move(sheet.places);
+}
+
+void Thumbnails::upload(VkCommandBuffer commands) {
+    if (newSheet_.width == 0) return;
+    pass_.upload(commands, 0, FilmPass::Slot::Picture, newSheet_);
+    newSheet_ = {};
 }
 
 bool Thumbnails::draw(const std::string& scene, ImVec2 corner, float side) {

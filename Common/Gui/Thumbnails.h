@@ -28,6 +28,8 @@ class Thumbnails {
     void beginFrame();
     // Draws in the present window of ImGui, at a place in its units. False where there is no picture of that scene.
     bool draw(const std::string& scene, ImVec2 corner, float side);
+    // With the commands of the frame, outside of a render pass: what has been read since.
+    void upload(VkCommandBuffer commands);
     // The commands that ImGui's list is about to be turned into.
     void setCommands(VkCommandBuffer commands) { commands_ = commands; }
 
@@ -50,6 +52,7 @@ class Thumbnails {
     FilmPass pass_;
     std::future<Sheet> loading_;
     std::map<std::string, std::uint32_t> places_;
+    image::Image newSheet_;  // to be uploaded
     std::deque<Tile> tiles_; // of this frame; ImGui's list points to them
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
 };

@@ -12,8 +12,6 @@
 #include <thread>
 #include <unistd.h>
 
-#include "tests/gui/XClient.h"
-
 namespace rt::test {
 namespace {
 
@@ -207,6 +205,21 @@ std::uint64_t Desktop::residentBytes() const {
     std::uint64_t total = 0, resident = 0;
     statm >> total >> resident;
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
+bool Desktop::hasChild() const {
+    std::error_code none;
+    for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
+        // "pid (name) state parent ...": the name may hold anything.
+        const std::string stat = read(process.path() / "stat");
+        const std::size_t end = stat.rfind(')');
+        if (end == std::string::npos) continue;
+        char state = 0;
+        int parent = 0;
+        std::istringstream(stat.substr(end + 1)) >> state >> parent;
+        if (parent == program_ && state != 'Z') return true;
+    }
+    return false;
 }
 
 bool Desktop::eventually(const std::function<bool()>& condition) {

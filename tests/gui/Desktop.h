@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/gui/XClient.h"
+
 namespace rt::test {
 
 class Desktop : public testing::Test {
@@ -44,6 +46,8 @@ class Desktop : public testing::Test {
     // Drops files on the window as another program would; whether they were taken.
     bool drop(const std::vector<std::string>& files);
     std::uint64_t residentBytes() const;
+    Screenshot screenshot() const { return takeScreenshot(display_); }
+    bool hasChild() const; // whether the program runs another one
 
     // Waits for what takes a while on a busy machine; the time only ends a test that fails.
     static bool eventually(const std::function<bool()>& condition);

@@ -2,6 +2,7 @@
 
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
+#include <X11/Xutil.h>
 #include <chrono>
 #include <memory>
 #include <thread>
@@ -136,6 +137,22 @@ void destroyWindow(const std::string& display, unsigned long window) {
     if (!connection) return;
     XDestroyWindow(connection.get(), window);
     XSync(connection.get(), False);
+}
+
+Screenshot takeScreenshot(const std::string& display) {
+    const Connection connection(XOpenDisplay(display.c_str()));
+    if (!connection) return {};
+    const int screen = DefaultScreen(connection.get());
+    Screenshot shot{DisplayWidth(connection.get(), screen), DisplayHeight(connection.get(), screen), {}};
+    XImage* image =
+        XGetImage(connection.get(), DefaultRootWindow(connection.get()), 0, 0, static_cast<unsigned>(shot.width),
+                  static_cast<unsigned>(shot.height), AllPlanes, ZPixmap);
+    if (image == nullptr) return {};
+    for (int y = 0; y < shot.height; ++y)
+        for (int x = 0; x < shot.width; ++x)
+            shot.pixels.push_back(static_cast<std::uint32_t>(XGetPixel(image, x, y)) & 0xffffffu);
+    XDestroyImage(image);
+    return shot;
 }
 
 void setDotsPerInch(const std::string& display, int dots) {

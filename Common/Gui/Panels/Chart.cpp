@@ -193,7 +193,10 @@ ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLa
     const float left = ImGui::CalcTextSize("1e-10").x + 6, bottom = 2.6f * font, right = size.x - 0.8f * font;
     const LegendLayout legendLayout = layOutLegend(
         legend, corner.x + left, corner.x + std::max(left, ImGui::CalcTextSize(yLabel).x), corner.x + right, corner.y);
-    const float top = legendLayout.bottom - corner.y + 0.3f * font; // half a label of the highest decade
+    const auto topBelow = [font](float height) { return height + 0.3f * font; }; // half a label of the highest decade
+    float top = topBelow(legendLayout.bottom - corner.y);
+    const bool hasLegend = size.y >= bottom + top + 3 * font; // the points matter more
+    if (!hasLegend) top = topBelow(ImGui::GetTextLineHeightWithSpacing());
     const bool isClicked = ImGui::InvisibleButton(id, {std::max(size.x, 1.0f), std::max(size.y, 1.0f)});
     const bool isPointedAt = ImGui::IsItemHovered();
     if (size.x < left + 3 * font || size.y < bottom + top + 2 * font) return {}; // no room
@@ -213,7 +216,7 @@ ChartPointer drawLogLogChart(const char* id, const char* xLabel, const char* yLa
         return {};
     }
     for (const ChartSeries& s : series) plot.drawSeries(list, s);
-    drawLegend(list, legend, legendLayout);
+    if (hasLegend) drawLegend(list, legend, legendLayout);
     if (!isPointedAt) return {};
     return {plot.nearest(series, ImGui::GetIO().MousePos), isClicked};
 }

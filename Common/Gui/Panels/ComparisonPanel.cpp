@@ -19,7 +19,7 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kNarrow = 34, kLeastHeight = 9; // of the panel; of table and chart: in heights of the font
+constexpr float kNarrow = 34, kLeastHeight = 8; // of the panel; of table and chart: in heights of the font
 
 using app::RunRecord;
 
@@ -35,50 +35,72 @@ void exportCsv(Gui& gui) {
     }
 }
 
-void drawReference(Gui& gui) {
+// What there is to measure against, and the error that is known by it.
+void drawReferenceState(const Gui& gui) {
     const app::SessionState& state = gui.state;
-    const float space = ImGui::GetStyle().ItemSpacing.x;
     std::string text = state.reference.empty() ? "Reference: none" : "Reference: " + state.reference;
     if (!state.reference.empty() && !state.referenceFits) text += " (of another view or size)";
     if (state.isReferenceRender) text = "Reference: being rendered";
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    if (state.relmse) {
-        const std::string error =
-            "relMSE " + errorText(*state.relmse) + (state.curve.empty() ? ", estimated" : ", measured");
-        besideIfItFits(ImGui::CalcTextSize(error.c_str()).x);
-        ImGui::TextUnformatted(error.c_str());
+    besideIfItFits(ImGui::CalcTextSize(text.c_str()).x);
+    ImGui::TextUnformatted(elided(text, ImGui::GetContentRegionAvail().x).c_str());
+    tooltip(text.c_str());
+    if (!state.relmse) return;
+    const std::string error =
+        "relMSE " + errorText(*state.relmse) + (state.curve.empty() ? ", estimated" : ", measured");
+    besideIfItFits(ImGui::CalcTextSize(error.c_str()).x);
+    ImGui::TextUnformatted(error.c_str());
+}
+
+void drawReferenceMenu(Gui& gui) {
+    const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x;
+    ImGui::SetNextItemWidth(6 * em);
+    int spp = static_cast<int>(gui.referenceSpp);
+    if (ImGui::InputInt("##referencespp", &spp, 0))
+        gui.referenceSpp = static_cast<std::uint32_t>(std::clamp(spp, 16, 1 << 24));
+    tooltip("Samples per pixel of the reference");
+    ImGui::SameLine(0, gap);
+    if (button("Render reference",
+               "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
+               "render, by whichever program, count. Stop gives it up.",
+               !gui.state.isReferenceRender)) {
+        gui.session.renderReference(gui.referenceSpp);
+        ImGui::CloseCurrentPopup();
     }
+    ImGui::SetNextItemWidth(14 * em);
+    const bool entered = inputText("##referencefile", ".exr, .hdr or .pfm file", gui.referencePath);
+    ImGui::SameLine(0, gap);
+    if ((button("Load", "A linear image of the present size", !gui.referencePath.empty()) || entered) &&
+        !gui.referencePath.empty()) {
+        gui.session.loadReference(gui.referencePath);
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine(0, gap);
+    if (button("Browse", "Chooses the file of a reference", true)) {
+        gui.browse(BrowseFor::Reference);
+        ImGui::CloseCurrentPopup();
+    }
+}
+
+void drawReference(Gui& gui) {
+    besideIfItFits(buttonWidth("Reference..."));
+    if (button("Reference...", "Renders or loads an image to measure errors against", true))
+        ImGui::OpenPopup("##reference");
+    if (ImGui::BeginPopup("##reference")) {
+        drawReferenceMenu(gui);
+        ImGui::EndPopup();
+    }
+    drawReferenceState(gui);
+}
+
+// What is wrong with the reference, where there is something.
+void drawReferenceTrouble(Gui& gui) {
+    const app::SessionState& state = gui.state;
     if (state.referenceFits && !state.curve.empty() && state.relmse &&
         app::isReferenceTooNoisy(*state.relmse, state.referenceError)) {
         wrapped("The reference is too noisy for this: its own relMSE is " + errorText(state.referenceError) +
                     ", more than a ninth of what is measured. Render it with more samples",
                 noticeColor(gui.settings.colorMode));
     }
-    ImGui::SetNextItemWidth(ImGui::GetFontSize() * 6);
-    int spp = static_cast<int>(gui.referenceSpp);
-    if (ImGui::InputInt("##referencespp", &spp, 0))
-        gui.referenceSpp = static_cast<std::uint32_t>(std::clamp(spp, 16, 1 << 24));
-    tooltip("Samples per pixel of the reference");
-    besideIfItFits(buttonWidth("Render reference"));
-    if (button("Render reference",
-               "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
-               "render, by whichever program, count. Stop gives it up.",
-               !state.isReferenceRender)) {
-        gui.session.renderReference(gui.referenceSpp);
-    }
-    const float field = ImGui::GetFontSize() * 10;
-    besideIfItFits(field + space + buttonWidth("Load"));
-    ImGui::SetNextItemWidth(field);
-    const bool entered = inputText("##referencefile", ".exr, .hdr or .pfm file", gui.referencePath);
-    besideIfItFits(buttonWidth("Load"));
-    if ((button("Load", "A linear image of the present size", !gui.referencePath.empty()) || entered) &&
-        !gui.referencePath.empty()) {
-        gui.session.loadReference(gui.referencePath);
-    }
-    besideIfItFits(buttonWidth("Browse"));
-    if (button("Browse", "Chooses the file of a reference", true)) gui.browse(BrowseFor::Reference);
     drawErrorOf(gui, app::ErrorSource::Reference);
 }
 
@@ -167,8 +189,8 @@ void drawRunActions(Gui& gui) {
     const std::vector<RunRecord> selected = gui.runs.selected();
     besideIfItFits(buttonWidth("Hide"));
     if (button("Hide", "The selected runs, until the window closes", !selected.empty())) gui.runs.hideSelected();
-    besideIfItFits(buttonWidth("Show hidden"));
-    if (button("Show hidden", "Brings hidden runs back", gui.runs.hiddenCount() > 0)) gui.runs.showHidden();
+    besideIfItFits(buttonWidth("Unhide"));
+    if (button("Unhide", "Brings hidden runs back", gui.runs.hiddenCount() > 0)) gui.runs.showHidden();
     drawDeletion(gui, "##delete", "Delete", "The selected runs, from the history", selected);
     drawDeletion(gui, "##clear", "Clear", "All runs that are shown, from the history", gui.runs.shown());
     besideIfItFits(buttonWidth("Export CSV"));
@@ -192,19 +214,21 @@ void drawComparisonPanel(Gui& gui) {
     gui.runs.update(gui.history, gui.onlyThisScene && gui.state.scene ? gui.state.scene->id : "");
     const float space = ImGui::GetStyle().ItemSpacing.x, font = ImGui::GetFontSize();
     const bool isNarrow = ImGui::GetContentRegionAvail().x < kNarrow * font; // the chart is below, not beside
-    if (!isNarrow) drawEngineCards(gui);
-    const ImVec2 all = ImGui::GetContentRegionAvail();
-    const ImVec2 chart = isNarrow ? ImVec2{0, kLeastHeight * font} : ImVec2{std::floor(0.35f * all.x), all.y};
-    ImGui::BeginChild("##left", {isNarrow ? 0 : all.x - chart.x - space, 0}, false);
-    if (isNarrow) drawEngineCards(gui);
-    drawReference(gui);
+    drawEngineCards(gui, [&gui] { drawReference(gui); });
+    drawReferenceTrouble(gui);
     drawRunActions(gui);
-    drawRunTable(gui, {0, std::max(kLeastHeight * font, ImGui::GetContentRegionAvail().y)});
-    if (isNarrow) drawChart(gui, {ImGui::GetContentRegionAvail().x, chart.y});
-    ImGui::EndChild();
-    if (isNarrow) return;
+    const ImVec2 all = ImGui::GetContentRegionAvail();
+    const float height = std::max(kLeastHeight * font, all.y);
+    if (isNarrow) {
+        drawRunTable(gui, {0, kLeastHeight * font});
+        return drawChart(gui, {all.x, kLeastHeight * font});
+    }
+    const float chart = std::floor(0.35f * all.x);
+    ImGui::BeginGroup();
+    drawRunTable(gui, {all.x - chart - space, height});
+    ImGui::EndGroup();
     ImGui::SameLine(0, space);
-    drawChart(gui, chart);
+    drawChart(gui, {chart, height});
 }
 
 } // namespace rt::gui

@@ -1,6 +1,7 @@
 #include "Common/Gui/Panels/EngineCards.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ namespace {
 using app::RunRecord;
 using Phase = app::OtherState::Phase;
 
-constexpr float kWidth = 15; // of a card, in heights of the font
+constexpr float kWidth = 15, kLeastWidth = 13; // of a card, in heights of the font
 
 // "3.2x faster", "1.31x slower"
 std::string ratioText(double ratio) {
@@ -31,8 +32,8 @@ struct CardLine {
 };
 
 // A title in the engine's colour, then lines of a name at the left and a number at the right.
-void drawCard(const char* title, ImU32 color, const std::vector<CardLine>& lines, const std::string& tip) {
-    const float em = ImGui::GetFontSize(), width = kWidth * em, pad = 0.4f * em;
+void drawCard(float width, const char* title, ImU32 color, const std::vector<CardLine>& lines, const std::string& tip) {
+    const float em = ImGui::GetFontSize(), pad = 0.4f * em;
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size{width, line * static_cast<float>(lines.size() + 1) + 2 * pad};
@@ -53,20 +54,20 @@ void drawCard(const char* title, ImU32 color, const std::vector<CardLine>& lines
     }
 }
 
-void drawRunCard(const Gui& gui, const RunRecord* run, bool isGpu) {
+void drawRunCard(const Gui& gui, float width, const RunRecord* run, bool isGpu) {
     const ImU32 color = ImGui::ColorConvertFloat4ToU32(engineColor(isGpu, gui.settings.colorMode));
     if (run == nullptr)
-        return drawCard(isGpu ? "GPU" : "CPU", color, {{"No run of the same work", ""}, {"", ""}, {"", ""}},
+        return drawCard(width, isGpu ? "GPU" : "CPU", color, {{"No run of the same work", ""}, {"", ""}, {"", ""}},
                         "Only runs that agree in scene, camera, size, SPP, depth, estimator and sampler are compared");
     const std::string kind = errorKind(*run);
-    drawCard(engineText(*run).c_str(), color,
+    drawCard(width, engineText(*run).c_str(), color,
              {{"Time", shortDuration(run->renderSeconds)},
               {"Samples/s", withPrefix(run->samplesPerSecond)},
               {kind.empty() ? "relMSE" : "relMSE, " + kind, errorText(run->relmse)}},
              runDetails(*run) + "\n" + whatErrorKindMeans(*run));
 }
 
-void drawSpeedUp(const app::EnginePair& pair) {
+void drawSpeedUp(float width, const app::EnginePair& pair) {
     const app::Comparison comparison = app::compareRuns(*pair.cpu, *pair.gpu);
     std::string toError = "not known", tip = "Needs the errors of both runs, of one kind: render or load a reference";
     if (comparison.timeToEqualError > 0) {
@@ -77,7 +78,7 @@ void drawSpeedUp(const app::EnginePair& pair) {
               (comparison.isMeasured ? "measured against a reference" : "the films' own estimates, no measurements");
     }
     const std::string kind = comparison.timeToEqualError <= 0 ? "" : comparison.isMeasured ? "measured" : "estimated";
-    drawCard("GPU against CPU", ImGui::GetColorU32(ImGuiCol_Text),
+    drawCard(width, "GPU against CPU", ImGui::GetColorU32(ImGuiCol_Text),
              {{"To equal error", toError},
               {"Errors", kind.empty() ? "-" : kind},
               {"Samples/s", ratioText(comparison.samplesPerSecond)}},
@@ -93,6 +94,10 @@ const RunRecord* newestOf(const RunBoard& runs, bool isGpu) {
     return newest;
 }
 
+std::string otherLabel(const Gui& gui) {
+    return std::string("Run on the other engine (") + (gui.isGpu ? "CPU" : "GPU") + ")";
+}
+
 void drawOther(Gui& gui) {
     const app::OtherState state = gui.other.state();
     const std::string name = gui.isGpu ? "CPU" : "GPU";
@@ -102,12 +107,14 @@ void drawOther(Gui& gui) {
             runs && state.sppWanted > 0
                 ? static_cast<float>(static_cast<double>(state.spp) / static_cast<double>(state.sppWanted))
                 : 0.0f;
-        const std::string text = !runs            ? "waits for this render to end"
+        const std::string text = !runs            ? "after this render"
                                  : state.spp == 0 ? name + ": starting"
                                                   : name + ": " + std::to_string(state.spp) + " / " +
                                                         std::to_string(state.sppWanted) + " spp";
-        ImGui::ProgressBar(share, {kWidth * ImGui::GetFontSize(), 0}, text.c_str());
-        besideIfItFits(buttonWidth("Cancel"));
+        const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+        ImGui::ProgressBar(share, {buttonWidth(otherLabel(gui).c_str()) - buttonWidth("Cancel") - gap, 0},
+                           text.c_str());
+        ImGui::SameLine(0, gap);
         if (button("Cancel", "Ends the other program; nothing is kept of its render", true)) gui.cancelOther();
         return;
     }
@@ -117,27 +124,30 @@ void drawOther(Gui& gui) {
         "window. Its picture is pinned beside this one, its run goes to the table. This render "
         "ends first: two at a time would slow each other down" +
         (why.empty() ? "" : ".\n" + why);
-    if (button(("Run on the other engine (" + name + ")").c_str(), tip.c_str(), why.empty())) gui.otherIsWanted = true;
+    if (button(otherLabel(gui).c_str(), tip.c_str(), why.empty())) gui.otherIsWanted = true;
     if (state.phase == Phase::Failed) wrapped(state.error, errorColor(gui.settings.colorMode));
     if (state.phase == Phase::Cancelled) note(name + ": cancelled");
 }
 
 } // namespace
 
-void drawEngineCards(Gui& gui) {
+void drawEngineCards(Gui& gui, const std::function<void()>& drawMore) {
     const app::EnginePair& pair = gui.runs.pair();
     const bool isPair = pair.cpu != nullptr;
-    const float width = kWidth * ImGui::GetFontSize();
-    drawRunCard(gui, isPair ? pair.cpu : gui.isGpu ? nullptr : newestOf(gui.runs, false), false);
+    const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x, cards = isPair ? 3 : 2;
+    const float rest = ImGui::GetContentRegionAvail().x - buttonWidth(otherLabel(gui).c_str()) - cards * gap;
+    const float width = std::floor(std::clamp(rest / cards, kLeastWidth * em, kWidth * em));
+    drawRunCard(gui, width, isPair ? pair.cpu : gui.isGpu ? nullptr : newestOf(gui.runs, false), false);
     besideIfItFits(width);
-    drawRunCard(gui, isPair ? pair.gpu : gui.isGpu ? newestOf(gui.runs, true) : nullptr, true);
+    drawRunCard(gui, width, isPair ? pair.gpu : gui.isGpu ? newestOf(gui.runs, true) : nullptr, true);
     if (isPair) {
         besideIfItFits(width);
-        drawSpeedUp(pair);
+        drawSpeedUp(width, pair);
     }
-    besideIfItFits(width);
+    besideIfItFits(buttonWidth(otherLabel(gui).c_str()));
     ImGui::BeginGroup();
     drawOther(gui);
+    drawMore();
     ImGui::EndGroup();
 }
 

@@ -129,8 +129,15 @@ std::string commonText(const app::RunGroups& groups) {
 
 void drawRunTable(Gui& gui, ImVec2 size) {
     const app::RunGroups& groups = gui.runs.groups();
-    if (groups.rows.empty()) return note("No runs yet: each render that ends becomes a row");
-    note(commonText(groups));
+    if (groups.rows.empty()) {
+        ImGui::BeginChild("##none", size);
+        note("No runs yet: each render that ends becomes a row");
+        return ImGui::EndChild();
+    }
+    const std::string common = commonText(groups);
+    ImGui::TextDisabled("%s", elided(common, size.x > 0 ? size.x : ImGui::GetContentRegionAvail().x).c_str());
+    tooltip(common.c_str());
+    size.y -= ImGui::GetTextLineHeightWithSpacing();
     const std::vector<Column> columns = columnsOf(groups);
     // Which columns are hidden belongs to those that there are.
     std::string id = "##runs";

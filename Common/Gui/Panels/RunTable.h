@@ -4,6 +4,6 @@
 
 namespace rt::gui {
 
-void drawRunTable(Gui& gui, ImVec2 size);
+void drawRunTable(Gui& gui, ImVec2 size); // with what all runs have in common above it
 
 } // namespace rt::gui

@@ -1,0 +1,42 @@
+#include "Common/Gui/Inspector.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace rt::gui {
+namespace {
+
+template <class... Values>
+std::string text(const char* pattern, Values... values) {
+    char buffer[96];
+    std::snprintf(buffer, sizeof buffer, pattern, values...);
+    return buffer;
+}
+
+} // namespace
+
+std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image::Image* held,
+                                       const std::array<std::uint32_t, 2>& pixel) {
+    const std::uint32_t x = pixel[0], y = pixel[1];
+    const auto find = [x, y](const image::Image* image) {
+        return image != nullptr && x < image->width && y < image->height ? image->pixel(x, y) : nullptr;
+    };
+    const float* rgb = find(picture.radiance.get());
+    if (rgb == nullptr) return {};
+    constexpr const char* kPattern = "%.4g  %.4g  %.4g";
+    std::vector<InspectedRow> rows = {{"pixel", text("%u, %u", x, y), "", ""}};
+    InspectedRow radiance{"radiance", text(kPattern, rgb[0], rgb[1], rgb[2]), "", ""};
+    if (const float* other = find(held)) {
+        rows.front() = {"pixel", "B: picture", "A: pinned", "B - A"};
+        rows.push_back({"", text("%u, %u", x, y), "", ""});
+        radiance.held = text(kPattern, other[0], other[1], other[2]);
+        radiance.difference = text("%+.3g  %+.3g  %+.3g", rgb[0] - other[0], rgb[1] - other[1], rgb[2] - other[2]);
+    }
+    rows.push_back(std::move(radiance));
+    if (const float* variance = find(picture.variance.get()))
+        rows.push_back({"variance", text("%.3g  %.3g  %.3g", variance[0], variance[1], variance[2]), "", ""});
+    if (const float* samples = find(picture.samples.get())) rows.push_back({"samples", text("%.0f", *samples), "", ""});
+    return rows;
+}
+
+} // namespace rt::gui

@@ -1,0 +1,21 @@
+// What the inspector says of a pixel.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "Common/App/Interactive/InteractiveState.h"
+
+namespace rt::gui {
+
+// A row of the inspector: of the picture, and where one is pinned of that and their difference.
+struct InspectedRow {
+    std::string name, picture, held, difference;
+};
+
+// `held`: the radiance of the pinned picture; null: there is none. Nothing where the pixel is outside of the picture.
+std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image::Image* held,
+                                       const std::array<std::uint32_t, 2>& pixel);
+
+} // namespace rt::gui

@@ -1,0 +1,173 @@
+// The comparison in both windows, by the mouse, and what there is to see of it.
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "Common/App/Interactive/RunHistory.h"
+#include "Common/Gui/Theme.h"
+#include "tests/gui/WindowTest.h"
+
+namespace rt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::uint32_t bytesOf(const ImVec4& color) {
+    const ImU32 packed = ImGui::ColorConvertFloat4ToU32(color);
+    const auto byte = [packed](int shift) { return (packed >> shift) & 0xffu; };
+    return byte(IM_COL32_R_SHIFT) << 16 | byte(IM_COL32_G_SHIFT) << 8 | byte(IM_COL32_B_SHIFT);
+}
+
+app::RunRecord run(const std::string& program, const std::string& estimator, const std::string& time) {
+    app::RunRecord r;
+    r.time = time;
+    r.app = program;
+    r.engine = "multi";
+    r.scene = "cornell-box-lights";
+    r.sceneHash = "0123456789abcdef";
+    r.camera = "{}";
+    r.lightSampling = estimator;
+    r.sampler = "sobol";
+    r.lightSelection = "contribution";
+    r.sphereLight = r.quadLight = r.triangleLight = "auto";
+    r.russianRoulette = r.oneSidedLights = "on";
+    r.adaptive = "off";
+    r.width = r.height = 100;
+    r.maxDepth = 50;
+    r.threads = 2;
+    r.spp = 16;
+    r.renderSeconds = 1;
+    r.samplesPerSecond = 160000;
+    r.relmse = 0.1;
+    return r;
+}
+
+class ComparisonTest : public WindowTest {
+  protected:
+    static constexpr int kFirstRow = 705, kRow = 19; // of the table
+
+    // The runs of the file that a window opens with, the newest last.
+    void keep(const std::vector<app::RunRecord>& runs) const {
+        fs::create_directories(historyFile().parent_path());
+        std::ofstream out(historyFile());
+        for (const app::RunRecord& record : runs) out << toJsonLine(record) << '\n';
+    }
+    fs::path historyFile() const { return folder_ / "config" / "ray-tracing" / "history.jsonl"; }
+    std::multiset<std::string> estimatorsInHistory() const {
+        std::multiset<std::string> names;
+        app::RunHistory history(historyFile());
+        for (const app::RunRecord& record : history.records()) names.insert(record.lightSampling);
+        return names;
+    }
+    std::size_t runsOfOther() const {
+        std::size_t count = 0;
+        app::RunHistory history(historyFile());
+        for (const app::RunRecord& record : history.records()) count += record.app != GetParam();
+        return count;
+    }
+    void click(int x, int y) {
+        act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
+            " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
+    }
+    void clickRow(int row) {
+        click(640, kFirstRow + row * kRow);
+        act("mousemove 1000 300"); // nothing is pointed at
+    }
+    // Where no text of the row is.
+    std::uint32_t rowColor(int row) const { return screenshot().at(640, kFirstRow + row * kRow); }
+    bool isRowThere(int row) const {
+        const Screenshot shot = screenshot();
+        std::set<std::uint32_t> colors;
+        const int y = kFirstRow + row * kRow;
+        for (int x = 400; x < 520; ++x)
+            for (int dy = -5; dy <= 5; ++dy) colors.insert(shot.at(x, y + dy));
+        return colors.size() > 1; // letters
+    }
+    bool isAt(int x, int y, const ImVec4& color) const { return screenshot().at(x, y) == bytesOf(color); }
+};
+INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
+
+// Two runs of equal work, which are compared, and one of another.
+TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
+    const std::string cpu = "ray-tracing-cpu", gpu = "ray-tracing-gpu";
+    keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mis", "2026-01-01T00:00:02Z"),
+          run(gpu, "mis", "2026-01-01T00:00:03Z")});
+    start({"--spp", "1000000"}); // no run is added
+    ASSERT_FALSE(HasFatalFailure());
+    const ImVec4 cpuColor = gui::engineColor(false, app::ColorMode::Dark);
+    const ImVec4 gpuColor = gui::engineColor(true, app::ColorMode::Dark);
+    const bool isGpu = GetParam() == gpu;
+    EXPECT_TRUE(eventually([&] { return isAt(394, 54, isGpu ? gpuColor : cpuColor); })); // the chip of the picture
+    key("F3");
+    EXPECT_TRUE(eventually([&] { return isAt(384, 570, cpuColor) && isAt(608, 570, gpuColor); })); // the cards
+    ASSERT_TRUE(eventually([&] { return isRowThere(2); }));
+    EXPECT_EQ(rowColor(0), rowColor(1));
+    const std::uint32_t plain = rowColor(2);
+    EXPECT_NE(rowColor(0), plain);
+    clickRow(2);
+    EXPECT_TRUE(eventually([&] { return rowColor(2) != plain; })); // selected
+    click(541, 638);                                               // Hide
+    EXPECT_TRUE(eventually([&] { return !isRowThere(2); }));
+    EXPECT_TRUE(isRowThere(1));
+    click(602, 638); // Unhide
+    EXPECT_TRUE(eventually([&] { return isRowThere(2); }));
+    EXPECT_EQ(estimatorsInHistory(), (std::multiset<std::string>{"bsdf", "mis", "mis"}));
+    clickRow(2);
+    EXPECT_TRUE(eventually([&] { return rowColor(2) != plain; }));
+    click(671, 638); // Delete: it asks
+    pause(500);
+    EXPECT_EQ(estimatorsInHistory().size(), 3u);
+    click(707, 682); // Delete
+    EXPECT_TRUE(eventually([&] { return estimatorsInHistory() == std::multiset<std::string>{"mis", "mis"}; }));
+    click(734, 638); // Clear
+    pause(500);
+    click(770, 682); // Delete
+    EXPECT_TRUE(eventually([&] { return estimatorsInHistory().empty(); }));
+    EXPECT_TRUE(eventually([&] { return !isRowThere(0); }));
+    expectCleanEnd();
+}
+
+TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
+    constexpr int kLine = 536, kRun = 900, kCancel = 1030; // of the button, which gives way to progress and Cancel
+    start({"--spp", "1000000"});
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    EXPECT_TRUE(eventually([&] {
+        key("F12"); // too early where there is no sample yet
+        pause(500);
+        return !fs::is_empty(folder_ / "pictures");
+    })) << log();
+    pause(1500); // what the other one is to do takes as long
+    click(kRun, kLine);
+    pause(300);
+    click(kCancel, kLine); // it has waited for this render to end
+    click(175, 16);        // Stop
+    pause(1000);
+    EXPECT_FALSE(hasChild());
+    if (std::string(GetParam()) == "ray-tracing-cpu") { // where software traces for the GPU, the CPU ends at once
+        click(kRun, kLine);
+        EXPECT_TRUE(eventually([&] { return hasChild(); })) << log();
+        click(kCancel, kLine);
+        EXPECT_TRUE(eventually([&] { return !hasChild(); }));
+    }
+    EXPECT_EQ(runsOfOther(), 0u);
+    const std::uint32_t before = screenshot().at(826, 300);
+    EXPECT_TRUE(eventually([&] {
+        if (runsOfOther() == 0 && !hasChild()) click(kRun, kLine); // again where the machine was too busy to see it
+        return runsOfOther() == 1;
+    })) << log();
+    // The pictures are divided by a white line.
+    EXPECT_TRUE(eventually([&] {
+        const Screenshot shot = screenshot();
+        return shot.at(826, 300) == 0xffffff && shot.at(826, 310) == 0xffffff;
+    })) << std::hex
+        << before;
+    expectCleanEnd();
+}
+
+} // namespace
+} // namespace rt::test
