@@ -1,0 +1,31 @@
+#include "Common/Core/MemoryReserve.h"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+namespace rt {
+namespace {
+
+constexpr std::size_t kReserve = std::size_t{1} << 20; // bytes
+
+std::atomic<void*> reserve{nullptr};
+
+void giveReserveBack() {
+    void* const memory = reserve.exchange(nullptr);
+    if (memory == nullptr) throw std::bad_alloc();
+    std::free(memory);
+}
+
+} // namespace
+
+void keepMemoryReserve() noexcept {
+    if (reserve.load() != nullptr) return;
+    std::set_new_handler(giveReserveBack);
+    void* const memory = std::malloc(kReserve); // which does not call that handler
+    void* none = nullptr;
+    if (!reserve.compare_exchange_strong(none, memory)) std::free(memory);
+}
+
+} // namespace rt
