@@ -1,17 +1,20 @@
 // A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about
 // otherwise. RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the
 // third call of the one return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a
-// line on standard error. A device that was lost at vkQueueSubmit stays lost. RT_MAX_ALLOCATIONS is how many pieces of memory may exist at a time, as drivers have such a
-// limit.
+// line on standard error. A device that was lost at vkQueueSubmit stays lost. RT_MAX_ALLOCATIONS is how many pieces of
+// memory may exist at a time, as drivers have such a limit. RT_DELAYS lets calls take up to so many milliseconds more.
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <random>
 #include <set>
 #include <string>
+#include <thread>
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -46,8 +49,18 @@ Function next(const void* dispatchable, const char* name) {
     return reinterpret_cast<Function>(device.get(device.device, name));
 }
 
+// For up to RT_DELAYS milliseconds, so that threads meet in another order each time.
+void delay() {
+    const char* const most = std::getenv("RT_DELAYS");
+    if (most == nullptr) return;
+    thread_local std::mt19937 random{std::random_device{}()};
+    std::this_thread::sleep_for(
+        std::chrono::microseconds(std::uniform_int_distribution<int>(0, 1000 * std::atoi(most))(random)));
+}
+
 // What this call of the function is to return, if not what it does.
 std::optional<VkResult> fault(const std::string& function) {
+    delay();
     const std::scoped_lock lock(mutex);
     const std::string key = function + ":" + std::to_string(++calls[function]) + "=";
     const char* list = std::getenv("RT_FAULTS");
@@ -96,6 +109,7 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const 
 
 VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
                                              std::uint64_t timeout) {
+    delay();
     if (isLost(device)) return VK_ERROR_DEVICE_LOST; // nothing would signal them
     return next<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
 }
@@ -112,6 +126,7 @@ VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAll
 }
 
 VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+    delay();
     if (memory != VK_NULL_HANDLE) --allocations;
     next<PFN_vkFreeMemory>(device, "vkFreeMemory")(device, memory, allocator);
 }

@@ -19,14 +19,13 @@ class DeviceFault : public ProgramTest {
             {{"VK_ADD_LAYER_PATH", RT_LAYER_DIR}, {"VK_INSTANCE_LAYERS", "VK_LAYER_RT_faults"}, {"RT_FAULTS", faults}});
     }
 
-    // Loses the device at submission 1, and then at the one that `next` names, until there are no more.
-    template <class Next>
-    void expectNothingIsLost(const std::string& engine, const Next& next) {
+    // Loses the device at submission `first` and every `stride`-th from there, each in a run of its own.
+    void expectNothingIsLost(const std::string& engine, int first, int stride) {
         ASSERT_EQ(gpu({"--spp", "40", "-o", "whole.pfm"}, engine).exitCode, 0);
         ASSERT_EQ(gpu({"--spp", "16", "-o", "part.pfm", "--checkpoint", "part.rtc"}, engine).exitCode, 0);
         const std::string whole = bytesOf("whole.pfm"), part = bytesOf("part.rtc");
         int lost = 0;
-        for (int n = 1;; n = next(n), ++lost) {
+        for (int n = first;; n += stride, ++lost) {
             for (const char* file : {"a.pfm", "a.albedo.pfm", "s.json", "c.rtc"}) fs::remove(path(file));
             Outcome outcome = gpu({"--spp", "40", "--resume", "part.rtc", "--checkpoint", "c.rtc", "-o", "a.pfm",
                                    "--aov", "albedo", "--stats", "s.json"},
@@ -46,18 +45,19 @@ class DeviceFault : public ProgramTest {
             EXPECT_EQ(gpu({"--spp", "40", "--resume", kept, "-o", "b.pfm"}, engine).exitCode, 0) << n;
             EXPECT_TRUE(bytesOf("b.pfm") == whole) << engine << ' ' << n;
         }
-        EXPECT_GT(lost, 1);
+        EXPECT_GT(lost, 0);
     }
 };
 
-TEST_F(DeviceFault, LostAtSomeSubmissions) {
-    expectNothingIsLost("pipeline", [](int n) { return 8 * n; });
+TEST_F(DeviceFault, LostOnTheWay) {
+    constexpr int kMiddle = 12, kNoMore = 1000;
+    expectNothingIsLost("pipeline", kMiddle, kNoMore);
 }
 
 using NightlyDeviceFault = DeviceFault;
 
 TEST_F(NightlyDeviceFault, LostAtEachSubmission) {
-    for (const char* engine : {"pipeline", "compute"}) expectNothingIsLost(engine, [](int n) { return n + 1; });
+    for (const char* engine : {"pipeline", "compute"}) expectNothingIsLost(engine, 1, 1);
 }
 
 } // namespace
