@@ -51,6 +51,7 @@ class AllocationFault : public ProgramTest {
             for (const auto& [name, bytes] : left)
                 EXPECT_TRUE(whole.count(name) == 1 && (isPart || whole.at(name) == bytes))
                     << n << after << ": " << name;
+            EXPECT_TRUE(!isPart || jsonOf("s.json")["mean_radiance"][0].get<double>() > 0) << n << after; // not black
             EXPECT_TRUE(!isPart ||
                         pixels({"--no-config", "--replicates", "2", "--resume", "c.rtc"}) == whole.at("a.pfm"))
                 << n << after;

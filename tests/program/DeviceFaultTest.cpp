@@ -52,6 +52,13 @@ class DeviceFault : public ProgramTest {
 TEST_F(DeviceFault, LostOnTheWay) {
     constexpr int kMiddle = 12, kNoMore = 1000;
     expectNothingIsLost("pipeline", kMiddle, kNoMore);
+
+    // With nothing to keep, the picture of another day stays.
+    writeFile("a.pfm", "of another day");
+    const Outcome outcome =
+        gpu({"--spp", "40", "-o", "a.pfm"}, "pipeline", "vkQueueSubmit:" + std::to_string(kMiddle) + "=-4");
+    EXPECT_EQ(outcome.exitCode, 1) << outcome.err;
+    EXPECT_EQ(bytesOf("a.pfm"), "of another day");
 }
 
 using NightlyDeviceFault = DeviceFault;
