@@ -10,4 +10,8 @@ namespace rt {
 // std::bad_alloc.
 void keepMemoryReserve() noexcept;
 
+// Takes it again if it was given back, and throws std::bad_alloc if it cannot: for loops whose steps are small, which
+// would use all of it up and leave nothing to their destructors. Does nothing before the first keepMemoryReserve().
+void requireMemoryReserve();
+
 } // namespace rt

@@ -49,8 +49,8 @@ TEST(RunMain, KeepsMemoryForTheWayOut) {
     for (int round = 0; round < 2; ++round) {
         EXPECT_NO_THROW(handler());
         EXPECT_THROW(handler(), std::bad_alloc);
-        keepMemoryReserve();
-        keepMemoryReserve(); // holds it already
+        EXPECT_NO_THROW(requireMemoryReserve());
+        keepMemoryReserve(); // is held already
     }
 }
 
