@@ -33,6 +33,8 @@ usage() {
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
 ./build.sh fuzz [SECONDS]
                          build the fuzz targets with Clang and run all, 60 s together; finds are kept in build/fuzz/finds
+./build.sh sanitize      build the CPU program and its tests with sanitizers and run the tests of every change: address and
+                         undefined behaviour in build-asan/, then threads in build-tsan/
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -101,6 +103,16 @@ build_fuzz() {
     preset=fuzz build
 }
 
+# sanitize PRESET [-DNAME=VALUE...]: what runs without a device, as no driver is compiled with sanitizers.
+sanitize() {
+    local programs=(rt-unit-tests rt-image-tests rt-program-tests)
+    preset=$1
+    configure -DRT_BUILD_GPU=OFF -DRT_BUILD_GUI=OFF -DRT_WITH_MPI=OFF "${@:2}"
+    build --target "${programs[@]}"
+    ctest --test-dir "build-$1" --output-on-failure --no-label-summary --parallel "$(nproc)" \
+        --label-regex 'unit|image|program' --label-exclude nightly
+}
+
 verb=${1:-build}
 shift $(($# > 0))
 case $verb in
@@ -137,6 +149,12 @@ case $verb in
         install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
         build_fuzz
         tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)"
+        ;;
+    sanitize)
+        install_packages "${build_packages[@]}" "${test_packages[@]}"
+        sanitize asan
+        # Embree's threads are not compiled with the sanitizer: it takes what they hand on for races.
+        sanitize tsan -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"

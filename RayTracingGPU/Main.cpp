@@ -163,8 +163,8 @@ bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ra
 } // namespace
 
 int main(int argc, char** argv) {
-    const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     return rt::runMain(kGpuProgram, [&] {
+        const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
         const std::unique_ptr<rt::app::Communicator> ranks = rt::app::joinRanks();
         return rt::app::runOnRank(
             ranks.get(), [&] { return run(arguments, ranks.get()); }, [&] { return follow(arguments, *ranks); });

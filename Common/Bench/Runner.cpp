@@ -6,7 +6,6 @@
 #include <exception>
 #include <limits>
 #include <map>
-#include <new>
 #include <set>
 #include <thread>
 #include <tuple>
@@ -88,8 +87,7 @@ class SuiteRunner {
         } catch (const Interrupted&) {
             return false;
         } catch (const std::exception& error) {
-            const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-            notice(what + ": " + (memory ? "not enough memory" : error.what()));
+            notice(what + ": " + messageOf(error));
             if (!results_.failure) results_.failure = std::current_exception();
             engines_.clear();
             return false;

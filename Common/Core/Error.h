@@ -1,5 +1,6 @@
 // Errors while loading and setting up are exceptions that end in one clear line and a documented exit code.
 #pragma once
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -35,5 +36,8 @@ struct InputError : Error {
 struct RenderError : Error {
     explicit RenderError(const std::string& message) : Error(ExitCode::Failure, message) {}
 };
+
+// One line about any exception: for want of memory and for what std::filesystem throws in words of our own.
+std::string messageOf(const std::exception& error);
 
 } // namespace rt

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "Common/Core/MemoryReserve.h"
+
 namespace rt {
 namespace {
 
@@ -21,6 +23,7 @@ bool interruptionRequested() {
 
 void interruptionPoint() {
     if (interruptionRequested()) throw Interrupted();
+    requireMemoryReserve();
 }
 
 } // namespace rt

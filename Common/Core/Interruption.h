@@ -24,7 +24,8 @@ class Interruptible {
 
 bool interruptionRequested(); // somebody waits for the end of this thread's work
 
-// Throws Interrupted where somebody waits for the work to end. Cheap enough for every element of a mesh.
+// Throws Interrupted where somebody waits for the work to end, and std::bad_alloc where memory has run so short that
+// the reserve (MemoryReserve.h) is gone. Cheap enough for every element of a mesh.
 void interruptionPoint();
 
 } // namespace rt

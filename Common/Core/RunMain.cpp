@@ -1,12 +1,12 @@
 #include "Common/Core/RunMain.h"
 
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <new>
-#include <string_view>
+#include <string>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryReserve.h"
 #include "Common/Core/NewFile.h"
 #include "Common/Core/Printable.h"
 
@@ -14,14 +14,21 @@ namespace rt {
 
 namespace {
 
-int report(const char* program, std::string_view message, ExitCode code) {
-    std::cerr << program << ": " << printable(message) << std::endl;
+// Even when there is no memory for the message itself.
+int report(const char* program, const std::exception& error, ExitCode code) noexcept {
+    try {
+        const std::string line = printable(messageOf(error));
+        std::cerr << program << ": " << line << std::endl;
+    } catch (const std::bad_alloc&) {
+        std::cerr << program << ": not enough memory" << std::endl;
+    }
     return static_cast<int>(code);
 }
 
 } // namespace
 
 int runMain(const char* program, const std::function<int()>& body) {
+    keepMemoryReserve();
     openStandardStreams();
 #ifdef SIGPIPE
     std::signal(SIGPIPE, SIG_IGN); // so is a reader that has gone: of progress, that is no reason to lose a render
@@ -35,13 +42,9 @@ int runMain(const char* program, const std::function<int()>& body) {
         if (!std::cout) throw RenderError("cannot write to standard output");
         return code;
     } catch (const Error& error) {
-        return report(program, error.what(), error.code());
-    } catch (const std::filesystem::filesystem_error& error) {
-        return report(program, error.path1().string() + ": " + error.code().message(), ExitCode::Failure);
-    } catch (const std::bad_alloc&) {
-        return report(program, "not enough memory", ExitCode::Failure);
+        return report(program, error, error.code());
     } catch (const std::exception& error) {
-        return report(program, error.what(), ExitCode::Failure);
+        return report(program, error, ExitCode::Failure);
     }
 }
 

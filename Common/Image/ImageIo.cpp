@@ -147,8 +147,10 @@ void writeImage(const fs::path& path, const ImageRows& image, const std::string&
     AtomicFile file(path);
     encode(codec, mapped(image, finite), file.stream(), description);
     file.commit();
-} catch (const std::bad_alloc&) {
-    throw RenderError("cannot write " + path.string() + ": not enough memory");
+} catch (const Error&) {
+    throw;
+} catch (const std::exception& error) { // of a library, or want of memory
+    throw RenderError("cannot write " + path.string() + ": " + messageOf(error));
 }
 
 std::optional<std::string> readDescription(const fs::path& path) {

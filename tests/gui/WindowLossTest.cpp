@@ -87,6 +87,26 @@ TEST_P(WindowLossTest, SwapchainsAndSurfacesAreReplaced) {
     EXPECT_EQ(happened(), kFaults);
 }
 
+using NightlySwapchainTest = WindowLossTest;
+INSTANTIATE_TEST_SUITE_P(, NightlySwapchainTest, kBothPrograms, nameOfProgram);
+
+// Each of the first frames, while the scene is loaded, the film begun and the first pictures are shown.
+TEST_P(NightlySwapchainTest, OutOfDateAtFrame) {
+    for (int frame = 1; frame <= 12; ++frame) {
+        const std::string number = std::to_string(frame);
+        for (const std::string call : {"vkAcquireNextImageKHR", "vkQueuePresentKHR"}) {
+            letFail(call + ":" + number + "=" + kOutOfDate);
+            start({"--spp", "1000000"});
+            ASSERT_FALSE(HasFatalFailure());
+            EXPECT_TRUE(eventually([&] {
+                act("mousemove_relative 1 0 mousemove_relative -- -1 0");
+                return !isRunning() || log().find("fault " + call) != std::string::npos;
+            })) << log();
+            expectCleanEnd();
+        }
+    }
+}
+
 TEST_P(WindowLossTest, ADeviceThatIsLostWhilePresentingEndsItAndNothingIsLost) {
     letFail(std::string("vkQueuePresentKHR:20=") + kDeviceLost);
     startLongRender();

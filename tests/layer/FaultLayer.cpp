@@ -1,16 +1,20 @@
 // A Vulkan layer that lets calls fail as drivers and window systems let them fail, which no test could bring about
 // otherwise. RT_FAULTS lists what goes wrong: "vkQueuePresentKHR:3=-4,vkAcquireNextImageKHR:9=1000001003" makes the
 // third call of the one return VK_ERROR_DEVICE_LOST and the ninth of the other VK_SUBOPTIMAL_KHR. Each fault leaves a
-// line on standard error. RT_MAX_ALLOCATIONS is how many pieces of memory may exist at a time, as drivers have such a
-// limit.
+// line on standard error. A device that was lost at vkQueueSubmit stays lost. RT_MAX_ALLOCATIONS is how many pieces of
+// memory may exist at a time, as drivers have such a limit. RT_DELAYS lets calls take up to so many milliseconds more.
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <random>
+#include <set>
 #include <string>
+#include <thread>
 
 #include <vulkan/vk_layer.h>
 #include <vulkan/vulkan.h>
@@ -23,8 +27,13 @@ struct Below { // the next layer
     PFN_vkGetInstanceProcAddr get;
 };
 std::map<void*, Below> instances; // by dispatch table, as are devices
-std::map<void*, PFN_vkGetDeviceProcAddr> devices;
+struct Device {
+    VkDevice device;
+    PFN_vkGetDeviceProcAddr get;
+};
+std::map<void*, Device> devices;
 std::map<std::string, int> calls; // so far
+std::set<void*> lostDevices;      // by dispatch table
 
 void* tableOf(const void* dispatchable) {
     void* table = nullptr;
@@ -34,13 +43,24 @@ void* tableOf(const void* dispatchable) {
 
 // Of a device, or of one of its queues, whose table is the same.
 template <class Function>
-Function next(const void* dispatchable, VkDevice device, const char* name) {
+Function next(const void* dispatchable, const char* name) {
     const std::scoped_lock lock(mutex);
-    return reinterpret_cast<Function>(devices.at(tableOf(dispatchable))(device, name));
+    const Device& device = devices.at(tableOf(dispatchable));
+    return reinterpret_cast<Function>(device.get(device.device, name));
+}
+
+// For up to RT_DELAYS milliseconds, so that threads meet in another order each time.
+void delay() {
+    const char* const most = std::getenv("RT_DELAYS");
+    if (most == nullptr) return;
+    thread_local std::mt19937 random{std::random_device{}()};
+    std::this_thread::sleep_for(
+        std::chrono::microseconds(std::uniform_int_distribution<int>(0, 1000 * std::atoi(most))(random)));
 }
 
 // What this call of the function is to return, if not what it does.
 std::optional<VkResult> fault(const std::string& function) {
+    delay();
     const std::scoped_lock lock(mutex);
     const std::string key = function + ":" + std::to_string(++calls[function]) + "=";
     const char* list = std::getenv("RT_FAULTS");
@@ -55,24 +75,43 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR swapchain
                                        VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
     const std::optional<VkResult> wrong = fault("vkAcquireNextImageKHR");
     if (wrong && *wrong < 0) return *wrong;
-    const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, device, "vkAcquireNextImageKHR")(
-        device, swapchain, timeout, semaphore, fence, index);
+    const VkResult result = next<PFN_vkAcquireNextImageKHR>(device, "vkAcquireNextImageKHR")(device, swapchain, timeout,
+                                                                                             semaphore, fence, index);
     return result == VK_SUCCESS ? wrong.value_or(result) : result;
 }
 
-VkDevice presenting = VK_NULL_HANDLE; // the device that has a swapchain: there is one
-
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     // Semaphores are waited for whatever the result.
-    const VkResult result = next<PFN_vkQueuePresentKHR>(queue, presenting, "vkQueuePresentKHR")(queue, info);
+    const VkResult result = next<PFN_vkQueuePresentKHR>(queue, "vkQueuePresentKHR")(queue, info);
     return fault("vkQueuePresentKHR").value_or(result);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchainCreateInfoKHR* info,
                                                const VkAllocationCallbacks* allocator, VkSwapchainKHR* swapchain) {
-    presenting = device;
     if (const auto wrong = fault("vkCreateSwapchainKHR")) return *wrong;
-    return next<PFN_vkCreateSwapchainKHR>(device, device, "vkCreateSwapchainKHR")(device, info, allocator, swapchain);
+    return next<PFN_vkCreateSwapchainKHR>(device, "vkCreateSwapchainKHR")(device, info, allocator, swapchain);
+}
+
+bool isLost(const void* dispatchable) {
+    const std::scoped_lock lock(mutex);
+    return lostDevices.count(tableOf(dispatchable)) != 0;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* infos, VkFence fence) {
+    if (const auto wrong = fault("vkQueueSubmit")) {
+        const std::scoped_lock lock(mutex);
+        if (*wrong == VK_ERROR_DEVICE_LOST) lostDevices.insert(tableOf(queue));
+        return *wrong;
+    }
+    if (isLost(queue)) return VK_ERROR_DEVICE_LOST;
+    return next<PFN_vkQueueSubmit>(queue, "vkQueueSubmit")(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitForFences(VkDevice device, std::uint32_t count, const VkFence* fences, VkBool32 all,
+                                             std::uint64_t timeout) {
+    delay();
+    if (isLost(device)) return VK_ERROR_DEVICE_LOST; // nothing would signal them
+    return next<PFN_vkWaitForFences>(device, "vkWaitForFences")(device, count, fences, all, timeout);
 }
 
 std::atomic<int> allocations{0}; // that exist
@@ -81,15 +120,15 @@ VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAll
                                               const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
     const char* most = std::getenv("RT_MAX_ALLOCATIONS");
     if (most != nullptr && allocations >= std::atoi(most)) return VK_ERROR_TOO_MANY_OBJECTS;
-    const VkResult result =
-        next<PFN_vkAllocateMemory>(device, device, "vkAllocateMemory")(device, info, allocator, memory);
+    const VkResult result = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, info, allocator, memory);
     if (result == VK_SUCCESS) ++allocations;
     return result;
 }
 
 VKAPI_ATTR void VKAPI_CALL freeMemory(VkDevice device, VkDeviceMemory memory, const VkAllocationCallbacks* allocator) {
+    delay();
     if (memory != VK_NULL_HANDLE) --allocations;
-    next<PFN_vkFreeMemory>(device, device, "vkFreeMemory")(device, memory, allocator);
+    next<PFN_vkFreeMemory>(device, "vkFreeMemory")(device, memory, allocator);
 }
 
 // ---- what makes it a layer -----------------------------------------------------------------------------------------
@@ -126,7 +165,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         reinterpret_cast<PFN_vkCreateDevice>(below.pfnNextGetInstanceProcAddr(instance, "vkCreateDevice"));
     const VkResult result = create(physical, info, allocator, device);
     const std::scoped_lock lock(mutex);
-    if (result == VK_SUCCESS) devices[tableOf(*device)] = below.pfnNextGetDeviceProcAddr;
+    if (result == VK_SUCCESS) devices[tableOf(*device)] = {*device, below.pfnNextGetDeviceProcAddr};
     return result;
 }
 
@@ -138,6 +177,8 @@ PFN_vkVoidFunction ownFunction(const std::string& name) {
     if (name == "vkAcquireNextImageKHR") return reinterpret_cast<PFN_vkVoidFunction>(acquire);
     if (name == "vkQueuePresentKHR") return reinterpret_cast<PFN_vkVoidFunction>(present);
     if (name == "vkCreateSwapchainKHR") return reinterpret_cast<PFN_vkVoidFunction>(createSwapchain);
+    if (name == "vkQueueSubmit") return reinterpret_cast<PFN_vkVoidFunction>(submit);
+    if (name == "vkWaitForFences") return reinterpret_cast<PFN_vkVoidFunction>(waitForFences);
     if (name == "vkAllocateMemory") return reinterpret_cast<PFN_vkVoidFunction>(allocateMemory);
     if (name == "vkFreeMemory") return reinterpret_cast<PFN_vkVoidFunction>(freeMemory);
     return nullptr;
@@ -146,7 +187,7 @@ PFN_vkVoidFunction ownFunction(const std::string& name) {
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name) {
     if (const PFN_vkVoidFunction own = ownFunction(name)) return own;
     const std::scoped_lock lock(mutex);
-    return devices.at(tableOf(device))(device, name);
+    return devices.at(tableOf(device)).get(device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name) {

@@ -56,6 +56,22 @@ TEST_F(Memory, ASceneThatDoesNotFit) {
     }
 }
 
+// The same as a file of 10 MB, whose JSON values allocate where they end.
+TEST_F(Memory, ASceneFileThatDoesNotFit) {
+    ASSERT_EQ(cpu({"--scene", "white-spheres:150000", "--export-scene", "big.json"}).exitCode, 0);
+    int refused = 0;
+    const std::uint64_t first = leastToStart();
+    for (addressSpace_ = first; addressSpace_ <= first + 54'000; addressSpace_ += 6'000) {
+        const Outcome outcome = cpu({"-q", "--no-config", "--threads", "1", "--width", "16", "--height", "16", "--spp",
+                                     "1", "--scene", "big.json", "-o", "a.pfm"});
+        refused += outcome.exitCode != 0;
+        const int expected = outcome.exitCode == 3 ? 3 : 1; // the file's text does not fit
+        EXPECT_TRUE(outcome.exitCode == 0 ? outcome.err.empty() : bool(failsWith(outcome, expected, "memory")))
+            << addressSpace_ << " KiB: " << outcome.exitCode << " " << outcome.err;
+    }
+    EXPECT_GT(refused, 3);
+}
+
 } // namespace
 } // namespace rt::test
 

@@ -1,10 +1,12 @@
 // Every kind of error ends in its exit code and one line.
+#include <filesystem>
 #include <iostream>
 #include <new>
 
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/MemoryReserve.h"
 #include "Common/Core/RunMain.h"
 
 namespace rt {
@@ -34,6 +36,22 @@ TEST(RunMain, MapsErrorsToExitCodes) {
     EXPECT_EQ(endOf([]() -> int { throw Error(ExitCode::NoDevice, "x"); }).code, 4);
     EXPECT_EQ(endOf([]() -> int { throw std::bad_alloc(); }).err, "program: not enough memory\n");
     EXPECT_EQ(endOf([]() -> int { throw std::runtime_error("odd"); }).code, 1);
+    const auto error = std::make_error_code(std::errc::permission_denied);
+    EXPECT_EQ(endOf([&]() -> int { throw std::filesystem::filesystem_error("x", "a/b", error); }).err,
+              "program: a/b: " + error.message() + "\n");
+}
+
+// The first allocation that fails has the reserve given back; the next one throws, until it is kept again.
+TEST(RunMain, KeepsMemoryForTheWayOut) {
+    endOf([] { return 0; });
+    const std::new_handler handler = std::get_new_handler();
+    ASSERT_NE(handler, nullptr);
+    for (int round = 0; round < 2; ++round) {
+        EXPECT_NO_THROW(handler());
+        EXPECT_THROW(handler(), std::bad_alloc);
+        EXPECT_NO_THROW(requireMemoryReserve());
+        keepMemoryReserve(); // is held already
+    }
 }
 
 TEST(RunMain, PrintsOneLine) {

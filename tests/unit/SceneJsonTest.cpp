@@ -252,12 +252,12 @@ TEST(SceneJson, TheElementsOfALongArrayAreParsedOneByOne) {
                                 [ {"x": "]}"} ,{"y": [{}, {}]}], "d": [{"e": 2}]})";
     const LongJson json(text, file, "objects");
     ASSERT_EQ(json.elementCount(), 2u);
-    EXPECT_EQ(json.element(0), Json::parse(R"({"x": "]}"})"));
-    EXPECT_EQ(json.element(1), Json::parse(R"({"y": [{}, {}]})"));
+    EXPECT_EQ(*json.element(0), Json::parse(R"({"x": "]}"})"));
+    EXPECT_EQ(*json.element(1), Json::parse(R"({"y": [{}, {}]})"));
     Json whole = Json::parse(text);
     EXPECT_EQ(parseJson(text, file), whole);
     whole["objects"] = {0, 0};
-    EXPECT_EQ(json.document(), whole);
+    EXPECT_EQ(*json.document(), whole);
     // What is not a list of objects is left to the parser.
     for (const char* other :
          {"", "{", "[]", "[{\"objects\": [{}]}]", "{\"objects\"", "{\"objects\": {}}", "{\"objects\": []}",

@@ -38,7 +38,7 @@ std::vector<std::string> writeFilm(const SaveRequest& request, Options options, 
             writeText(options.stats, statistics.toJson(options, *scene.scene, film.report(), kept));
         }
     } catch (const std::exception& error) { // of an engine or a file, or want of memory
-        outputs.failures.emplace_back(error.what());
+        outputs.failures.push_back(messageOf(error));
     }
     if (!lost.empty()) outputs.failures.insert(outputs.failures.begin(), lost);
     for (const std::string& file : outputs.written) state.say("Saved " + file);

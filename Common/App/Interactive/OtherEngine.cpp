@@ -111,7 +111,7 @@ void OtherEngine::start(const OtherJob& job) {
         } catch (const std::exception& error) {
             update([&](OtherState& state) {
                 state.phase = Phase::Failed;
-                state.error = error.what();
+                state.error = messageOf(error);
             });
         }
     });

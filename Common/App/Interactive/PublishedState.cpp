@@ -1,6 +1,8 @@
 #include "Common/App/Interactive/PublishedState.h"
 
+#include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
+#include "Common/Core/MemoryReserve.h"
 
 namespace rt::app {
 
@@ -29,9 +31,11 @@ void PublishedState::setStage(const std::string& stage) {
 void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source, bool fatal) try {
     std::rethrow_exception(failure);
 } catch (const std::exception& error) {
-    if (!fatal) logWarning(error.what());
+    keepMemoryReserve(); // that this failure may have used
+    const std::string message = messageOf(error);
+    if (!fatal) logWarning(message);
     update([&](SessionState& state) {
-        state.errors.push_back({error.what(), source});
+        state.errors.push_back({message, source});
         if (state.errors.size() > SessionState::kMostErrors) state.errors.erase(state.errors.begin());
         ++state.errorSerial;
         if (fatal) state.fatal = failure;

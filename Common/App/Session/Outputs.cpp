@@ -101,7 +101,9 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
                           Engine& engine) {
     OutputResult result;
     if (options.outputs.empty()) return result;
-    const std::string note = renderNote(options, camera, engine.report(), film);
+    std::string note;
+    attempt(result.failures, "the pictures do not say how they were made",
+            [&] { note = renderNote(options, camera, engine.report(), film); });
     const auto write = [&result, &note](const std::filesystem::path& path, const auto& makeRows) {
         const auto action = [&] { image::writeImage(path, makeRows(), note); };
         if (attempt(result.failures, "cannot write " + path.string(), action)) result.written.push_back(path.string());

@@ -85,7 +85,7 @@ void ReferenceCache::save(const ReferenceKey& key, const image::Film& film) cons
         target.commit();
         shrink();
     } catch (const std::exception& error) {
-        logWarning(std::string("the reference is not kept: ") + error.what());
+        logWarning("the reference is not kept: " + messageOf(error));
     }
 }
 

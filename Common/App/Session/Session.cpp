@@ -67,7 +67,6 @@ class HeadlessRender {
         try {
             sample();
         } catch (const std::exception&) { // of the engine, or want of memory
-            logWarning("the render failed; what there is of it is written");
             statistics_.stoppedBy = StopReason::Failure;
             write();
             throw;
@@ -164,6 +163,10 @@ void HeadlessRender::write() {
     const Stopwatch watch;
     std::string lost;
     const image::Film& film = run_->keptFilm(lost);
+    if (statistics_.stoppedBy == StopReason::Failure) {
+        if (film.totalSamples() == 0) return; // black pictures must not replace what there may be
+        logWarning("the render failed; what there is of it is written");
+    }
     if (!lost.empty()) failures_.push_back(lost);
     statistics_.seconds.render = run_->seconds();
     const auto saveCheckpoint = [this] { save(options_.checkpoint); };

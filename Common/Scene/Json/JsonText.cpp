@@ -68,7 +68,7 @@ class Builder : public nlohmann::json_sax<Json> {
     Builder(const std::string& text, const std::string& file, std::string_view part, Elements leftOut)
         : text_(text), file_(file), part_(part), leftOut_(leftOut), read_(part.data()) {}
 
-    Json build() {
+    LargeJson build() {
         const char* const end = part_.data() + part_.size();
         const std::string_view* const none = leftOut_.data() + leftOut_.size();
         Json::sax_parse(Reader{part_.data(), &read_, leftOut_.data(), none}, Reader{end, &read_, none, none}, this);
@@ -110,7 +110,7 @@ class Builder : public nlohmann::json_sax<Json> {
     }
 
     Json& place(Json&& value) {
-        if (open_.empty()) return root_ = std::move(value);
+        if (open_.empty()) return *root_ = std::move(value);
         if (open_.back()->is_array()) return open_.back()->get_ref<Json::array_t&>().emplace_back(std::move(value));
         return *member_ = std::move(value);
     }
@@ -135,7 +135,7 @@ class Builder : public nlohmann::json_sax<Json> {
     std::string_view part_; // of text_
     Elements leftOut_;
     const char* read_;
-    Json root_;
+    LargeJson root_;
     std::vector<Json*> open_; // arrays and objects around what comes next
     Json* member_ = nullptr;  // of the innermost object, what comes next
 };
@@ -220,20 +220,34 @@ std::vector<std::string_view> findObjects(std::string_view text, std::string_vie
     return {};
 }
 
+// As deep as values are nested, which a Builder limits.
+void takeApart(Json& value) {
+    if (value.is_array())
+        for (auto& array = value.get_ref<Json::array_t&>(); !array.empty(); array.pop_back()) takeApart(array.back());
+    if (value.is_object())
+        for (auto& object = value.get_ref<Json::object_t&>(); !object.empty(); object.erase(object.begin()))
+            takeApart(object.begin()->second);
+}
+
 } // namespace
 
+LargeJson::~LargeJson() {
+    takeApart(value_);
+}
+
 Json parseJson(const std::string& text, const std::string& file) {
-    return Builder(text, file, text, {}).build();
+    LargeJson root = Builder(text, file, text, {}).build();
+    return std::move(*root);
 }
 
 LongJson::LongJson(const std::string& text, const std::string& file, const std::string& longArray)
     : text_(text), file_(file), elements_(findObjects(text, longArray)) {}
 
-Json LongJson::document() const {
+LargeJson LongJson::document() const {
     return Builder(text_, file_, text_, elements_).build();
 }
 
-Json LongJson::element(std::size_t index) const {
+LargeJson LongJson::element(std::size_t index) const {
     return Builder(text_, file_, elements_[index], {}).build();
 }
 

@@ -4,11 +4,28 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 namespace rt::scene {
+
+// A value that may hold long arrays. The library's destructor allocates memory in proportion to them, and ends the
+// program where there is none; this one takes arrays and objects apart, which needs none.
+class LargeJson {
+  public:
+    explicit LargeJson(nlohmann::json value = nullptr) : value_(std::move(value)) {}
+    ~LargeJson();
+    LargeJson(LargeJson&& other) noexcept : value_(std::exchange(other.value_, nullptr)) {}
+    LargeJson& operator=(LargeJson&&) = delete;
+
+    nlohmann::json& operator*() { return value_; }
+    const nlohmann::json& operator*() const { return value_; }
+
+  private:
+    nlohmann::json value_;
+};
 
 nlohmann::json parseJson(const std::string& text, const std::string& file);
 
@@ -20,9 +37,9 @@ class LongJson {
     LongJson(const std::string& text, const std::string& file, const std::string& longArray);
 
     // With zeros for the elements that are left out.
-    nlohmann::json document() const;
+    LargeJson document() const;
     std::size_t elementCount() const { return elements_.size(); } // 0: none is left out
-    nlohmann::json element(std::size_t index) const;
+    LargeJson element(std::size_t index) const;
 
   private:
     const std::string& text_;

@@ -277,8 +277,9 @@ std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences&
     std::vector<ObjectDesc> objects;
     objects.reserve(text.elementCount());
     for (std::size_t i = 0; i < text.elementCount(); ++i) {
-        const nlohmann::json element = text.element(i);
-        objects.push_back(readObject(JsonNode(element, node, i), references));
+        interruptionPoint();
+        const LargeJson element = text.element(i);
+        objects.push_back(readObject(JsonNode(*element, node, i), references));
     }
     return objects;
 }

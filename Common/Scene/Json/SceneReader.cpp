@@ -139,8 +139,8 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 
 SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder) {
     const LongJson json(text, file, "objects");
-    const nlohmann::json document = json.document();
-    const JsonNode root(document, file);
+    const LargeJson document = json.document();
+    const JsonNode root(*document, file);
     SceneDesc scene = readScene(root, SceneReferences(root, folder), json);
     scene.id = file;
     return scene;
