@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Image/Codecs.h"
@@ -45,6 +46,21 @@ void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
                          " pixels: a .png may have at most 2^30 values of red, green and blue");
 }
 
+// Pixels of four channels, or of three without opacity, as colours and opacities.
+template <typename T>
+void split(const T* pixels, std::size_t count, bool hasAlpha, std::vector<T>& colors, std::vector<T>& alphas) {
+    if (!hasAlpha) {
+        colors.assign(pixels, pixels + 3 * count);
+        return;
+    }
+    colors.reserve(3 * count);
+    alphas.reserve(count);
+    for (const T* pixel = pixels; pixel != pixels + 4 * count; pixel += 4) {
+        colors.insert(colors.end(), pixel, pixel + 3);
+        alphas.push_back(pixel[3]);
+    }
+}
+
 } // namespace
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
@@ -65,26 +81,17 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     texels.width = static_cast<std::uint32_t>(width);
     texels.height = static_cast<std::uint32_t>(height);
     const std::size_t count = std::size_t{texels.width} * texels.height;
-    if (!hasAlpha && stbi_is_16_bit_from_memory(data, size)) {
+    if (stbi_is_16_bit_from_memory(data, size)) {
         const std::unique_ptr<stbi_us, FreePixels> wide(
-            stbi_load_16_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+            stbi_load_16_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
         if (!wide) fail("damaged image: " + reason());
-        texels.srgb16.assign(wide.get(), wide.get() + 3 * count);
+        split(wide.get(), count, hasAlpha, texels.srgb16, texels.alpha16);
         return texels;
     }
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
     if (!pixels) fail("damaged image: " + reason());
-    if (!hasAlpha) {
-        texels.srgb8.assign(pixels.get(), pixels.get() + 3 * count);
-        return texels;
-    }
-    texels.srgb8.reserve(3 * count);
-    texels.alpha8.reserve(count);
-    for (const stbi_uc* pixel = pixels.get(); pixel != pixels.get() + 4 * count; pixel += 4) {
-        texels.srgb8.insert(texels.srgb8.end(), pixel, pixel + 3);
-        texels.alpha8.push_back(pixel[3]);
-    }
+    split(pixels.get(), count, hasAlpha, texels.srgb8, texels.alpha8);
     return texels;
 }
 
