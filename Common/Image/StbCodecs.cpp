@@ -31,7 +31,7 @@ bool isJpeg(std::span<const std::byte> bytes) {
 }
 
 // stb takes a PNG that is too large for it for no image at all.
-void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
+void checkPng(std::span<const std::byte> bytes, const std::string& name) {
     constexpr std::size_t kSignatureBytes = 8, kWidthAt = 16, kHeightAt = 20;
     constexpr double kMostValues = 1 << 30;
     if (bytes.size() < kHeightAt + 4 || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", kSignatureBytes) != 0) return;
@@ -44,6 +44,14 @@ void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
     if (3.0 * width * height > kMostValues)
         throw InputError(name + ": image of " + std::to_string(width) + "x" + std::to_string(height) +
                          " pixels: a .png may have at most 2^30 values of red, green and blue");
+    // stb takes memory for what a chunk states before it looks for the bytes.
+    for (std::size_t at = kSignatureBytes; at + kSignatureBytes <= bytes.size();) {
+        const std::size_t length = number(at), left = bytes.size() - at - kSignatureBytes;
+        if (length > left && std::memcmp(&bytes[at + 4], "IDAT", 4) == 0)
+            throw InputError(name + ": damaged image: a chunk of " + std::to_string(length) +
+                             " bytes, of which there are " + std::to_string(left));
+        at += std::min(length, left) + kSignatureBytes + 4; // its sum as well
+    }
 }
 
 // Pixels of four channels, or of three without opacity, as colours and opacities.
@@ -71,7 +79,7 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
     if (isJpeg(bytes)) checkJpeg(bytes, name);
-    checkPngSize(bytes, name);
+    checkPng(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
     const bool hasAlpha = channels == STBI_grey_alpha || channels == STBI_rgb_alpha;
