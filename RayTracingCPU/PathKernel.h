@@ -88,7 +88,7 @@ constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatu
 constexpr std::uint32_t kAssetFeatures =
     kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
 constexpr std::uint32_t kBookFeatures =
-    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeaturePunctualLights | kFreeFeatures);
+    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeatureCoatNormal | kFeaturePunctualLights);
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {

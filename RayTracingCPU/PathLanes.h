@@ -27,13 +27,15 @@ struct FieldsOf<VertexSamples>
 template <>
 struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &Hit::instance, &Hit::u, &Hit::v>> {};
 
+// Omitted: what only kernels with kFeatureCoatNormal keep, in PathLanes::coatNormals.
 template <>
 struct FieldsOf<PrincipledLobes>
     : Fields<FieldList<&PrincipledLobes::diffuse, &PrincipledLobes::f0, &PrincipledLobes::f90, &PrincipledLobes::sheen,
                        &PrincipledLobes::sheenExponent, &PrincipledLobes::alpha, &PrincipledLobes::glass,
                        &PrincipledLobes::eta, &PrincipledLobes::thin, &PrincipledLobes::coat,
                        &PrincipledLobes::coatAlpha, &PrincipledLobes::diffuseShare, &PrincipledLobes::specularShare,
-                       &PrincipledLobes::coatShare, &PrincipledLobes::glassShare>> {};
+                       &PrincipledLobes::coatShare, &PrincipledLobes::glassShare>,
+             FieldList<&PrincipledLobes::coatNormal>> {};
 
 // Omitted: what only kernels with principled materials keep, in PathLanes::lobes.
 template <>
@@ -73,6 +75,7 @@ struct PathLanes {
     RecordLanes<Hit> hits; // of the paths' rays
     RecordLanes<Vertex> vertices;
     RecordLanes<PrincipledLobes> lobes; // of their bsdfs
+    Vec3Lanes coatNormals;              // of these
     RecordLanes<VertexSamples> u;
     Vec3Lanes throughput;
     FloatLanes time;
@@ -96,6 +99,7 @@ template <uint kFeatures>
 RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
     Vertex v = get(lanes.vertices, i);
     if (has(kFeatures, kFeaturePrincipled)) v.bsdf.lobes = get(lanes.lobes, i);
+    if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
     return v;
 }
 
@@ -103,6 +107,7 @@ template <uint kFeatures>
 RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
     set(lanes.vertices, i, v);
     if (has(kFeatures, kFeaturePrincipled)) set(lanes.lobes, i, v.bsdf.lobes);
+    if (has(kFeatures, kFeatureCoatNormal)) set(lanes.coatNormals, i, v.bsdf.lobes.coatNormal);
 }
 
 // Calls work(i) for each lane of `set`, a bit a lane.

@@ -40,24 +40,26 @@ RT_CALL void proposeDirections(uint arrived, PathLanes& lanes) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
         if (!isPrincipled(kFeatures, v.bsdf)) return;
         const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
-        set(lanes.proposals, i, wo.z > 0.0f ? proposePrincipled(v.bsdf, wo, get(lanes.u, i).bsdf) : absorbed());
+        set(lanes.proposals, i,
+            wo.z > 0.0f ? proposePrincipled(kFeatures, v.bsdf, wo, get(lanes.u, i).bsdf) : absorbed());
     });
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
         const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
-        const vec4 f = evalPrincipledReflection(v.bsdf.lobes, wo, get(lanesOf<&BsdfSample::wi>(lanes.proposals), i));
+        const vec3 wi = get(lanesOf<&BsdfSample::wi>(lanes.proposals), i);
+        const vec4 f = evalPrincipledReflection(kFeatures, v.bsdf.lobes, wo, wi);
         set(lanes.proposedValues, i, vec3(f));
         lanes.proposedPdfs.at[i] = f.w;
     }
 }
 
 // samplePrincipled() of what proposeDirections() has begun.
+template <uint kFeatures>
 RT_FN BsdfSample finishProposal(const PathLanes& lanes, uint i, const Vertex& v) {
     const Frame frame = makeFrame(v.shading);
     BsdfSample b = get(lanes.proposals, i);
-    const bool isReflected = b.wi.z > 0.0f;
-    weighProposal(isReflected ? vec4(get(lanes.proposedValues, i), lanes.proposedPdfs.at[i])
-                              : evalPrincipledLocal(v.bsdf, toLocal(frame, v.wo), b.wi),
+    weighProposal(b.transmitted == 0u ? vec4(get(lanes.proposedValues, i), lanes.proposedPdfs.at[i])
+                                      : evalProposal(kFeatures, v.bsdf, toLocal(frame, v.wo), b),
                   b);
     b.wi = normalize(toWorld(frame, b.wi));
     return b;
@@ -66,7 +68,7 @@ RT_FN BsdfSample finishProposal(const PathLanes& lanes, uint i, const Vertex& v)
 template <uint kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
-    if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return finishProposal(lanes, i, v);
+    if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return finishProposal<kFeatures>(lanes, i, v);
     if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
     BsdfSample b = absorbed();
     b.wi = get(lanes.diffuse, i);

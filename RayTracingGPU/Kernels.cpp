@@ -19,7 +19,7 @@ struct Shaders {
 
 // What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
 constexpr std::uint32_t kFeaturesOfFull =
-    shared::kFeatureProjected | shared::kFeaturePrincipled | shared::kFeatureOpacity;
+    shared::kFeatureProjected | shared::kFeaturePrincipled | shared::kFeatureOpacity | shared::kFeatureCoatNormal;
 
 Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {

@@ -39,12 +39,14 @@ LightCluster loadLightCluster(SceneRef scene, uint node, uint i) {
 
 vec4 loadTexel(SceneRef scene, Image image, uint x, uint y) {
     uint texel = y * image.width + x;
-    if (image.format != kTexelLinearF32) {
+    if (image.format == kTexelSrgb8 || image.format == kTexelLinear8) {
         uint word = constants.arrays.texels.at[image.firstTexel + texel];
         vec4 linear = decodeLinear8(word);
         return image.format == kTexelSrgb8 ? vec4(decodeSrgb8(word), linear.w) : linear;
     }
-    uint first = image.firstTexel + 3u * texel;
+    bool hasOpacity = image.format == kTexelLinearF32A;
+    uint first = image.firstTexel + (hasOpacity ? 4u : 3u) * texel;
     return vec4(uintBitsToFloat(constants.arrays.texels.at[first]), uintBitsToFloat(constants.arrays.texels.at[first + 1u]),
-                uintBitsToFloat(constants.arrays.texels.at[first + 2u]), 1.0f);
+                uintBitsToFloat(constants.arrays.texels.at[first + 2u]),
+                hasOpacity ? uintBitsToFloat(constants.arrays.texels.at[first + 3u]) : 1.0f);
 }

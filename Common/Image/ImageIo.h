@@ -21,10 +21,11 @@ namespace rt::image {
 struct Texels {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
-    std::vector<std::uint8_t> srgb8;   // sRGB-encoded RGB
-    std::vector<std::uint16_t> srgb16; // the same of a PNG with 16 bits a channel and no opacity
-    std::vector<float> linear;         // RGB
-    std::vector<std::uint8_t> alpha8;  // beside srgb8: one value a texel; empty: all are opaque
+    std::vector<std::uint8_t> srgb8;    // sRGB-encoded RGB
+    std::vector<std::uint16_t> srgb16;  // the same of a PNG with 16 bits a channel
+    std::vector<float> linear;          // RGB
+    std::vector<std::uint8_t> alpha8;   // beside srgb8: one value a texel; empty: all are opaque
+    std::vector<std::uint16_t> alpha16; // beside srgb16, likewise
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three

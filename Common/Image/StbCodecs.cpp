@@ -3,6 +3,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Image/Codecs.h"
@@ -30,7 +31,7 @@ bool isJpeg(std::span<const std::byte> bytes) {
 }
 
 // stb takes a PNG that is too large for it for no image at all.
-void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
+void checkPng(std::span<const std::byte> bytes, const std::string& name) {
     constexpr std::size_t kSignatureBytes = 8, kWidthAt = 16, kHeightAt = 20;
     constexpr double kMostValues = 1 << 30;
     if (bytes.size() < kHeightAt + 4 || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", kSignatureBytes) != 0) return;
@@ -43,6 +44,29 @@ void checkPngSize(std::span<const std::byte> bytes, const std::string& name) {
     if (3.0 * width * height > kMostValues)
         throw InputError(name + ": image of " + std::to_string(width) + "x" + std::to_string(height) +
                          " pixels: a .png may have at most 2^30 values of red, green and blue");
+    // stb takes memory for what a chunk states before it looks for the bytes.
+    for (std::size_t at = kSignatureBytes; at + kSignatureBytes <= bytes.size();) {
+        const std::size_t length = number(at), left = bytes.size() - at - kSignatureBytes;
+        if (length > left && std::memcmp(&bytes[at + 4], "IDAT", 4) == 0)
+            throw InputError(name + ": damaged image: a chunk of " + std::to_string(length) +
+                             " bytes, of which there are " + std::to_string(left));
+        at += std::min(length, left) + kSignatureBytes + 4; // its sum as well
+    }
+}
+
+// Pixels of four channels, or of three without opacity, as colours and opacities.
+template <typename T>
+void split(const T* pixels, std::size_t count, bool hasAlpha, std::vector<T>& colors, std::vector<T>& alphas) {
+    if (!hasAlpha) {
+        colors.assign(pixels, pixels + 3 * count);
+        return;
+    }
+    colors.reserve(3 * count);
+    alphas.reserve(count);
+    for (const T* pixel = pixels; pixel != pixels + 4 * count; pixel += 4) {
+        colors.insert(colors.end(), pixel, pixel + 3);
+        alphas.push_back(pixel[3]);
+    }
 }
 
 } // namespace
@@ -55,7 +79,7 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
     if (isJpeg(bytes)) checkJpeg(bytes, name);
-    checkPngSize(bytes, name);
+    checkPng(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
     const bool hasAlpha = channels == STBI_grey_alpha || channels == STBI_rgb_alpha;
@@ -65,26 +89,17 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     texels.width = static_cast<std::uint32_t>(width);
     texels.height = static_cast<std::uint32_t>(height);
     const std::size_t count = std::size_t{texels.width} * texels.height;
-    if (!hasAlpha && stbi_is_16_bit_from_memory(data, size)) {
+    if (stbi_is_16_bit_from_memory(data, size)) {
         const std::unique_ptr<stbi_us, FreePixels> wide(
-            stbi_load_16_from_memory(data, size, &width, &height, &channels, STBI_rgb));
+            stbi_load_16_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
         if (!wide) fail("damaged image: " + reason());
-        texels.srgb16.assign(wide.get(), wide.get() + 3 * count);
+        split(wide.get(), count, hasAlpha, texels.srgb16, texels.alpha16);
         return texels;
     }
     const std::unique_ptr<stbi_uc, FreePixels> pixels(
         stbi_load_from_memory(data, size, &width, &height, &channels, static_cast<int>(stride)));
     if (!pixels) fail("damaged image: " + reason());
-    if (!hasAlpha) {
-        texels.srgb8.assign(pixels.get(), pixels.get() + 3 * count);
-        return texels;
-    }
-    texels.srgb8.reserve(3 * count);
-    texels.alpha8.reserve(count);
-    for (const stbi_uc* pixel = pixels.get(); pixel != pixels.get() + 4 * count; pixel += 4) {
-        texels.srgb8.insert(texels.srgb8.end(), pixel, pixel + 3);
-        texels.alpha8.push_back(pixel[3]);
-    }
+    split(pixels.get(), count, hasAlpha, texels.srgb8, texels.alpha8);
     return texels;
 }
 

@@ -131,7 +131,9 @@ struct PrincipledDesc {
     std::optional<double> attenuationDistance; // unset: nothing is absorbed inside
     std::string normalTexture;                 // tangent-space normals, 2 rgb - 1; empty: none
     double normalScale = 1;                    // of their x and y
-    std::optional<double> alphaCutoff;         // opacity below it is 0, else 1; unset: opacity is a probability
+    std::string clearcoatNormalTexture;        // of the clear coat alone, which else is smooth
+    double clearcoatNormalScale = 1;
+    std::optional<double> alphaCutoff; // opacity below it is 0, else 1; unset: opacity is a probability
     bool operator==(const PrincipledDesc&) const = default;
 };
 

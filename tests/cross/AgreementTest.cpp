@@ -214,6 +214,13 @@ class PrincipledAgreementTest : public ::testing::TestWithParam<app::GpuEngineKi
 INSTANTIATE_TEST_SUITE_P(Engines, PrincipledAgreementTest, kFirstEngine, engineName);
 INSTANTIATE_TEST_SUITE_P(Nightly, PrincipledAgreementTest, kSecondEngine, engineName);
 
+TEST_P(PrincipledAgreementTest, CoatsWithNormalsOfTheirOwn) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/lacquer.json"), true, true);
+    EnginePair engines(scene, GetParam());
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 TEST_P(PrincipledAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"), true, true);
     EnginePair engines(scene, GetParam());

@@ -155,7 +155,8 @@ void writeGltf(Seeds& seeds) {
                {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
                 {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}},
                 {"KHR_materials_specular", {{"specularColorFactor", {1, 1, 1}}}},
-                {"KHR_materials_clearcoat", {{"clearcoatFactor", 1}, {"clearcoatTexture", texture}}},
+                {"KHR_materials_clearcoat",
+                 {{"clearcoatFactor", 1}, {"clearcoatTexture", texture}, {"clearcoatNormalTexture", texture}}},
                 {"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 1}}}},
                 {"KHR_materials_emissive_strength", {{"emissiveStrength", 5}}}}}});
     full.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
@@ -183,7 +184,31 @@ void writeGltf(Seeds& seeds) {
                     {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
                     {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", shifts}}}}}}}});
 
-    for (const auto& [name, gltf] : {std::pair("full", &full), std::pair("packed", &packed)}) {
+    rt::scene::GltfBuilder posed; // morph targets, a skin, animations
+    json follower = posed.triangle();
+    follower["attributes"]["JOINTS_0"] =
+        posed.addAccessor(std::vector<std::uint8_t>{0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0}, "VEC4");
+    follower["attributes"]["WEIGHTS_0"] = posed.addAccessor(std::vector<float>(12, 0.5f), "VEC4");
+    follower["targets"] = {{{"POSITION", posed.addAccessor(std::vector<float>(9, 0.25f), "VEC3")}}};
+    const std::vector<float> identities = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1,
+                                           1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    const int matrices = posed.addAccessor(posed.addView(identities), 5126, "MAT4", 2);
+    const int joint = posed.addNode({{"translation", {0, 1, 0}}});
+    const int other = posed.addNode({{"scale", {-1, 1, 1}}});
+    posed.add("skins", {{"joints", {joint, other}}, {"inverseBindMatrices", matrices}});
+    const int figure = posed.addNode({{"mesh", posed.addMesh(follower)}, {"skin", 0}, {"weights", {0.5}}});
+    const int times = posed.addAccessor(std::vector<float>{0, 1}, "SCALAR");
+    const int turns = posed.addAccessor(std::vector<float>(24, 0.5f), "VEC4");
+    const int weights = posed.addAccessor(std::vector<float>{0.5f, 1}, "SCALAR");
+    posed.add("animations", {{"samplers",
+                              {{{"input", times}, {"output", turns}, {"interpolation", "CUBICSPLINE"}},
+                               {{"input", times}, {"output", weights}}}},
+                             {"channels",
+                              {{{"sampler", 0}, {"target", {{"node", joint}, {"path", "rotation"}}}},
+                               {{"sampler", 1}, {"target", {{"node", figure}, {"path", "weights"}}}}}}});
+
+    for (const auto& [name, gltf] :
+         {std::pair("full", &full), std::pair("packed", &packed), std::pair("posed", &posed)}) {
         seeds.write("gltf", std::string(name) + "-binary", gltf->binary());
         gltf->saveWithBuffer(scratch, "", scratch.string() + ".bin");
         json document = json::parse(content(scratch));

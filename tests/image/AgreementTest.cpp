@@ -58,6 +58,11 @@ TEST(Principled, IsTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/principled.json"));
 }
 
+// Coats reflect to where the surface below them does not, and lights there count once.
+TEST(NightlyCoatNormals, AreTheSameForAllWaysToSampleLights) {
+    expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/lacquer.json"));
+}
+
 // Beside a lamp and a turned sky, by scattering over several vertices.
 TEST(PunctualLights, AreTheSameForAllWaysToSampleLights) {
     expectAgreement(app::loadScene(RT_TEST_DATA_DIR "/scenes/punctual-lights.json"));

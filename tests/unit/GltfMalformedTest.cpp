@@ -19,6 +19,24 @@ namespace {
 
 using nlohmann::json;
 
+// Gives the mesh of node 0 a skin of one joint, a morph target and an animation.
+void addPose(GltfBuilder& gltf) {
+    json& primitive = gltf.json["meshes"][0]["primitives"][0];
+    primitive["attributes"]["JOINTS_0"] = gltf.addAccessor(std::vector<std::uint8_t>(12, 0), "VEC4");
+    primitive["attributes"]["WEIGHTS_0"] = gltf.addAccessor(std::vector<float>(12, 0.25f), "VEC4");
+    primitive["targets"] = {{{"POSITION", gltf.addAccessor(std::vector<float>(9, 1), "VEC3")}}};
+    const int matrices = gltf.addView(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+    gltf.add("skins", {{"joints", {1}}, {"inverseBindMatrices", gltf.addAccessor(matrices, 5126, "MAT4", 1)}});
+    gltf.json["nodes"][0]["skin"] = 0;
+    gltf.json["nodes"][0]["weights"] = {1};
+    gltf.add("nodes", json::object()); // of no scene
+    const int times = gltf.addAccessor(std::vector<float>{0}, "SCALAR");
+    const int values = gltf.addAccessor(std::vector<float>{1, 2, 3}, "VEC3");
+    gltf.add("animations", {{"samplers", {{{"input", times}, {"output", values}}}},
+                            {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}});
+    gltf.addAccessor(std::vector<std::uint8_t>(12, 5), "VEC4"); // no numbers of joints
+}
+
 // A scene with all kinds of references.
 GltfBuilder sample() {
     GltfBuilder gltf;
@@ -35,6 +53,7 @@ GltfBuilder sample() {
     gltf.addNode({{"children", {child}}});
     gltf.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
     gltf.json["scene"] = 0;
+    addPose(gltf);
     return gltf;
 }
 
@@ -63,7 +82,7 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/nodes/2/camera", 4, "/nodes/2/camera: 4"},
         {"/nodes/2/scale", {0, 0, 0}, "/nodes/2: its transform leaves the camera no direction"},
         {"/cameras/0/perspective/yfov", 4, "/cameras/0/perspective/yfov"},
-        {"/meshes/0/primitives/0/attributes/POSITION", 9, "/meshes/0/primitives/0/attributes/POSITION: 9"},
+        {"/meshes/0/primitives/0/attributes/POSITION", 99, "/meshes/0/primitives/0/attributes/POSITION: 99"},
         {"/meshes/0/primitives/0/attributes/POSITION", 1, "/accessors/1: type: must be VEC3"},
         {"/meshes/0/primitives/0/indices", 0, "/accessors/0: type: must be SCALAR"},
         {"/meshes/0/primitives/0/material", 1, "/meshes/0/primitives/0/material: 1"},
@@ -84,6 +103,22 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/textures/0/sampler", 3, "/textures/0/sampler: 3"},
         {"/materials/0/pbrMetallicRoughness/baseColorTexture/index", 6, "baseColorTexture/index: 6"},
         {"/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord", 5, "/materials/0: texCoord"},
+        {"/skins/0/joints", {44}, "/skins/0/joints/0: 44"},
+        {"/skins/0/joints", {3}, "/skins/0/joints: node 3 is not in the scene"},
+        {"/skins/0/joints", json::array(), "/skins/0/joints: must be at least one node"},
+        {"/skins/0/joints", {1, 0}, "/skins/0/inverseBindMatrices: must be one for each joint"},
+        {"/skins/0/inverseBindMatrices", 0, "/accessors/0: type: must be MAT4"},
+        {"/nodes/0/weights", {1e12}, "/meshes/0/primitives/0: its pose moves vertices beyond 1e9"},
+        {"/meshes/0/primitives/0/attributes/JOINTS_0", 0, "/accessors/0: type: must be VEC4"},
+        {"/meshes/0/primitives/0/attributes/JOINTS_0", 9, "JOINTS_0: element 0: the skin has 1 joints"},
+        {"/meshes/0/primitives/0/targets/0/POSITION", 77, "/targets/0/POSITION: 77"},
+        {"/meshes/0/primitives/0/targets/0/POSITION", 2, "/accessors/2: type: must be VEC3"},
+        {"/animations/0/samplers/0/output", 99, "/animations/0/samplers/0/output: 99"},
+        {"/animations/0/samplers/0/output", 2, "/accessors/2: type: must be VEC3"},
+        {"/animations/0/samplers/0/interpolation", "CUBICSPLINE", "output: ends within the first keyframe"},
+        {"/animations/0/channels/0/sampler", 1, "/animations/0/channels/0/sampler: 1"},
+        {"/animations/0/channels/0/target/node", 9, "/animations/0/channels/0/target/node: 9"},
+        {"/animations/0/channels/0/target/path", "rotation", "type: must be VEC4"},
         {"/images/0", {{"uri", "https://example.org/a.png"}}, "must be the relative path of a file"},
         {"/images/0", {{"uri", "/etc/a.png"}}, "must be the relative path of a file"},
     };

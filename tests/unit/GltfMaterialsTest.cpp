@@ -138,6 +138,12 @@ TEST_F(GltfMaterials, Extensions) {
     p = extended("KHR_materials_clearcoat", {{"clearcoatFactor", 0.8}, {"clearcoatRoughnessFactor", 0.3}}).principled;
     EXPECT_EQ(p.clearcoat.factor, 0.8);
     EXPECT_EQ(p.clearcoatRoughness.factor, 0.3);
+    p = extended("KHR_materials_clearcoat",
+                 {{"clearcoatFactor", 1}, {"clearcoatNormalTexture", {{"index", 1}, {"scale", 0.4}}}})
+            .principled;
+    EXPECT_EQ(image(p.clearcoatNormalTexture).colorSpace, ColorSpace::Linear);
+    EXPECT_EQ(p.clearcoatNormalScale, 0.4);
+    EXPECT_TRUE(p.normalTexture.empty());
     p = extended("KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.4, 0.3}}, {"sheenRoughnessFactor", 0.6}})
             .principled;
     EXPECT_EQ(std::get<glm::dvec3>(p.sheenColor), glm::dvec3(0.5, 0.4, 0.3));

@@ -124,12 +124,12 @@ TEST(ImageIo, PngOf16BitsKeepsThem) {
     }
     std::ofstream(folder / "grey.png", std::ios::binary) << encodePng16(2, 1, PNG_COLOR_TYPE_GRAY, {1, 65534});
     EXPECT_EQ(loadTexels(folder / "grey.png").srgb16, (std::vector<std::uint16_t>{1, 1, 1, 65534, 65534, 65534}));
-    // With opacity, 8 bits of them are what texels hold.
     std::ofstream(folder / "rgba.png", std::ios::binary)
         << encodePng16(1, 1, PNG_COLOR_TYPE_RGB_ALPHA, {0x1234, 0x5678, 0x9abc, 0x80ff});
     const Texels rgba = loadTexels(folder / "rgba.png");
-    EXPECT_EQ(rgba.srgb8, (std::vector<std::uint8_t>{0x12, 0x56, 0x9a}));
-    EXPECT_EQ(rgba.alpha8, (std::vector<std::uint8_t>{0x80}));
+    EXPECT_EQ(rgba.srgb16, (std::vector<std::uint16_t>{0x1234, 0x5678, 0x9abc}));
+    EXPECT_EQ(rgba.alpha16, (std::vector<std::uint16_t>{0x80ff}));
+    EXPECT_TRUE(rgba.srgb8.empty() && rgba.alpha8.empty());
 }
 
 // Content of a chunk that stands between header and rows; empty: there is none.

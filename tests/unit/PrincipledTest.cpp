@@ -63,16 +63,16 @@ Principled principled(const Case& which, float roughness) {
     p.ior = kIor;
     p.thin = which.thin ? 1u : 0u;
     p.glass = which.thin ? kNone : 0u;
-    p.normalTexture = kNone;
+    p.normalTexture = p.coatTexture = kNone;
     p.alphaCutoff = -1;
     return p;
 }
 
-Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true) {
+Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true, const vec3& coat = kUp) {
     Bsdf b{};
     b.kind = kMaterialPrincipled;
     b.albedo = albedo;
-    b.lobes = makeLobes(kFeatureAll, scene(), p, Surface{}, albedo, wo.z, front);
+    b.lobes = makeLobes(kFeatureAll, scene(), p, Surface{}, albedo, wo.z, coat, std::max(dot(coat, wo), 0.0f), front);
     return b;
 }
 
@@ -82,7 +82,10 @@ vec3 outgoing(double cosine) {
 
 // On both sides.
 vec4 eval(const Bsdf& b, const vec3& wo, const vec3& wi) {
-    return evalPrincipledLocal(b, wo, wi);
+    BsdfSample s = absorbed();
+    s.wi = wi;
+    s.transmitted = wi.z < 0 ? 1u : 0u;
+    return evalProposal(kFeatureAll, b, wo, s);
 }
 
 BsdfSample draw(const Bsdf& b, const vec3& wo, const vec2& u) {
@@ -186,6 +189,61 @@ TEST(Principled, LobesAreReciprocal) {
     }
 }
 
+// A coat whose normal is bent sends light where the surface below cannot, and the other way round; the density counts
+// both. Reflections of the tilted coat that end below the horizon are those of a flat surface turned.
+TEST(Principled, CoatsWithANormalOfTheirOwnAreSampledAsTheirDensitySays) {
+    Uniforms uniform(36);
+    const vec3 tilts[] = {normalize(vec3(0.3f, 0.1f, 1)), normalize(vec3(-0.8f, 0.5f, 0.6f))};
+    for (const vec3& coat : tilts)
+        for (const float roughness : {0.25f, 0.6f, 1.0f}) {
+            Principled p = principled(kCases[4], roughness);
+            const vec3 wo = normalize(vec3(-0.2f, 0.3f, 0.6f));
+            const Bsdf b = bsdfOf(p, vec3(0.2f, 0.5f, 0.9f), wo, true, coat);
+            const auto reflected = [&](const vec3& wi) {
+                return evalPrincipledReflection(kFeatureAll, b.lobes, wo, wi);
+            };
+            const auto density = [&](double u, double v) { return double(reflected(vec3(test::onSphere(u, v))).w); };
+            const std::vector<double> expected = test::cellMasses(density);
+            std::vector<std::uint64_t> counts(expected.size());
+            int below = 0;
+            for (int i = 0; i < 1 << 14; ++i) {
+                const BsdfSample s = draw(b, wo, uniform.pair());
+                ASSERT_EQ(s.delta | s.transmitted, 0u);
+                if (!(s.pdf > 0)) continue;
+                ++counts[test::cellOf(s.wi)];
+                below += s.wi.z < 0 ? 1 : 0;
+                const vec4 f = reflected(s.wi);
+                ASSERT_NEAR(f.w, s.pdf, 2e-3f * s.pdf) << roughness;
+                for (int c = 0; c < 3; ++c) ASSERT_NEAR(s.weight[c] * s.pdf, f[c], 2e-3f * f[c]);
+            }
+            EXPECT_GT(test::chiSquareP(counts, expected), test::kSignificance) << coat.z << ' ' << roughness;
+            if (coat.z < 0.9f) {
+                EXPECT_GT(below, 0) << roughness;
+            }
+        }
+}
+
+// A coat alone is the same lobe in whatever frame: turned with all directions it keeps its value.
+TEST(Principled, CoatsTurnWithTheirNormal) {
+    Uniforms uniform(37);
+    Bsdf b{};
+    b.kind = kMaterialPrincipled;
+    b.lobes = noLobes();
+    b.lobes.coat = 0.7f;
+    b.lobes.coatShare = 1;
+    for (int i = 0; i < 1000; ++i) {
+        b.lobes.coatAlpha = 0.05f + 0.9f * uniform();
+        b.lobes.coatNormal = kUp;
+        const vec3 wo = outgoing(uniform.between(0.05, 1)), wi = outgoing(uniform.between(0.05, 1));
+        const vec4 straight = evalPrincipledReflection(kFeatureAll, b.lobes, wo, wi);
+        ASSERT_EQ(straight, evalPrincipledReflection(kFeatureAll & ~kFeatureCoatNormal, b.lobes, wo, wi));
+        const Frame frame = makeFrame(vec3(test::onSphere(uniform.between(0.5, 1), uniform())));
+        b.lobes.coatNormal = frame.normal;
+        const vec4 turned = evalPrincipledReflection(kFeatureAll, b.lobes, toWorld(frame, wo), toWorld(frame, wi));
+        for (int c = 0; c < 4; ++c) ASSERT_NEAR(turned[c], straight[c], 2e-3f * straight[c] + 1e-5f) << i;
+    }
+}
+
 // A lobe that becomes a mirror loses no brightness on the way.
 TEST(Principled, MirrorsAreTheLimitOfRoughness) {
     Uniforms uniform(35);
@@ -236,6 +294,30 @@ TEST(Principled, ScenesWithoutItHaveNoneOfIt) {
     const auto translucent = scene::compileScene(desc, {});
     EXPECT_TRUE(has(translucent->features, kFeatureOpacity));
     EXPECT_EQ(translucent->glassAlbedos.size(), 2u * kAlbedoSteps * kAlbedoSteps);
+}
+
+// The bit that a normal of the coat's own costs is set where there is one, and by it alone.
+TEST(Principled, CoatNormalsAreAFeatureOfTheirOwn) {
+    scene::SceneDesc desc;
+    scene::ImageTexture map;
+    map.file = "none.png";
+    map.standIn = "mars";
+    desc.textures["map"] = map;
+    scene::SphereDesc sphere;
+    sphere.material = "m";
+    desc.objects.push_back({sphere});
+    const auto hasBit = [&](double coat, const char* normals, const char* coatNormals) {
+        scene::MaterialDesc& m = desc.materials["m"];
+        m.kind = scene::MaterialKind::Principled;
+        m.principled.clearcoat.factor = coat;
+        m.principled.normalTexture = normals;
+        m.principled.clearcoatNormalTexture = coatNormals;
+        return has(scene::compileScene(desc, {})->features, kFeatureCoatNormal);
+    };
+    EXPECT_FALSE(hasBit(1, "", ""));
+    EXPECT_FALSE(hasBit(0, "map", "map"));
+    EXPECT_TRUE(hasBit(1, "map", ""));
+    EXPECT_TRUE(hasBit(0.5, "", "map"));
 }
 
 // Light that crosses a distance inside loses what Beer's law says.

@@ -10,6 +10,7 @@
 
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Shared/Texture/Checker.h"
 #include "tests/unit/CompilerScenes.h"
 
@@ -165,6 +166,17 @@ TEST(SceneCompiler, ColorSpacesDecodeWhatIsEncoded) {
     ASSERT_EQ(compiled->texels.size(), 6u);
     EXPECT_NEAR(shared::uintBitsToFloat(compiled->texels[0]), std::pow((kEncoded + 0.055) / 1.055, 2.4), 1e-7);
     EXPECT_EQ(shared::uintBitsToFloat(compiled->texels[3]), kEncoded);
+    options.loadTexels = [](const std::filesystem::path&, std::optional<std::uint32_t>) { // with opacity
+        const std::uint32_t word = shared::floatBitsToUint(kEncoded);
+        return TexelData{1, 1, shared::kTexelLinearF32A, {word, word, word, word}, true};
+    };
+    const auto translucent = compileScene(scene, options);
+    ASSERT_EQ(translucent->texels.size(), 8u);
+    EXPECT_EQ(translucent->texels[2], compiled->texels[2]);
+    for (const std::size_t plain : {3u, 4u, 7u})
+        EXPECT_EQ(shared::uintBitsToFloat(translucent->texels[plain]), kEncoded) << plain;
+    const glm::dvec3 seen = texelColor(*translucent, translucent->images[0], 0, 0);
+    EXPECT_EQ(seen.x, double(shared::uintBitsToFloat(compiled->texels[0])));
 }
 
 TEST(SceneCompiler, DegeneratePrimitivesAreDroppedAndCounted) {

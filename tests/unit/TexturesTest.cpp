@@ -212,6 +212,16 @@ TextureScene imageScene() {
     return scene;
 }
 
+TEST(Textures, FloatsMayHaveOpacity) {
+    TextureScene scene;
+    scene.images.push_back({1, 2, 1, kTexelLinearF32A});
+    scene.texels.push_back(0);
+    for (const float value : {0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f})
+        scene.texels.push_back(floatBitsToUint(value));
+    EXPECT_EQ(loadTexel(scene, scene.images[0], 0, 0), vec4(0.1f, 0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(loadTexel(scene, scene.images[0], 1, 0), vec4(0.5f, 0.6f, 0.7f, 0.8f));
+}
+
 TEST(Textures, ImageIsBilinearBetweenTexelCentres) {
     const TextureScene scene = imageScene();
     const auto at = [&](float u, float v) { return evaluate(scene, 0, vec3(0), vec2(u, v)); };

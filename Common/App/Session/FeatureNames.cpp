@@ -23,6 +23,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
 #undef RT_BLACK
         {"fuzz", kFeatureFuzz},
     {"opacity", kFeatureOpacity},
+    {"coat-normal", kFeatureCoatNormal},
     {"emissive", kFeatureEmissive},
     {"textures", kTexturedFeatures},
     {"checker", kFeatureChecker},
@@ -52,7 +53,7 @@ constexpr bool haveOneNameEach() {
         if ((named & row.value) != 0) return false;
         named |= row.value;
     }
-    return (named | kFreeFeatures) == kFeatureAll;
+    return named == kFeatureAll;
 }
 static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
 

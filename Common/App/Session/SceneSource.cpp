@@ -32,11 +32,15 @@ scene::TexelData toTexelData(const image::Texels& texels) {
     data.width = texels.width;
     data.height = texels.height;
     if (!texels.srgb16.empty()) {
-        data.format = shared::kTexelLinearF32;
+        const bool hasOpacity = !texels.alpha16.empty();
+        const auto word = [](std::uint16_t value) { return shared::floatBitsToUint(float(value) / 65535.0f); };
+        data.format = hasOpacity ? shared::kTexelLinearF32A : shared::kTexelLinearF32;
         data.isEncoded = true;
-        data.words.resize(texels.srgb16.size());
-        std::transform(texels.srgb16.begin(), texels.srgb16.end(), data.words.begin(),
-                       [](std::uint16_t value) { return shared::floatBitsToUint(float(value) / 65535.0f); });
+        data.words.reserve(texels.srgb16.size() + texels.alpha16.size());
+        for (std::size_t i = 0; i < texels.srgb16.size(); ++i) {
+            data.words.push_back(word(texels.srgb16[i]));
+            if (hasOpacity && i % 3 == 2) data.words.push_back(word(texels.alpha16[i / 3]));
+        }
         return data;
     }
     if (texels.srgb8.empty()) {

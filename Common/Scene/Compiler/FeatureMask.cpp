@@ -20,6 +20,11 @@ bool letsRaysThrough(const shared::Principled& p) {
     return p.opacity.factor < 1 || p.opacity.texture != shared::kNone || p.alphaCutoff > 0;
 }
 
+// Of its own, as the surface below has a map of normals or the coat itself.
+bool hasCoatNormal(const shared::Principled& p) {
+    return p.clearcoat.factor > 0 && (p.normalTexture != shared::kNone || p.coatTexture != shared::kNone);
+}
+
 std::uint32_t ofTexture(const shared::Texture& texture) {
     switch (texture.kind) {
         case shared::kTextureSolid:
@@ -75,8 +80,10 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
     for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
     for (std::size_t i = 0; i < scene.principled.size(); ++i)
-        if (shared::isPrincipled(shared::kFeatureAll, scene.materials[i]))
+        if (shared::isPrincipled(shared::kFeatureAll, scene.materials[i])) {
             need(letsRaysThrough(scene.principled[i]), shared::kFeatureOpacity);
+            need(hasCoatNormal(scene.principled[i]), shared::kFeatureCoatNormal);
+        }
     for (const shared::Texture& texture : scene.textures) mask |= ofTexture(texture);
     for (const shared::Light& light : scene.lights) mask |= ofLight(light);
     return mask;

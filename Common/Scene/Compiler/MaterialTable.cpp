@@ -59,6 +59,15 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
     return entry->second;
 }
 
+std::uint32_t MaterialTable::normalMap(const std::string& name) {
+    if (name.empty()) return shared::kNone;
+    shared::vec3 ignored;
+    const std::uint32_t texture = textures_.resolve(name, ignored);
+    if (texture == shared::kNone || !textures_.isGreyImage(texture)) return texture;
+    out_.notices.push_back("texture \"" + name + "\" is grey, a map of heights and not of normals: left out");
+    return shared::kNone;
+}
+
 void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     if (out_.principled.empty()) out_.directionalAlbedos = directionalAlbedos();
     shared::Principled p{};
@@ -98,15 +107,10 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
         for (int c = 0; c < 3; ++c)
             p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kLeastAttenuation)) /
                                                  *desc.attenuationDistance);
-    p.normalTexture = shared::kNone;
-    shared::vec3 ignored;
-    if (!desc.normalTexture.empty()) p.normalTexture = textures_.resolve(desc.normalTexture, ignored);
-    if (p.normalTexture != shared::kNone && textures_.isGreyImage(p.normalTexture)) {
-        p.normalTexture = shared::kNone;
-        out_.notices.push_back("texture \"" + desc.normalTexture +
-                               "\" is grey, a map of heights and not of normals: left out");
-    }
+    p.normalTexture = normalMap(desc.normalTexture);
     p.normalScale = static_cast<float>(desc.normalScale);
+    p.coatTexture = normalMap(desc.clearcoatNormalTexture);
+    p.coatScale = static_cast<float>(desc.clearcoatNormalScale);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
     out_.principled.resize(out_.materials.size());
     out_.principled.push_back(p);
@@ -124,7 +128,9 @@ bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {
     };
     const PrincipledDesc& p = desc.principled;
 #define RT_SHOWS(member, usual) || shows(p.member)
-    return textures_.mayShowImage(p.normalTexture) RT_PRINCIPLED_NUMBERS(RT_SHOWS) RT_PRINCIPLED_COLORS(RT_SHOWS);
+    return textures_.mayShowImage(p.normalTexture) || textures_.mayShowImage(p.clearcoatNormalTexture)
+                                                          RT_PRINCIPLED_NUMBERS(RT_SHOWS)
+                                                              RT_PRINCIPLED_COLORS(RT_SHOWS);
 #undef RT_SHOWS
 }
 

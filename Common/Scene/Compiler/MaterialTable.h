@@ -33,6 +33,7 @@ class MaterialTable {
   private:
     // The record beside the material that is about to be added.
     void addPrincipled(const PrincipledDesc& desc);
+    std::uint32_t normalMap(const std::string& name); // kNone where there is none or it is grey
 
     const SceneDesc& desc_;
     const CompileOptions& options_;

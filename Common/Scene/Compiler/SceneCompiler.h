@@ -12,14 +12,14 @@
 
 namespace rt::scene {
 
-// An image as kernels fetch it: rows from the top, words as the format (shared::kTexelSrgb8 or kTexelLinearF32) says.
+// An image as kernels fetch it: rows from the top, words as the format (shared::kTexel...) says.
 // Whether an image that is not linear is sRGB-encoded, its texture knows.
 struct TexelData {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t format = shared::kTexelSrgb8;
     std::vector<std::uint32_t> words;
-    bool isEncoded = false; // of kTexelLinearF32: they have yet to be decoded
+    bool isEncoded = false; // of floats: colours have yet to be decoded
 };
 
 struct CompileOptions {

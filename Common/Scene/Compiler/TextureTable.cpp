@@ -44,8 +44,9 @@ std::uint32_t noiseKind(NoiseKind kind) {
 
 glm::dvec3 texelColor(const CompiledScene& scene, const shared::Image& image, std::uint32_t x, std::uint32_t y) {
     const std::size_t texel = std::size_t{y} * image.width + x;
-    if (image.format == shared::kTexelLinearF32) {
-        const std::uint32_t* words = &scene.texels[image.firstTexel + 3 * texel];
+    if (image.format == shared::kTexelLinearF32 || image.format == shared::kTexelLinearF32A) {
+        const std::size_t width = image.format == shared::kTexelLinearF32A ? 4 : 3;
+        const std::uint32_t* words = &scene.texels[image.firstTexel + width * texel];
         return {shared::uintBitsToFloat(words[0]), shared::uintBitsToFloat(words[1]),
                 shared::uintBitsToFloat(words[2])};
     }
@@ -172,8 +173,11 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
     if (source.colorSpace == ColorSpace::Linear && image.format == shared::kTexelSrgb8)
         image.format = shared::kTexelLinear8;
     if (source.colorSpace == ColorSpace::Srgb && data.isEncoded)
-        for (std::uint32_t& word : data.words)
+        for (std::size_t i = 0; i < data.words.size(); ++i) {
+            if (image.format == shared::kTexelLinearF32A && i % 4 == 3) continue; // opacity is never encoded
+            std::uint32_t& word = data.words[i];
             word = shared::floatBitsToUint(static_cast<float>(srgbDecode(shared::uintBitsToFloat(word))));
+        }
     out_.texels.insert(out_.texels.end(), data.words.begin(), data.words.end());
     if (out_.texels.size() > shared::kNone)
         throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");

@@ -1,6 +1,7 @@
 #include "Common/Scene/Gltf/GltfAccessor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -87,9 +88,19 @@ std::vector<std::uint32_t> sparseIndices(const GltfFile& file, int index) {
     return indices;
 }
 
-// Calls put(i, component, bytes of the value) for everything that the accessor's sparse part changes.
+constexpr int typeOf(int components) {
+    return components == 1 ? TINYGLTF_TYPE_SCALAR : components == 16 ? TINYGLTF_TYPE_MAT4 : components;
+}
+
+const char* nameOf(int components) {
+    constexpr std::array kNames = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    return components == 16 ? "MAT4" : kNames[static_cast<std::size_t>(components - 1)];
+}
+
+// Calls put(i, component, value) for each value of N components that the accessor's sparse part changes. `elements`:
+// those which count, ascending; i is the place among them.
 template <int N, typename T, typename Function>
-void forEachSparse(const GltfFile& file, int index, const Function& put) {
+void forEachSparse(const GltfFile& file, int index, const std::vector<std::uint32_t>* elements, const Function& put) {
     const tinygltf::Accessor& accessor = at(file, index);
     if (!accessor.sparse.isSparse) return;
     const std::vector<std::uint32_t> changed = sparseIndices(file, index);
@@ -98,17 +109,50 @@ void forEachSparse(const GltfFile& file, int index, const Function& put) {
     const std::size_t stride = stated == 0 ? N * sizeof(T) : stated;
     const std::byte* from = file.view(accessor.sparse.values.bufferView).data() +
                             static_cast<std::size_t>(accessor.sparse.values.byteOffset);
-    for (std::size_t i = 0; i < changed.size(); ++i)
-        for (int c = 0; c < N; ++c)
-            put(changed[i], c, load<T>(from + i * stride + static_cast<std::size_t>(c) * sizeof(T)));
+    for (std::size_t i = 0; i < changed.size(); ++i) {
+        std::size_t place = changed[i];
+        if (elements) {
+            const auto found = std::lower_bound(elements->begin(), elements->end(), changed[i]);
+            if (found == elements->end() || *found != changed[i]) continue;
+            place = static_cast<std::size_t>(found - elements->begin());
+        }
+        for (int c = 0; c < N; ++c) put(place, c, load<T>(from + i * stride + static_cast<std::size_t>(c) * sizeof(T)));
+    }
 }
 
-template <int N>
-void checkFinite(const GltfFile& file, int accessor, const std::vector<glm::vec<N, double>>& values) {
+// Of one, two, three, four or, a matrix by columns, sixteen components.
+template <int N, typename Element>
+std::vector<Element> readElements(const GltfFile& file, int index, const std::vector<std::uint32_t>* elements) {
+    const tinygltf::Accessor& accessor = at(file, index);
+    if (accessor.type != typeOf(N)) fail(file, index, std::string("type: must be ") + nameOf(N));
+    std::vector<Element> values(elements ? elements->size() : accessor.count, Element(0));
+    const auto component = [](Element& element, int c) -> double& {
+        if constexpr (N == 1)
+            return static_cast<void>(c), element;
+        else if constexpr (N == 16)
+            return element[c / 4][c % 4];
+        else
+            return element[c];
+    };
+    withComponentType(accessor.componentType, [&](auto type) {
+        using T = decltype(type);
+        const Source base = baseOf(file, accessor, N * sizeof(T));
+        if (!base.bytes.empty())
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                const std::byte* from = base.bytes.data() + base.stride * (elements ? (*elements)[i] : i);
+                for (int c = 0; c < N; ++c)
+                    component(values[i], c) =
+                        decoded(load<T>(from + static_cast<std::size_t>(c) * sizeof(T)), accessor.normalized);
+            }
+        forEachSparse<N, T>(file, index, elements, [&](std::size_t i, int c, T value) {
+            component(values[i], c) = decoded(value, accessor.normalized);
+        });
+    });
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int c = 0; c < N; ++c)
-            if (!(std::abs(values[i][c]) <= kLargest))
-                fail(file, accessor, "element " + std::to_string(i) + ": must be numbers from -1e9 to 1e9");
+            if (!(std::abs(component(values[i], c)) <= kLargest))
+                fail(file, index, "element " + std::to_string(i) + ": must be numbers from -1e9 to 1e9");
+    return values;
 }
 
 } // namespace
@@ -117,40 +161,28 @@ std::size_t accessorCount(const GltfFile& file, int accessor) {
     return at(file, accessor).count;
 }
 
+std::size_t sparseCount(const GltfFile& file, int accessor) {
+    const auto& sparse = at(file, accessor).sparse;
+    return sparse.isSparse ? static_cast<std::size_t>(sparse.count) : 0;
+}
+
 template <int N>
-std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int index,
+std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int accessor,
                                              const std::vector<std::uint32_t>* elements) {
-    const tinygltf::Accessor& accessor = at(file, index);
-    if (accessor.type != N) fail(file, index, "type: must be VEC" + std::to_string(N));
-    using Vector = glm::vec<N, double>;
-    if (elements && accessor.sparse.isSparse) { // changes are found by their place among all
-        const std::vector<Vector> all = readVectors<N>(file, index);
-        std::vector<Vector> chosen;
-        chosen.reserve(elements->size());
-        for (const std::uint32_t i : *elements) chosen.push_back(all[i]);
-        return chosen;
-    }
-    std::vector<Vector> values(elements ? elements->size() : accessor.count, Vector(0));
-    withComponentType(accessor.componentType, [&](auto component) {
-        using T = decltype(component);
-        const Source base = baseOf(file, accessor, N * sizeof(T));
-        if (!base.bytes.empty())
-            for (std::size_t i = 0; i < values.size(); ++i) {
-                const std::byte* from = base.bytes.data() + base.stride * (elements ? (*elements)[i] : i);
-                for (int c = 0; c < N; ++c)
-                    values[i][c] =
-                        decoded(load<T>(from + static_cast<std::size_t>(c) * sizeof(T)), accessor.normalized);
-            }
-        forEachSparse<N, T>(
-            file, index, [&](std::uint32_t i, int c, T value) { values[i][c] = decoded(value, accessor.normalized); });
-    });
-    checkFinite<N>(file, index, values);
-    return values;
+    return readElements<N, glm::vec<N, double>>(file, accessor, elements);
 }
 
 template std::vector<glm::dvec2> readVectors<2>(const GltfFile&, int, const std::vector<std::uint32_t>*);
 template std::vector<glm::dvec3> readVectors<3>(const GltfFile&, int, const std::vector<std::uint32_t>*);
 template std::vector<glm::dvec4> readVectors<4>(const GltfFile&, int, const std::vector<std::uint32_t>*);
+
+std::vector<double> readNumbers(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements) {
+    return readElements<1, double>(file, accessor, elements);
+}
+
+std::vector<glm::dmat4> readMatrices(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements) {
+    return readElements<16, glm::dmat4>(file, accessor, elements);
+}
 
 std::vector<glm::dvec4> readColors(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements) {
     std::vector<glm::dvec4> colors;
@@ -175,7 +207,7 @@ std::vector<std::uint32_t> readIndices(const GltfFile& file, int index) {
             if (!base.bytes.empty())
                 for (std::size_t i = 0; i < values.size(); ++i)
                     values[i] = load<T>(base.bytes.data() + base.stride * i);
-            forEachSparse<1, T>(file, index, [&](std::uint32_t i, int, T value) { values[i] = value; });
+            forEachSparse<1, T>(file, index, nullptr, [&](std::size_t i, int, T value) { values[i] = value; });
         }
     });
     return values;

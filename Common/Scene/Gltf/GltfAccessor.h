@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -15,10 +16,16 @@ namespace rt::scene {
 
 std::size_t accessorCount(const GltfFile& file, int accessor);
 
-// Of an accessor of VEC N, within +-kLargest (JsonNode.h). With `elements`, those alone, in that order.
+std::size_t sparseCount(const GltfFile& file, int accessor); // of elements that are changed apart
+
+// Of an accessor of VEC N, within +-kLargest (JsonNode.h). With `elements`, ascending, those alone.
 template <int N>
 std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int accessor,
                                              const std::vector<std::uint32_t>* elements = nullptr);
+
+// Of SCALAR and MAT4, likewise.
+std::vector<double> readNumbers(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);
+std::vector<glm::dmat4> readMatrices(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);
 
 // A colour of three or four components; the fourth of three is 1.
 std::vector<glm::dvec4> readColors(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);

@@ -178,9 +178,7 @@ class Checker {
             referencesOf(node, "children", "nodes");
             if (const auto extensions = node.find("extensions")) {
                 if (const auto instancing = extensions->find("EXT_mesh_gpu_instancing"))
-                    instancing->at("attributes").forEachMember([this](const std::string&, const JsonNode& index) {
-                        reference(index, "accessors");
-                    });
+                    attributes(instancing->at("attributes"));
                 if (const auto light = extensions->find("KHR_lights_punctual"))
                     if (const JsonNode index = light->at("light"); whole(index) >= lightCount())
                         index.failValue("an index into lights, of which there are " + std::to_string(lightCount()));
@@ -194,17 +192,36 @@ class Checker {
             mesh.at("primitives").forEachElement([this](const JsonNode& primitive) {
                 reference(primitive, "indices", "accessors");
                 reference(primitive, "material", "materials");
-                primitive.at("attributes").forEachMember([this](const std::string&, const JsonNode& index) {
-                    reference(index, "accessors");
-                });
+                attributes(primitive.at("attributes"));
+                if (const auto targets = primitive.find("targets"))
+                    targets->forEachElement([this](const JsonNode& target) { attributes(target); });
             });
         });
+        forEach("animations", [this](const JsonNode& animation) { animationReferences(animation); });
         forEach("images", [this](const JsonNode& image) { reference(image, "bufferView", "bufferViews"); });
         forEach("textures", [this](const JsonNode& texture) {
             reference(texture, "source", "images");
             reference(texture, "sampler", "samplers");
         });
         forEach("materials", [this](const JsonNode& material) { textureReferences(material); });
+    }
+
+    void attributes(const JsonNode& object) const {
+        object.forEachMember([this](const std::string&, const JsonNode& index) { reference(index, "accessors"); });
+    }
+
+    void animationReferences(const JsonNode& animation) const {
+        const JsonNode samplers = animation.at("samplers");
+        const std::size_t count = samplers.arraySize();
+        samplers.forEachElement([this](const JsonNode& sampler) {
+            reference(sampler.at("input"), "accessors");
+            reference(sampler.at("output"), "accessors");
+        });
+        animation.at("channels").forEachElement([&](const JsonNode& channel) {
+            if (const JsonNode index = channel.at("sampler"); whole(index) >= count)
+                index.failValue("an index into samplers, of which there are " + std::to_string(count));
+            reference(channel.at("target"), "node", "nodes");
+        });
     }
 
     std::size_t lightCount() const {

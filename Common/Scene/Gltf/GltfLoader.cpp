@@ -1,27 +1,28 @@
 #include "Common/Scene/Gltf/GltfLoader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "Common/Core/Interruption.h"
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/Bounds.h"
 #include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
+#include "Common/Scene/Gltf/GltfBudget.h"
 #include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/Gltf/GltfMaterials.h"
 #include "Common/Scene/Gltf/GltfMesh.h"
+#include "Common/Scene/Gltf/GltfNodes.h"
+#include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::scene {
@@ -31,19 +32,6 @@ namespace {
 // What shows a model that brings no light: neutral, so that colours are right, and uneven, as white things would vanish
 // before a constant.
 const GradientBackground kStudio{glm::dvec3(0.3), glm::dvec3(1)};
-
-// Primitives may share arrays, each having its own copy here: files whose corners exceed this many, and this many for
-// each byte, could fill any memory.
-constexpr std::uint64_t kFreeCorners = std::uint64_t{1} << 20;
-constexpr std::uint64_t kCornersPerByte = 64;
-
-bool isFinite(const Affine& map) {
-    double largest = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k) largest += std::abs(map.linear[i][k]);
-    for (int k = 0; k < 3; ++k) largest += std::abs(map.offset[k]);
-    return largest <= kLargest;
-}
 
 Transform toTransform(const Affine& map) {
     Matrix matrix;
@@ -59,22 +47,15 @@ bool isIdentity(const Affine& map) {
     return map.linear == glm::dmat3(1) && map.offset == glm::dvec3(0);
 }
 
-Affine composed(const glm::dvec3& translate, const glm::dvec4& rotation, const glm::dvec3& scale) {
-    const glm::dquat turn(rotation.w, rotation.x, rotation.y, rotation.z);
-    const glm::dmat3 rotate = glm::dot(turn, turn) > 0 ? glm::mat3_cast(glm::normalize(turn)) : glm::dmat3(1);
-    return {rotate * glm::dmat3(scale.x, 0, 0, 0, scale.y, 0, 0, 0, scale.z), translate};
-}
-
 class Importer {
   public:
-    explicit Importer(const std::filesystem::path& path) : file_(readGltf(path)), materials_(file_, scene_) {
+    explicit Importer(const std::filesystem::path& path)
+        : file_(readGltf(path)), budget_(file_), materials_(file_, scene_), nodes_(file_, budget_) {
         scene_.id = path.filename().string();
         scene_.title = printable(scene_.id);
     }
 
     SceneDesc run() {
-        checkSize();
-        flatten();
         addMeshes();
         addLights();
         addCameras();
@@ -84,90 +65,20 @@ class Importer {
     }
 
   private:
-    struct Placed { // a node of the hierarchy, flattened
-        std::size_t node;
-        Affine toWorld;
+    // A mesh in one of its poses.
+    struct PosedMesh {
+        int mesh = -1;
+        int skin = -1;               // -1: it stands where its node is
+        std::vector<double> weights; // of morph targets
+        bool operator<(const PosedMesh& other) const {
+            return std::tie(mesh, skin, weights) < std::tie(other.mesh, other.skin, other.weights);
+        }
     };
-    struct Pending {
-        std::size_t node;
-        Affine parent;
-    };
-
-    static std::string placeOf(std::size_t node) { return "/nodes/" + std::to_string(node); }
-
-    void checkSize() const {
-        std::uint64_t corners = 0;
-        for (const tinygltf::Mesh& mesh : file_.model.meshes)
-            for (const tinygltf::Primitive& primitive : mesh.primitives) corners += cornerCount(file_, primitive);
-        const std::uint64_t most = kFreeCorners + kCornersPerByte * file_.bytes;
-        if (corners > most)
-            file_.fail("/meshes", "primitives have " + std::to_string(corners) + " corners: at most " +
-                                      std::to_string(most) + " for a file of this size");
-    }
-
-    // ---- hierarchy --------------------------------------------------------------------------------------------------
-
-    Affine localOf(std::size_t index) const {
-        const tinygltf::Node& node = file_.model.nodes[index];
-        const auto check = [&](const std::vector<double>& values, std::size_t count, const char* name) {
-            if (!values.empty() && values.size() != count)
-                file_.fail(placeOf(index) + "/" + name, "must be " + std::to_string(count) + " numbers");
-            return !values.empty();
-        };
-        Affine local;
-        if (check(node.matrix, 16, "matrix")) {
-            for (int column = 0; column < 3; ++column)
-                for (int row = 0; row < 3; ++row)
-                    local.linear[column][row] = node.matrix[static_cast<std::size_t>(4 * column + row)];
-            local.offset = {node.matrix[12], node.matrix[13], node.matrix[14]};
-        } else {
-            glm::dvec3 translate(0), scale(1);
-            glm::dvec4 rotate(0, 0, 0, 1);
-            if (check(node.translation, 3, "translation"))
-                translate = {node.translation[0], node.translation[1], node.translation[2]};
-            if (check(node.rotation, 4, "rotation"))
-                rotate = {node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]};
-            if (check(node.scale, 3, "scale")) scale = {node.scale[0], node.scale[1], node.scale[2]};
-            local = composed(translate, rotate, scale);
-        }
-        return local;
-    }
-
-    // Without recursion, and each node once: a hierarchy that is no tree is refused.
-    void flatten() {
-        const tinygltf::Model& model = file_.model;
-        std::vector<Pending> pending;
-        const auto push = [&](const std::vector<int>& nodes, const Affine& parent) {
-            for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
-                pending.push_back({static_cast<std::size_t>(*node), parent});
-        };
-        if (model.scenes.empty()) { // all nodes that are nobody's children
-            std::vector<bool> isChild(model.nodes.size(), false);
-            for (const tinygltf::Node& node : model.nodes)
-                for (const int child : node.children) isChild[static_cast<std::size_t>(child)] = true;
-            for (std::size_t i = model.nodes.size(); i-- > 0;)
-                if (!isChild[i]) pending.push_back({i, {}});
-        } else {
-            push(model.scenes[static_cast<std::size_t>(std::max(model.defaultScene, 0))].nodes, {});
-        }
-        std::vector<bool> isSeen(model.nodes.size(), false);
-        while (!pending.empty()) {
-            interruptionPoint();
-            const Pending next = pending.back();
-            pending.pop_back();
-            if (isSeen[next.node]) file_.fail(placeOf(next.node), "is reached twice: nodes must form a tree");
-            isSeen[next.node] = true;
-            const Affine toWorld = next.parent * localOf(next.node);
-            if (!isFinite(toWorld)) file_.fail(placeOf(next.node), "its transform exceeds 1e9");
-            placed_.push_back({next.node, toWorld});
-            push(model.nodes[next.node].children, toWorld);
-        }
-    }
 
     // ---- meshes -----------------------------------------------------------------------------------------------------
 
     // Transforms of EXT_mesh_gpu_instancing in the node's space; the identity alone for others.
-    std::vector<Affine> instancesOf(std::size_t index) const {
+    std::vector<Affine> instancesOf(std::size_t index) {
         const tinygltf::Node& node = file_.model.nodes[index];
         const auto extension = node.extensions.find("EXT_mesh_gpu_instancing");
         if (extension == node.extensions.end()) return {Affine{}};
@@ -178,9 +89,10 @@ class Importer {
             const int found = attributes.Get(name).GetNumberAsInt();
             const std::size_t elements = accessorCount(file_, found);
             if (count != 0 && elements != count)
-                file_.fail(placeOf(index) + "/extensions/EXT_mesh_gpu_instancing/attributes/" + name,
+                file_.fail(placeOfNode(index) + "/extensions/EXT_mesh_gpu_instancing/attributes/" + name,
                            "must have as many elements as the others, " + std::to_string(count));
             count = elements;
+            budget_.spend(count, placeOfNode(index));
             return found;
         };
         const auto translations = accessor("TRANSLATION"), rotations = accessor("ROTATION"), scales = accessor("SCALE");
@@ -196,48 +108,70 @@ class Importer {
     }
 
     // The surfaces of a mesh, and its bounds.
-    std::pair<std::vector<ObjectDesc>, Bounds> surfacesOf(std::size_t index) {
+    std::pair<std::vector<ObjectDesc>, Bounds> surfacesOf(const PosedMesh& posed) {
         std::vector<ObjectDesc> surfaces;
         Bounds bounds;
-        const tinygltf::Mesh& mesh = file_.model.meshes[index];
+        const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(posed.mesh)];
+        const std::vector<Affine> joints =
+            posed.skin < 0 ? std::vector<Affine>() : jointMaps(file_, posed.skin, nodes_);
+        budget_.spend(joints.size(), "/skins/" + std::to_string(posed.skin));
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const tinygltf::Primitive& primitive = mesh.primitives[i];
-            const std::string place = "/meshes/" + std::to_string(index) + "/primitives/" + std::to_string(i);
-            if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && cornerCount(file_, primitive) == 0)
+            const std::string place = "/meshes/" + std::to_string(posed.mesh) + "/primitives/" + std::to_string(i);
+            if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !isTriangles(primitive))
                 file_.fail(place, "is compressed by KHR_draco_mesh_compression, which is not supported");
-            isMorphed_ = isMorphed_ || !primitive.targets.empty();
-            const GltfMaterials::Use& use = materials_.use(primitive.material);
-            MeshData data = readPrimitive(file_, primitive, use.isOpaque, use.tangentSet, place);
+            const GltfMaterials::Use& material = materials_.use(primitive.material);
+            const PrimitiveUse use{material.isOpaque, material.tangentSet, posed.weights, joints};
+            budget_.spend(elementCount(file_, primitive, use), place);
+            MeshData data = readPrimitive(file_, primitive, use, place);
             if (data.triangles.empty()) {
                 ++withoutTriangles_;
                 continue;
             }
             for (const glm::dvec3& position : data.positions) bounds.add(position);
-            surfaces.push_back({MeshDesc{std::move(data), use.name, !use.isUnlit}});
+            surfaces.push_back({MeshDesc{std::move(data), material.name, !material.isUnlit}});
         }
         return {std::move(surfaces), bounds};
     }
 
-    void addMeshes() {
-        std::map<int, std::vector<Affine>> places; // by mesh
-        for (const Placed& placed : placed_) {
+    // Whether joints move all of a mesh.
+    bool hasJoints(const tinygltf::Mesh& mesh) const {
+        return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [](const tinygltf::Primitive& primitive) {
+            return !isTriangles(primitive) || jointSetCount(primitive) > 0;
+        });
+    }
+
+    // Where each posed mesh stands.
+    std::map<PosedMesh, std::vector<Affine>> placeMeshes() {
+        std::map<PosedMesh, std::vector<Affine>> places;
+        for (const GltfNodes::Placed& placed : nodes_.placed()) {
             const tinygltf::Node& node = file_.model.nodes[placed.node];
-            isSkinned_ = isSkinned_ || (node.mesh >= 0 && node.skin >= 0);
             if (node.mesh < 0) continue;
+            PosedMesh posed{node.mesh, node.skin, nodes_.weights(placed.node)};
+            budget_.spend(posed.weights.size(), placeOfNode(placed.node));
+            if (node.skin >= 0 && !hasJoints(file_.model.meshes[static_cast<std::size_t>(node.mesh)])) {
+                posed.skin = -1;
+                ++withoutJoints_;
+            }
             for (const Affine& instance : instancesOf(placed.node)) {
-                const Affine toWorld = placed.toWorld * instance;
-                if (!isFinite(toWorld)) file_.fail(placeOf(placed.node), "the transform of an instance exceeds 1e9");
+                // The joints of a skin say where it is, whatever its node does.
+                const Affine toWorld = posed.skin < 0 ? placed.toWorld * instance : instance;
+                if (!isWithinLimits(toWorld))
+                    file_.fail(placeOfNode(placed.node), "the transform of an instance exceeds 1e9");
                 if (!inverse(toWorld)) { // a scale of 0, as hides nodes; no scene file could say it
                     ++flattened_;
                     continue;
                 }
-                places[node.mesh].push_back(toWorld);
+                places[posed].push_back(toWorld);
             }
         }
+        return places;
+    }
+
+    void addMeshes() {
         UniqueNames names;
-        for (const auto& [index, where] : places) {
-            const auto number = static_cast<std::size_t>(index);
-            auto [surfaces, bounds] = surfacesOf(number);
+        for (const auto& [posed, where] : placeMeshes()) {
+            auto [surfaces, bounds] = surfacesOf(posed);
             if (surfaces.empty()) continue;
             for (const Affine& toWorld : where) bounds_.add(bounds, toWorld);
             if (where.size() == 1) {
@@ -246,6 +180,7 @@ class Importer {
                 std::move(surfaces.begin(), surfaces.end(), std::back_inserter(scene_.objects));
                 continue;
             }
+            const auto number = static_cast<std::size_t>(posed.mesh);
             const std::string name = names.unique(file_.model.meshes[number].name, "mesh", number);
             scene_.prototypes[name] = std::move(surfaces);
             for (const Affine& toWorld : where)
@@ -260,7 +195,7 @@ class Importer {
         UniqueNames names;
         bool isFirst = true;
         scene_.camera = framingCamera(bounds_);
-        for (const Placed& placed : placed_) {
+        for (const GltfNodes::Placed& placed : nodes_.placed()) {
             const tinygltf::Node& node = file_.model.nodes[placed.node];
             if (node.camera < 0) continue;
             const auto number = static_cast<std::size_t>(node.camera);
@@ -277,7 +212,7 @@ class Importer {
             camera.lookFrom = placed.toWorld.offset;
             const glm::dvec3 view = placed.toWorld.vector({0, 0, -1}), up = placed.toWorld.vector({0, 1, 0});
             if (!(glm::length(glm::cross(view, up)) > 1e-9 * glm::length(view) * glm::length(up)))
-                file_.fail(placeOf(placed.node), "its transform leaves the camera no direction");
+                file_.fail(placeOfNode(placed.node), "its transform leaves the camera no direction");
             const glm::dvec3 direction = glm::normalize(view);
             camera.up = glm::normalize(up);
             // What it looks at is turned around in a window: as far away as the middle of the scene.
@@ -295,7 +230,7 @@ class Importer {
     }
 
     void addLights() {
-        for (const Placed& placed : placed_) {
+        for (const GltfNodes::Placed& placed : nodes_.placed()) {
             const tinygltf::Node& node = file_.model.nodes[placed.node];
             const auto extension = node.extensions.find("KHR_lights_punctual");
             if (extension == node.extensions.end()) continue;
@@ -308,7 +243,7 @@ class Importer {
                 if (!(power[c] >= 0 && power[c] <= kLargest)) file_.fail(place, "its intensity must be from 0 to 1e9");
             const glm::dvec3 position = placed.toWorld.offset, forward = placed.toWorld.vector({0, 0, -1});
             if (source.type != "point" && !(glm::length(forward) > 0))
-                file_.fail(placeOf(placed.node), "its transform leaves the light no direction");
+                file_.fail(placeOfNode(placed.node), "its transform leaves the light no direction");
             hasLights_ = true;
             if (source.type == "point") {
                 scene_.objects.push_back({PointLightDesc{position, power}});
@@ -343,22 +278,28 @@ class Importer {
         if (flattened_ > 0)
             notices.push_back(std::to_string(flattened_) + (flattened_ == 1 ? " mesh is" : " meshes are") +
                               " left out: the transform of the node cannot be inverted");
-        if (isSkinned_) notices.push_back("skins are left out: meshes are where their nodes are");
-        if (isMorphed_) notices.push_back("morph targets are left out");
-        if (!file_.model.animations.empty()) notices.push_back("animations are left out: nodes are at rest");
+        if (withoutJoints_ > 0)
+            notices.push_back(std::to_string(withoutJoints_) + (withoutJoints_ == 1 ? " skin is" : " skins are") +
+                              " left out: vertices have no joints");
+        if (const auto& animations = file_.model.animations; !animations.empty()) {
+            const std::string& name = animations.front().name;
+            notices.push_back("animations stand still: this is the start of " +
+                              (name.empty() ? "the first" : '"' + printable(name) + '"') + " of " +
+                              std::to_string(animations.size()));
+        }
         if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
     }
 
     const GltfFile file_;
+    GltfBudget budget_;
     SceneDesc scene_;
     GltfMaterials materials_;
-    std::vector<Placed> placed_;
+    const GltfNodes nodes_;
     Bounds bounds_; // of everything, in world space
     std::size_t withoutTriangles_ = 0;
-    std::size_t flattened_ = 0; // places of meshes
+    std::size_t flattened_ = 0;     // places of meshes
+    std::size_t withoutJoints_ = 0; // nodes with a skin that moves nothing
     bool hasLights_ = false;
-    bool isSkinned_ = false;
-    bool isMorphed_ = false;
 };
 
 } // namespace

@@ -222,7 +222,9 @@ void GltfMaterials::add(std::size_t index) {
         material = unlit;
     }
     Use use{names_.unique(source.name, "material", index), isOpaque, isUnlit, std::nullopt};
-    if (!material.principled.normalTexture.empty()) use.tangentSet = static_cast<std::uint32_t>(normal.set);
+    const PrincipledDesc& made = material.principled;
+    for (const std::string& map : {made.clearcoatNormalTexture, made.normalTexture}) // the latter outweighs the other
+        if (!map.empty()) use.tangentSet = std::get<ImageTexture>(scene_.textures.at(map)).uvSet;
     scene_.materials[use.name] = std::move(material);
     uses_.push_back(std::move(use));
 }
@@ -264,7 +266,10 @@ void GltfMaterials::addExtensions(const tinygltf::Material& source, const std::s
             number(numberOf(*coat, "clearcoatFactor", 0), Slot(*coat, "clearcoatTexture"), Channel::Red, place);
         p.clearcoatRoughness = number(numberOf(*coat, "clearcoatRoughnessFactor", 0),
                                       Slot(*coat, "clearcoatRoughnessTexture"), Channel::Green, place);
-        if (member(*coat, "clearcoatNormalTexture")) leaveOut("the normal map of the clearcoat");
+        p.clearcoatNormalTexture =
+            texture(Slot(*coat, "clearcoatNormalTexture"), ColorSpace::Linear, glm::dvec3(1), place);
+        if (const tinygltf::Value* info = member(*coat, "clearcoatNormalTexture"))
+            p.clearcoatNormalScale = std::clamp(numberOf(*info, "scale", 1), -100.0, 100.0);
     }
     if (const auto* sheen = extension(extensions, "KHR_materials_sheen")) {
         p.sheenColor = color(vectorOf(*sheen, "sheenColorFactor", 0), Slot(*sheen, "sheenColorTexture"), place);

@@ -1,26 +1,25 @@
 #include "Common/Scene/Gltf/GltfMesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
 #include <vector>
 
 #include "Common/Core/Interruption.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
+#include "Common/Scene/Gltf/GltfSkin.h"
+#include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Tangents.h"
 
 namespace rt::scene {
 
 namespace {
 
-std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* name) {
-    const auto found = primitive.attributes.find(name);
-    if (found == primitive.attributes.end()) return std::nullopt;
+std::optional<int> attribute(const std::map<std::string, int>& attributes, const char* name) {
+    const auto found = attributes.find(name);
+    if (found == attributes.end()) return std::nullopt;
     return found->second;
-}
-
-bool isTriangles(int mode) {
-    return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
-           mode == TINYGLTF_MODE_TRIANGLE_FAN;
 }
 
 // ---- connectivity --------------------------------------------------------------------------------------------------
@@ -54,66 +53,129 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& corners) {
     return used;
 }
 
-} // namespace
+// Of vertices, in the pose that morph targets give them.
+class VertexReader {
+  public:
+    // `elements`: the vertices to be read; null: all of `count`.
+    VertexReader(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use,
+                 const std::vector<std::uint32_t>* elements, std::size_t count, const std::string& place)
+        : file_(file), primitive_(primitive), use_(use), elements_(elements), count_(count), place_(place) {}
 
-std::uint64_t cornerCount(const GltfFile& file, const tinygltf::Primitive& primitive) {
-    const std::optional<int> positions = attribute(primitive, "POSITION");
-    if (!positions || !isTriangles(primitive.mode)) return 0;
-    const std::size_t count = accessorCount(file, primitive.indices >= 0 ? primitive.indices : *positions);
-    return primitive.mode == TINYGLTF_MODE_TRIANGLES ? count : 3 * std::uint64_t{count};
-}
+    std::optional<int> find(const char* name) const { return find(primitive_.attributes, name, "/attributes/"); }
 
-MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, bool isOpaque,
-                       std::optional<std::uint32_t> tangentSet, const std::string& place) {
-    interruptionPoint();
-    MeshData mesh;
-    const std::optional<int> positions = attribute(primitive, "POSITION");
-    if (!positions || !isTriangles(primitive.mode)) return mesh;
-    const std::size_t count = accessorCount(file, *positions);
+    // Empty where there are none. Morph targets change the first three components.
+    template <int N>
+    std::vector<glm::vec<N, double>> vectors(const char* name) const {
+        constexpr int kMorphed = std::min(N, 3);
+        const auto accessor = find(name);
+        if (!accessor) return {};
+        auto values = readVectors<N>(file_, *accessor, elements_);
+        for (std::size_t target = 0; target < std::min(use_.weights.size(), primitive_.targets.size()); ++target) {
+            const double weight = use_.weights[target];
+            if (weight == 0) continue;
+            const auto changed = find(primitive_.targets[target], name, "/targets/" + std::to_string(target) + "/");
+            if (!changed) continue;
+            const auto changes = readVectors<kMorphed>(file_, *changed, elements_);
+            for (std::size_t i = 0; i < values.size(); ++i)
+                for (int c = 0; c < kMorphed; ++c) values[i][c] += weight * changes[i][c];
+        }
+        return values;
+    }
+    std::vector<glm::dvec2> uvs(const char* name) const {
+        auto uvs = vectors<2>(name);
+        for (glm::dvec2& uv : uvs) uv.y = 1 - uv.y;
+        return uvs;
+    }
 
+  private:
+    std::optional<int> find(const std::map<std::string, int>& attributes, const char* name,
+                            const std::string& folder) const {
+        const std::optional<int> accessor = attribute(attributes, name);
+        if (accessor && accessorCount(file_, *accessor) != count_)
+            file_.fail(place_ + folder + name, "has " + std::to_string(accessorCount(file_, *accessor)) +
+                                                   " elements: must be those of POSITION, " + std::to_string(count_));
+        return accessor;
+    }
+
+    const GltfFile& file_;
+    const tinygltf::Primitive& primitive_;
+    const PrimitiveUse& use_;
+    const std::vector<std::uint32_t>* elements_;
+    std::size_t count_;
+    const std::string& place_;
+};
+
+// Numbers of vertices, three by three or as strips and fans have them.
+std::vector<std::uint32_t> readCorners(const GltfFile& file, const tinygltf::Primitive& primitive, std::size_t count,
+                                       const std::string& place) {
     std::vector<std::uint32_t> corners;
-    if (primitive.indices >= 0) {
-        corners = readIndices(file, primitive.indices);
-        for (const std::uint32_t corner : corners)
-            if (corner >= count)
-                file.fail(place + "/indices",
-                          "index " + std::to_string(corner) + ": there are " + std::to_string(count) + " vertices");
-    } else {
+    if (primitive.indices < 0) {
         corners.resize(count);
         std::iota(corners.begin(), corners.end(), 0u);
+        return corners;
     }
+    corners = readIndices(file, primitive.indices);
+    for (const std::uint32_t corner : corners)
+        if (corner >= count)
+            file.fail(place + "/indices",
+                      "index " + std::to_string(corner) + ": there are " + std::to_string(count) + " vertices");
+    return corners;
+}
+
+void checkPositions(const GltfFile& file, const MeshData& mesh, const std::string& place) {
+    for (const glm::dvec3& p : mesh.positions)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(p[c]) <= kLargest)) file.fail(place, "its pose moves vertices beyond 1e9");
+}
+
+} // namespace
+
+bool isTriangles(const tinygltf::Primitive& primitive) {
+    return attribute(primitive.attributes, "POSITION") &&
+           (primitive.mode == TINYGLTF_MODE_TRIANGLES || primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+            primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN);
+}
+
+std::uint64_t elementCount(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use) {
+    if (!isTriangles(primitive)) return 0;
+    const std::uint64_t count = accessorCount(file, *attribute(primitive.attributes, "POSITION"));
+    const std::uint64_t corners = primitive.indices >= 0 ? accessorCount(file, primitive.indices) : count;
+    std::uint64_t elements = primitive.mode == TINYGLTF_MODE_TRIANGLES ? corners : 3 * corners;
+    for (const auto& [name, accessor] : primitive.attributes) elements += sparseCount(file, accessor);
+    for (std::size_t target = 0; target < std::min(use.weights.size(), primitive.targets.size()); ++target)
+        if (use.weights[target] != 0)
+            for (const auto& [name, accessor] : primitive.targets[target])
+                elements += std::min(corners, count) + sparseCount(file, accessor);
+    if (!use.joints.empty())
+        elements += std::min(corners, count) * static_cast<std::uint64_t>(jointSetCount(primitive));
+    return elements;
+}
+
+MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use,
+                       const std::string& place) {
+    interruptionPoint();
+    MeshData mesh;
+    if (!isTriangles(primitive)) return mesh;
+    const std::size_t count = accessorCount(file, *attribute(primitive.attributes, "POSITION"));
+    std::vector<std::uint32_t> corners = readCorners(file, primitive, count, place);
     std::optional<std::vector<std::uint32_t>> used;
     if (count > corners.size()) used = compact(corners);
     const std::vector<std::uint32_t>* elements = used ? &*used : nullptr;
     mesh.triangles = trianglesOf(corners, primitive.mode);
 
-    const auto find = [&](const char* name) {
-        const std::optional<int> accessor = attribute(primitive, name);
-        if (accessor && accessorCount(file, *accessor) != count)
-            file.fail(place + "/attributes/" + name, "has " + std::to_string(accessorCount(file, *accessor)) +
-                                                         " elements: must be those of POSITION, " +
-                                                         std::to_string(count));
-        return accessor;
-    };
-    const auto readUvs = [&](const char* name) {
-        std::vector<glm::dvec2> uvs;
-        if (const auto accessor = find(name)) uvs = readVectors<2>(file, *accessor, elements);
-        for (glm::dvec2& uv : uvs) uv.y = 1 - uv.y;
-        return uvs;
-    };
-    mesh.positions = readVectors<3>(file, *positions, elements);
-    if (const auto accessor = find("NORMAL")) mesh.normals = readVectors<3>(file, *accessor, elements);
-    mesh.uvs = readUvs("TEXCOORD_0");
-    mesh.uvs2 = readUvs("TEXCOORD_1");
-    if (const auto accessor = find("COLOR_0")) mesh.colors = readColors(file, *accessor, elements);
-    if (isOpaque)
+    const VertexReader reader(file, primitive, use, elements, count, place);
+    mesh.positions = reader.vectors<3>("POSITION");
+    mesh.normals = reader.vectors<3>("NORMAL");
+    mesh.uvs = reader.uvs("TEXCOORD_0");
+    mesh.uvs2 = reader.uvs("TEXCOORD_1");
+    if (const auto colors = reader.find("COLOR_0")) mesh.colors = readColors(file, *colors, elements);
+    if (use.isOpaque)
         for (glm::dvec4& color : mesh.colors) color.a = 1;
-    if (!tangentSet || (*tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty()) return mesh;
-    const std::optional<int> tangents = find("TANGENT");
-    if (tangents && !mesh.normals.empty())
-        mesh.tangents = readVectors<4>(file, *tangents, elements);
-    else
-        addTangents(mesh, *tangentSet);
+    const bool needsTangents = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();
+    if (needsTangents && !mesh.normals.empty()) mesh.tangents = reader.vectors<4>("TANGENT");
+    if (!use.joints.empty()) applySkin(file, primitive, use.joints, elements, place, mesh);
+    checkPositions(file, mesh, place);
+    if (needsTangents && mesh.tangents.empty()) addTangents(mesh, *use.tangentSet);
     return mesh;
 }
 

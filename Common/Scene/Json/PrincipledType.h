@@ -23,6 +23,12 @@ void forEachPrincipledParameter(const Visit& visit) {
           &D::attenuationDistance);
     visit(SceneParameter{"clearcoat", false, "share of the surface under a clear coat"}, &D::clearcoat);
     visit(SceneParameter{"clearcoat_roughness", false}, &D::clearcoatRoughness);
+    visit(SceneParameter{.name = "clearcoat_normal_texture",
+                         .isRequired = false,
+                         .help = "a name from textures: normals of the clear coat alone, which else is smooth",
+                         .section = "textures"},
+          &D::clearcoatNormalTexture);
+    visit(SceneParameter{"clearcoat_normal_scale", false, "of their x and y", -100, 100}, &D::clearcoatNormalScale);
     visit(SceneParameter{"sheen_color", false, "of the fibres of cloth"}, &D::sheenColor);
     visit(SceneParameter{"sheen_roughness", false}, &D::sheenRoughness);
     visit(SceneParameter{.name = "normal_texture",

@@ -100,6 +100,11 @@ RT_FN vec4 loadTexel(SceneRef scene, const Image& image, uint x, uint y) {
         const uint* words = scene.texels + image.firstTexel + 3u * texel;
         return vec4(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]), 1.0f);
     }
+    if (image.format == kTexelLinearF32A) {
+        const uint* words = scene.texels + image.firstTexel + 4u * texel;
+        return vec4(uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2]),
+                    uintBitsToFloat(words[3]));
+    }
     const uint word = scene.texels[image.firstTexel + texel];
     if (image.format == kTexelLinear8) return decodeLinear8(word);
     return vec4(scene.srgbToLinear[word & 255u], scene.srgbToLinear[word >> 8u & 255u],

@@ -116,9 +116,10 @@ struct Texture {
     vec3 vRow;
 };
 
-const uint kTexelSrgb8 = 0u;     // one word a texel, R in the low byte, opacity in the high one; colours sRGB-encoded
-const uint kTexelLinearF32 = 1u; // three words a texel, floats
-const uint kTexelLinear8 = 2u;   // as kTexelSrgb8, but not encoded
+const uint kTexelSrgb8 = 0u;      // one word a texel, R in the low byte, opacity in the high one; colours sRGB-encoded
+const uint kTexelLinearF32 = 1u;  // three words a texel, floats
+const uint kTexelLinear8 = 2u;    // as kTexelSrgb8, but not encoded
+const uint kTexelLinearF32A = 3u; // four words a texel, floats, the last of them opacity
 
 struct Image {
     uint firstTexel; // word offset into texels

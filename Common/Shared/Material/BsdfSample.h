@@ -21,6 +21,7 @@ struct PrincipledLobes {
     uint thin;           // 1: it does not bend
     float coat;
     float coatAlpha;
+    vec3 coatNormal;    // in the frame of the normal, of which it differs with kFeatureCoatNormal only
     float diffuseShare; // the probabilities: they sum to 1, or all are 0
     float specularShare;
     float coatShare;
@@ -66,6 +67,7 @@ RT_FN PrincipledLobes noLobes() {
     lobes.thin = 0u;
     lobes.coat = 0.0f;
     lobes.coatAlpha = 0.0f;
+    lobes.coatNormal = vec3(0.0f, 0.0f, 1.0f);
     lobes.diffuseShare = 0.0f;
     lobes.specularShare = 0.0f;
     lobes.coatShare = 0.0f;

@@ -41,8 +41,24 @@ RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
     return density / (4.0f * (wo.z + wi.z - wo.z * wi.z));
 }
 
-// The lobes on wo's side of the surface: f cos in rgb, density in w. Without a branch, for loops over samples.
-RT_FN vec4 evalPrincipledReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
+RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
+    return vec3(dot(f.tangent, w), dot(f.bitangent, w), dot(f.normal, w));
+}
+
+// From the frame of the normal to that of the clear coat's.
+RT_FN vec3 toCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+    if (!has(features, kFeatureCoatNormal)) return w;
+    return toLocal(makeFrame(lobes.coatNormal), w);
+}
+
+RT_FN vec3 fromCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+    if (!has(features, kFeatureCoatNormal)) return w;
+    return toWorld(makeFrame(lobes.coatNormal), w);
+}
+
+// The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch, for
+// loops over samples.
+RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);
     float grazing = schlick(c);
@@ -52,20 +68,28 @@ RT_FN vec4 evalPrincipledReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 
     float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
     float reflected = fresnel(c, lobes.eta).x;
+    vec3 coatWo = toCoat(features, lobes, wo);
+    vec3 coatWi = toCoat(features, lobes, wi);
     float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
-    float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(h, coatAlpha);
-    float coatFacets = coatDensity * smithVisibility(wo.z, wi.z, coatAlpha) * wi.z;
+    float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(toCoat(features, lobes, h), coatAlpha);
+    float coatFacets = coatDensity * smithVisibility(coatWo.z, coatWi.z, coatAlpha) * coatWi.z;
+    float coat = lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets;
+    float coatPdf = lobes.coatShare * coatDensity * reflectionJacobian(coatWo, coatAlpha);
 
     vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
     value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
     float uncoloured = lobes.glass * reflected * facets;
-    value += vec3(uncoloured + lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets);
     float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
-    pdf += lobes.coatShare * coatDensity * reflectionJacobian(wo, coatAlpha);
     // The normals of glass are all that are visible.
-    pdf += lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
+    float glassPdf = lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
     bool isAbove = min(wo.z, wi.z) > 0.0f;
-    return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
+    if (!has(features, kFeatureCoatNormal)) {
+        value += vec3(uncoloured + coat);
+        return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf + coatPdf + glassPdf : 0.0f);
+    }
+    bool isCoatAbove = min(coatWo.z, coatWi.z) > 0.0f;
+    value = select(isAbove, value, vec3(0.0f)) + vec3((isAbove ? uncoloured : 0.0f) + (isCoatAbove ? coat : 0.0f));
+    return vec4(value, (isAbove ? pdf : 0.0f) + (isCoatAbove ? coatPdf : 0.0f) + (isAbove ? glassPdf : 0.0f));
 }
 
 // Through rough glass (Walter et al. 2007, section 4), or through a sheet of it, which mirrors what it would reflect to
@@ -87,20 +111,10 @@ RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     return vec4(value, lobes.glassShare * transmitted * visibleNormalPdf(wo, h, lobes.alpha) * jacobian);
 }
 
-RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
-    return vec3(dot(f.tangent, w), dot(f.bitangent, w), dot(f.normal, w));
-}
-
-// As evalBsdf, but on both sides, of directions in the frame of the normal.
-RT_FN vec4 evalPrincipledLocal(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
-    if (!(wo.z > 0.0f)) return vec4(0.0f);
-    return wi.z < 0.0f ? evalPrincipledTransmission(m, wo, wi) : evalPrincipledReflection(m.lobes, wo, wi);
-}
-
 // Of reflection only: transmission is a matter of sampling.
-RT_FN vec4 evalPrincipled(uint, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipled(uint features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     Frame frame = makeFrame(n);
-    return evalPrincipledReflection(m.lobes, toLocal(frame, wo), toLocal(frame, wi));
+    return evalPrincipledReflection(features, m.lobes, toLocal(frame, wo), toLocal(frame, wi));
 }
 
 // The mirror direction of a lobe that was chosen with probability `share`, of reflectance `f`.
@@ -113,7 +127,7 @@ RT_FN BsdfSample mirrorSample(vec3 wi, vec3 f, float share) {
 }
 
 // One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
-RT_FN BsdfSample proposePrincipled(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
+RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
     vec3 mirrored = vec3(-wo.x, -wo.y, wo.z);
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
@@ -130,13 +144,15 @@ RT_FN BsdfSample proposePrincipled(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
         vec3 h = sampleReflectionNormal(wo, lobes.alpha, v);
         wi = h * (2.0f * dot(wo, h)) - wo;
     } else if (u.x < beyondSpecular) {
+        vec3 coatWo = toCoat(features, lobes, wo);
         if (isMirror(lobes.coatAlpha)) {
-            float f = lobes.coat * mix(kCoatReflectance, 1.0f, schlick(wo.z));
-            return mirrorSample(mirrored, vec3(f), lobes.coatShare);
+            float f = lobes.coat * mix(kCoatReflectance, 1.0f, schlick(coatWo.z));
+            vec3 reflected = fromCoat(features, lobes, vec3(-coatWo.x, -coatWo.y, coatWo.z));
+            return mirrorSample(reflected, vec3(f), lobes.coatShare);
         }
         vec2 v = vec2(stretch(u.x, beyondDiffuse, beyondSpecular), u.y);
-        vec3 h = sampleReflectionNormal(wo, lobes.coatAlpha, v);
-        wi = h * (2.0f * dot(wo, h)) - wo;
+        vec3 h = sampleReflectionNormal(coatWo, lobes.coatAlpha, v);
+        wi = fromCoat(features, lobes, h * (2.0f * dot(coatWo, h)) - coatWo);
     } else if (lobes.glassShare > 0.0f) {
         // Of rough glass the last digits choose between reflection and refraction, since all choose the normal.
         float pick = stretch(u.x, beyondSpecular, 1.0f);
@@ -167,20 +183,25 @@ RT_FN BsdfSample proposePrincipled(RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     return s;
 }
 
-// Weighs a proposal by the density of all lobes; f is evalPrincipledLocal() of its direction.
+// f cos and density of a proposal: of the lobes that send light to its side.
+RT_FN vec4 evalProposal(uint features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
+    if (s.transmitted == 0u) return evalPrincipledReflection(features, m.lobes, wo, s.wi);
+    return s.wi.z < 0.0f ? evalPrincipledTransmission(m, wo, s.wi) : vec4(0.0f);
+}
+
+// Weighs a proposal by the density of all lobes; f is evalProposal() of it.
 RT_FN void weighProposal(vec4 f, RT_INOUT(BsdfSample) s) {
-    bool leaks = s.transmitted != 0u ? !(s.wi.z < 0.0f) : !(s.wi.z > 0.0f);
-    if (s.delta != 0u || leaks || !(f.w > 0.0f)) return;
+    if (s.delta != 0u || !(f.w > 0.0f)) return;
     s.pdf = f.w;
     s.weight = vec3(f) / f.w;
 }
 
-RT_FN BsdfSample samplePrincipled(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
+RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     Frame frame = makeFrame(n);
     vec3 local = toLocal(frame, wo);
     if (!(local.z > 0.0f)) return absorbed();
-    BsdfSample s = proposePrincipled(m, local, u);
-    weighProposal(evalPrincipledLocal(m, local, s.wi), s);
+    BsdfSample s = proposePrincipled(features, m, local, u);
+    weighProposal(evalProposal(features, m, local, s), s);
     s.wi = normalize(toWorld(frame, s.wi));
     return s;
 }

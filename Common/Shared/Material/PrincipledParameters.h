@@ -47,7 +47,9 @@ struct Principled {
     vec3 absorption;    // per world unit of length inside
     uint normalTexture; // tangent-space normals, 2 rgb - 1; kNone: none
     float normalScale;  // of their x and y
-    float alphaCutoff;  // opacity below it is 0, else 1; negative: opacity is a probability
+    uint coatTexture;   // such normals of the clear coat, which has nothing of the surface's; kNone: it is smooth
+    float coatScale;
+    float alphaCutoff; // opacity below it is 0, else 1; negative: opacity is a probability
 };
 
 RT_SHARED_END

@@ -95,20 +95,31 @@ RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
 }
 
 // The shading normal that a map asks for, on the side of `shading`; `facing` is 1 on the front and -1 on the back.
-RT_FN vec3 mappedNormal(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
+// `scale` is that of the map's x and y.
+RT_FN vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, RT_IN(Surface) s, vec3 shading,
                         float facing) {
-    if (!has(features, kTexturedFeatures) || p.normalTexture == kNone || s.tangent.w == 0.0f) return shading;
+    if (!has(features, kTexturedFeatures) || texture == kNone || s.tangent.w == 0.0f) return shading;
     vec3 tangent = vec3(s.tangent) - shading * dot(vec3(s.tangent), shading);
     float length2 = dot(tangent, tangent);
     if (!(length2 > 1.0e-12f)) return shading;
     tangent = tangent * (1.0f / sqrt(length2));
     vec3 bitangent = cross(shading * facing, tangent) * s.tangent.w;
-    vec3 local = vec3(surfaceTexture(features, scene, p.normalTexture, s)) * 2.0f - vec3(1.0f);
+    vec3 local = vec3(surfaceTexture(features, scene, texture, s)) * 2.0f - vec3(1.0f);
     // On the back the map is seen from behind.
-    vec3 n = tangent * (local.x * p.normalScale * facing) + bitangent * (local.y * p.normalScale * facing) +
-             shading * max(local.z, 0.0f);
+    vec3 n =
+        tangent * (local.x * scale * facing) + bitangent * (local.y * scale * facing) + shading * max(local.z, 0.0f);
     float squared = dot(n, n);
     return squared > 1.0e-12f ? n * (1.0f / sqrt(squared)) : shading;
+}
+
+// The normal of the clear coat in the frame of n, the normal of what is below it: each has its own map, and without one
+// is smooth. Other arguments as of mappedNormal() and keepReflectionAbove().
+RT_FN vec3 coatNormalOf(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
+                        float facing, vec3 geometric, vec3 wo, vec3 n) {
+    bool isOwn = has(features, kFeatureCoatNormal) && (p.normalTexture != kNone || p.coatTexture != kNone);
+    if (!isOwn) return vec3(0.0f, 0.0f, 1.0f);
+    vec3 mapped = mappedNormal(features, scene, p.coatTexture, p.coatScale, s, shading, facing);
+    return toLocal(makeFrame(n), keepReflectionAbove(mapped, geometric, wo));
 }
 
 // ---- lobes ---------------------------------------------------------------------------------------------------------
@@ -119,10 +130,10 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
     return vec3(1.0f) + f0 * (1.0f / max(whole, 1.0e-3f) - 1.0f);
 }
 
-// Of the principled material p at a point: `albedo` its base colour, `cosine` that of wo, `front` whether wo is on the
-// front side.
+// Of the principled material p at a point: `albedo` its base colour, `cosine` that of wo, `coatNormal` as lobes have it
+// and `coatCosine` that of wo with it, `front` whether wo is on the front side.
 RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 albedo,
-                                float cosine, bool front) {
+                                float cosine, vec3 coatNormal, float coatCosine, bool front) {
     PrincipledLobes lobes;
     float metallic = surfaceNumber(features, scene, p.metallic, s);
     float roughness = surfaceNumber(features, scene, p.roughness, s);
@@ -141,7 +152,7 @@ RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled)
     float coatAlbedo = 0.0f;
     float coatBoost = 1.0f;
     if (coat > 0.0f) {
-        vec3 a = directionalAlbedo(scene, cosine, coatRoughness);
+        vec3 a = directionalAlbedo(scene, coatCosine, coatRoughness);
         coatBoost = compensation(vec3(kCoatReflectance), a.x + a.y).x;
         coatAlbedo = coat * coatBoost * (kCoatReflectance * a.x + a.y);
     }
@@ -174,6 +185,7 @@ RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled)
     lobes.thin = p.thin;
     lobes.coat = coat * coatBoost;
     lobes.coatAlpha = square(coatRoughness);
+    lobes.coatNormal = coatNormal;
 
     float diffuseAlbedo = maxComponent(lobes.diffuse) + sheenAlbedo * (1.0f - coatAlbedo);
     float specularAlbedo = maxComponent(lobes.f0 * a.x + lobes.f90 * a.y);
@@ -194,11 +206,15 @@ float surfaceOpacity(uint features, SceneRef scene, Principled p, Surface s) {
 vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
     return n;
 }
-vec3 mappedNormal(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing) {
+vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
     return shading;
 }
+vec3 coatNormalOf(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing, vec3 geometric,
+                  vec3 wo, vec3 n) {
+    return vec3(0.0f, 0.0f, 1.0f);
+}
 PrincipledLobes makeLobes(uint features, SceneRef scene, Principled p, Surface s, vec3 albedo, float cosine,
-                          bool front) {
+                          vec3 coatNormal, float coatCosine, bool front) {
     return noLobes();
 }
 

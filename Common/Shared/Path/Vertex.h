@@ -83,10 +83,16 @@ RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_
     if (isPrincipled(features, material)) {
         RT_IN(Principled) p = loadPrincipled(scene, surface.material);
         float facing = v.front != 0u ? 1.0f : -1.0f;
-        vec3 mapped = mappedNormal(features, scene, p, surface, v.shading, facing);
-        v.shading = keepReflectionAbove(mapped, v.normal, v.wo);
-        float cosine = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
-        v.bsdf.lobes = makeLobes(features, scene, p, surface, v.bsdf.albedo, cosine, v.front != 0u);
+        vec3 mapped = mappedNormal(features, scene, p.normalTexture, p.normalScale, surface, v.shading, facing);
+        vec3 n = keepReflectionAbove(mapped, v.normal, v.wo);
+        vec3 coat = coatNormalOf(features, scene, p, surface, v.shading, facing, v.normal, v.wo, n);
+        v.shading = n;
+        float cosine = clamp(dot(v.wo, n), 0.0f, 1.0f);
+        float coatCosine = cosine;
+        if (has(features, kFeatureCoatNormal) && coat.z != 1.0f) {
+            coatCosine = clamp(dot(v.wo, toWorld(makeFrame(n), coat)), 0.0f, 1.0f);
+        }
+        v.bsdf.lobes = makeLobes(features, scene, p, surface, v.bsdf.albedo, cosine, coat, coatCosine, v.front != 0u);
     }
 }
 

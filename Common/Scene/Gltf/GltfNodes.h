@@ -1,0 +1,52 @@
+// The hierarchy of a glTF file: where its nodes are.
+#pragma once
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "Common/Scene/Affine.h"
+#include "Common/Scene/Gltf/GltfAnimation.h"
+#include "Common/Scene/Gltf/GltfBudget.h"
+#include "Common/Scene/Gltf/GltfFile.h"
+
+namespace rt::scene {
+
+// Of the default scene, or the first, or all nodes where there is none; as the first animation begins.
+class GltfNodes {
+  public:
+    struct Placed {
+        std::size_t node;
+        Affine toWorld;
+    };
+
+    // Throws InputError naming file and place, also where nodes form no tree. The file must outlive this.
+    GltfNodes(const GltfFile& file, GltfBudget& budget);
+
+    const std::vector<Placed>& placed() const { return placed_; } // parents before their children
+    const Affine* find(std::size_t node) const;                   // to the world; null: not of the scene
+    // Of morph targets of a node's mesh, up to the last that is not 0.
+    std::vector<double> weights(std::size_t node) const;
+
+  private:
+    Affine localOf(std::size_t node) const;
+    void place();
+
+    const GltfFile& file_;
+    std::map<std::size_t, NodePose> poses_;
+    std::vector<Placed> placed_;
+    std::vector<std::size_t> placeOf_; // in placed_, by node
+};
+
+std::string placeOfNode(std::size_t node); // in the JSON
+
+bool isWithinLimits(const Affine& map); // kLargest, and finite
+
+// Scaled, turned by a quaternion whose length counts for nothing, moved.
+Affine composed(const glm::dvec3& translation, const glm::dvec4& rotation, const glm::dvec3& scale);
+
+} // namespace rt::scene
