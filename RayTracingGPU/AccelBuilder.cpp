@@ -7,6 +7,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::gpu {
 namespace {
@@ -26,9 +27,7 @@ vulkan::Handle<VkQueryPool> makeSizeQueries(VkDevice device, std::size_t count) 
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_ACCELERATION_STRUCTURE_COMPACTED_SIZE_KHR;
     info.queryCount = static_cast<std::uint32_t>(count);
-    VkQueryPool pool = VK_NULL_HANDLE;
-    check(vkCreateQueryPool(device, &info, nullptr, &pool), kCompacting);
-    return {device, pool, vkDestroyQueryPool};
+    return vulkan::create(device, vkCreateQueryPool, info, vkDestroyQueryPool, kCompacting);
 }
 
 } // namespace

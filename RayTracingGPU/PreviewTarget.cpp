@@ -4,12 +4,10 @@
 #include <array>
 #include <string>
 
-#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::gpu {
 namespace {
-
-using vulkan::check;
 
 constexpr const char* kWhat = "Preparing the preview";
 
@@ -61,9 +59,7 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     info.pSubpasses = &subpass;
     info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
     info.pDependencies = dependencies.data();
-    VkRenderPass renderPass = VK_NULL_HANDLE;
-    check(vkCreateRenderPass(device, &info, nullptr, &renderPass), kWhat);
-    return {device, renderPass, vkDestroyRenderPass};
+    return vulkan::create(device, vkCreateRenderPass, info, vkDestroyRenderPass, kWhat);
 }
 
 PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent,
@@ -83,16 +79,7 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
                kPreviewSampleBit},
               kWhat};
     const std::array<VkImageView, 2> views{color_.view(), depth_.view()};
-    VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
-    info.renderPass = renderPass;
-    info.attachmentCount = static_cast<std::uint32_t>(views.size());
-    info.pAttachments = views.data();
-    info.width = band_.width;
-    info.height = band_.height;
-    info.layers = 1;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(vkCreateFramebuffer(context.device(), &info, nullptr, &framebuffer), kWhat);
-    framebuffer_ = {context.device(), framebuffer, vkDestroyFramebuffer};
+    framebuffer_ = vulkan::createFramebuffer(context.device(), renderPass, views, band_, kWhat);
     const VkDeviceSize bytes = VkDeviceSize{extent.width} * extent.height * 4 * sizeof(float);
     pixels_ = vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the preview");
 }

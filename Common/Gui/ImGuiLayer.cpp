@@ -6,6 +6,7 @@
 #include "Common/Gui/Fonts.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 #if __has_include(<backends/imgui_impl_glfw.h>)
 #include <backends/imgui_impl_glfw.h>
@@ -50,9 +51,8 @@ ImGuiLayer::ImGuiLayer(const Window& window, GraphicsDevice& device, VkRenderPas
     info.maxSets = 64;
     info.poolSizeCount = 1;
     info.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    vulkan::check(vkCreateDescriptorPool(device.device(), &info, nullptr, &pool), "Creating a descriptor pool");
-    descriptorPool_ = {device.device(), pool, vkDestroyDescriptorPool};
+    descriptorPool_ = vulkan::create(device.device(), vkCreateDescriptorPool, info, vkDestroyDescriptorPool,
+                                     "Creating a descriptor pool");
 }
 
 ImGuiLayer::~ImGuiLayer() {

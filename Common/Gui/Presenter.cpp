@@ -5,6 +5,7 @@
 
 #include "Common/Gui/WindowRenderPass.h"
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::gui {
 namespace {
@@ -16,9 +17,7 @@ constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
 
 Handle<VkSemaphore> createSemaphore(VkDevice device) {
     const VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    VkSemaphore semaphore = VK_NULL_HANDLE;
-    check(vkCreateSemaphore(device, &info, nullptr, &semaphore), "Creating a semaphore");
-    return {device, semaphore, vkDestroySemaphore};
+    return vulkan::create(device, vkCreateSemaphore, info, vkDestroySemaphore, "Creating a semaphore");
 }
 
 } // namespace
@@ -61,18 +60,15 @@ void Presenter::createSlots() {
         VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
         poolInfo.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
         poolInfo.queueFamilyIndex = device_.queueFamily();
-        VkCommandPool pool = VK_NULL_HANDLE;
-        check(vkCreateCommandPool(device, &poolInfo, nullptr, &pool), "Creating a command pool");
-        slot.pool = {device, pool, vkDestroyCommandPool};
+        slot.pool =
+            vulkan::create(device, vkCreateCommandPool, poolInfo, vkDestroyCommandPool, "Creating a command pool");
         VkCommandBufferAllocateInfo allocation{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-        allocation.commandPool = pool;
+        allocation.commandPool = slot.pool.get();
         allocation.commandBufferCount = 1;
         check(vkAllocateCommandBuffers(device, &allocation, &slot.commands), "Creating a command buffer");
         VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
         fenceInfo.flags = VK_FENCE_CREATE_SIGNALED_BIT;
-        VkFence fence = VK_NULL_HANDLE;
-        check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
-        slot.done = {device, fence, vkDestroyFence};
+        slot.done = vulkan::create(device, vkCreateFence, fenceInfo, vkDestroyFence, "Creating a fence");
         slot.acquired = createSemaphore(device);
     }
 }
@@ -88,24 +84,9 @@ void Presenter::dropSwapchain() {
 void Presenter::createImage(VkImage image, SwapImage& to) {
     const VkDevice device = device_.device();
     to.image = image;
-    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    viewInfo.image = image;
-    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    viewInfo.format = format_.format;
-    viewInfo.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device, &viewInfo, nullptr, &view), "Drawing to the window");
-    to.view = {device, view, vkDestroyImageView};
-    VkFramebufferCreateInfo framebufferInfo{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
-    framebufferInfo.renderPass = renderPass_.get();
-    framebufferInfo.attachmentCount = 1;
-    framebufferInfo.pAttachments = &view;
-    framebufferInfo.width = extent_.width;
-    framebufferInfo.height = extent_.height;
-    framebufferInfo.layers = 1;
-    VkFramebuffer framebuffer = VK_NULL_HANDLE;
-    check(vkCreateFramebuffer(device, &framebufferInfo, nullptr, &framebuffer), "Drawing to the window");
-    to.framebuffer = {device, framebuffer, vkDestroyFramebuffer};
+    to.view = vulkan::createView(device, image, format_.format, VK_IMAGE_ASPECT_COLOR_BIT, "Drawing to the window");
+    const VkImageView view = to.view.get();
+    to.framebuffer = vulkan::createFramebuffer(device, renderPass_.get(), {&view, 1}, extent_, "Drawing to the window");
     to.rendered = createSemaphore(device);
 }
 

@@ -11,6 +11,7 @@
 #include "Common/Vulkan/Barrier.h"
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::gui {
 namespace {
@@ -31,17 +32,8 @@ class Target {
                  kWhat),
           renderPass_(makeWindowRenderPass(device.device(), format, VK_ATTACHMENT_LOAD_OP_CLEAR,
                                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL)) {
-        VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
         const VkImageView view = color_.view();
-        info.renderPass = renderPass_.get();
-        info.attachmentCount = 1;
-        info.pAttachments = &view;
-        info.width = extent.width;
-        info.height = extent.height;
-        info.layers = 1;
-        VkFramebuffer framebuffer = VK_NULL_HANDLE;
-        check(vkCreateFramebuffer(device.device(), &info, nullptr, &framebuffer), kWhat);
-        framebuffer_ = {device.device(), framebuffer, vkDestroyFramebuffer};
+        framebuffer_ = vulkan::createFramebuffer(device.device(), renderPass_.get(), {&view, 1}, extent, kWhat);
     }
 
     void record(VkCommandBuffer commands, const VkRect2D& part, VkBuffer to,

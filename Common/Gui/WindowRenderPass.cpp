@@ -1,6 +1,6 @@
 #include "Common/Gui/WindowRenderPass.h"
 
-#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::gui {
 
@@ -32,9 +32,7 @@ vulkan::Handle<VkRenderPass> makeWindowRenderPass(VkDevice device, VkFormat form
     info.pSubpasses = &subpass;
     info.dependencyCount = 1;
     info.pDependencies = &dependency;
-    VkRenderPass renderPass = VK_NULL_HANDLE;
-    vulkan::check(vkCreateRenderPass(device, &info, nullptr, &renderPass), "Creating a render pass");
-    return {device, renderPass, vkDestroyRenderPass};
+    return vulkan::create(device, vkCreateRenderPass, info, vkDestroyRenderPass, "Creating a render pass");
 }
 
 } // namespace rt::gui

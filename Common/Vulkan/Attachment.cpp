@@ -1,6 +1,7 @@
 #include "Common/Vulkan/Attachment.h"
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::vulkan {
 
@@ -13,23 +14,14 @@ Attachment::Attachment(DeviceMemory& from, const AttachmentDesc& desc, const cha
     info.mipLevels = info.arrayLayers = 1;
     info.samples = desc.samples;
     info.usage = desc.usage;
-    VkImage image = VK_NULL_HANDLE;
-    check(vkCreateImage(device, &info, nullptr, &image), what);
-    image_ = {device, image, vkDestroyImage};
+    image_ = create(device, vkCreateImage, info, vkDestroyImage, what);
 
     VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device, image, &needs);
+    vkGetImageMemoryRequirements(device, image(), &needs);
     memory_ = from.allocateAlone(needs, Memory::Device, what);
-    check(vkBindImageMemory(device, image, memory_.memory(), memory_.offset()), what);
+    check(vkBindImageMemory(device, image(), memory_.memory(), memory_.offset()), what);
 
-    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    viewInfo.image = image;
-    viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    viewInfo.format = desc.format;
-    viewInfo.subresourceRange = {desc.aspect, 0, 1, 0, 1};
-    VkImageView view = VK_NULL_HANDLE;
-    check(vkCreateImageView(device, &viewInfo, nullptr, &view), what);
-    view_ = {device, view, vkDestroyImageView};
+    view_ = createView(device, image(), desc.format, desc.aspect, what);
 }
 
 } // namespace rt::vulkan

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::vulkan {
 
@@ -21,19 +22,17 @@ Buffer::Buffer(DeviceMemory& from, VkDeviceSize bytes, VkBufferUsageFlags usage,
     info.usage = usage | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                  VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (from.isAddressable()) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    check(vkCreateBuffer(device, &info, nullptr, &buffer), what);
-    buffer_ = {device, buffer, vkDestroyBuffer};
+    buffer_ = create(device, vkCreateBuffer, info, vkDestroyBuffer, what);
 
     VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device, buffer, &needs);
+    vkGetBufferMemoryRequirements(device, buffer_.get(), &needs);
     needs.alignment = std::max(needs.alignment, alignment);
     memory_ = from.allocate(needs, memory, what);
-    check(vkBindBufferMemory(device, buffer, memory_.memory(), memory_.offset()), what);
+    check(vkBindBufferMemory(device, buffer_.get(), memory_.memory(), memory_.offset()), what);
     if (!from.isAddressable()) return;
 
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
-    address.buffer = buffer;
+    address.buffer = buffer_.get();
     address_ = vkGetBufferDeviceAddress(device, &address);
 }
 

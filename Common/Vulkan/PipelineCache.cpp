@@ -11,7 +11,7 @@
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
-#include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::vulkan {
 namespace {
@@ -53,9 +53,8 @@ PipelineCache::PipelineCache(VulkanContext& context, fs::path file) : context_(c
     VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
     info.initialDataSize = bytes.size();
     info.pInitialData = bytes.data();
-    VkPipelineCache cache = VK_NULL_HANDLE;
-    check(vkCreatePipelineCache(context.device(), &info, nullptr, &cache), "Creating the pipeline cache");
-    cache_ = {context.device(), cache, vkDestroyPipelineCache};
+    cache_ =
+        create(context.device(), vkCreatePipelineCache, info, vkDestroyPipelineCache, "Creating the pipeline cache");
     savedBytes_ = bytes.size();
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 
 namespace rt::vulkan {
 
@@ -11,9 +12,7 @@ Handle<VkShaderModule> makeShaderModule(VkDevice device, std::span<const std::ui
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = code.size_bytes();
     info.pCode = code.data();
-    VkShaderModule module = VK_NULL_HANDLE;
-    check(vkCreateShaderModule(device, &info, nullptr, &module), "Loading a shader");
-    return {device, module, vkDestroyShaderModule};
+    return create(device, vkCreateShaderModule, info, vkDestroyShaderModule, "Loading a shader");
 }
 
 VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, VkShaderModule module,
@@ -35,9 +34,7 @@ Handle<VkPipelineLayout> makePipelineLayout(VkDevice device, const VkPushConstan
     }
     info.pushConstantRangeCount = 1;
     info.pPushConstantRanges = &push;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device, &info, nullptr, &layout), what);
-    return {device, layout, vkDestroyPipelineLayout};
+    return create(device, vkCreatePipelineLayout, info, vkDestroyPipelineLayout, what);
 }
 
 Handle<VkPipeline> makeComputePipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,
@@ -102,9 +99,7 @@ DescriptorSet::DescriptorSet(VkDevice device, std::span<const VkDescriptorSetLay
     VkDescriptorSetLayoutCreateInfo layoutInfo{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     layoutInfo.bindingCount = static_cast<std::uint32_t>(bindings.size());
     layoutInfo.pBindings = bindings.data();
-    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device, &layoutInfo, nullptr, &layout), what);
-    layout_ = {device, layout, vkDestroyDescriptorSetLayout};
+    layout_ = create(device, vkCreateDescriptorSetLayout, layoutInfo, vkDestroyDescriptorSetLayout, what);
 
     std::vector<VkDescriptorPoolSize> sizes;
     for (const VkDescriptorSetLayoutBinding& binding : bindings)
@@ -113,13 +108,12 @@ DescriptorSet::DescriptorSet(VkDevice device, std::span<const VkDescriptorSetLay
     poolInfo.maxSets = 1;
     poolInfo.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
     poolInfo.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device, &poolInfo, nullptr, &pool), what);
-    pool_ = {device, pool, vkDestroyDescriptorPool};
+    pool_ = create(device, vkCreateDescriptorPool, poolInfo, vkDestroyDescriptorPool, what);
 
     VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocation.descriptorPool = pool;
+    allocation.descriptorPool = pool_.get();
     allocation.descriptorSetCount = 1;
+    const VkDescriptorSetLayout layout = layout_.get();
     allocation.pSetLayouts = &layout;
     check(vkAllocateDescriptorSets(device, &allocation, &set_), what);
 }

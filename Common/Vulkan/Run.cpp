@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::vulkan {
@@ -21,16 +22,12 @@ constexpr std::chrono::duration<std::uint64_t, std::nano> kPatience = std::chron
 Run::Run(VulkanContext& context) : context_(context) {
     const VkDevice device = context.device();
     const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkFence fence = VK_NULL_HANDLE;
-    check(vkCreateFence(device, &fenceInfo, nullptr, &fence), "Creating a fence");
-    fence_ = {device, fence, vkDestroyFence};
+    fence_ = create(device, vkCreateFence, fenceInfo, vkDestroyFence, "Creating a fence");
 
     VkQueryPoolCreateInfo queries{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = 2;
-    VkQueryPool queryPool = VK_NULL_HANDLE;
-    check(vkCreateQueryPool(device, &queries, nullptr, &queryPool), "Creating timestamps");
-    timestamps_ = {device, queryPool, vkDestroyQueryPool};
+    timestamps_ = create(device, vkCreateQueryPool, queries, vkDestroyQueryPool, "Creating timestamps");
 
     VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     buffer.commandPool = context.commandPool_.get();

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "Common/Vulkan/Check.h"
+#include "Common/Vulkan/Create.h"
 #include "Common/Vulkan/StagingRing.h"
 
 namespace rt::vulkan {
@@ -27,9 +28,7 @@ VulkanContext::VulkanContext(const ContextOptions& options)
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = info_.queueFamily;
-    VkCommandPool commandPool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device(), &pool, nullptr, &commandPool), "Creating a command pool");
-    commandPool_ = {device(), commandPool, vkDestroyCommandPool};
+    commandPool_ = create(device(), vkCreateCommandPool, pool, vkDestroyCommandPool, "Creating a command pool");
     run_.emplace(*this);
     staging_ = std::make_unique<StagingRing>(*this);
 }
