@@ -205,13 +205,9 @@ void override(GuiSettings& settings, const Options& options) {
     take("--max-depth", s.maxDepth, o.maxDepth);
     take("--seed", s.seed, o.seed);
     take("--replicates", s.replicates, o.replicates);
-    take("--light-sampling", s.lightSampling, o.lightSampling);
-    take("--light-selection", s.lightSelection, o.lightSelection);
-    take("--sphere-light", s.sphereLight, o.sphereLight);
-    take("--quad-light", s.quadLight, o.quadLight);
-    take("--triangle-light", s.triangleLight, o.triangleLight);
-    take("--sampler", s.sampler, o.sampler);
-    take("--adaptive", s.adaptive, o.adaptive);
+    forEachMethod([&](const char* key, const char*, const char*, const auto&, auto& target,
+                      const auto& value) { take(flagOf(key).c_str(), target, value); },
+                  s, o);
     take("--russian-roulette", s.russianRoulette, o.russianRoulette);
     take("--one-sided-lights", settings.request.oneSidedLights, options.oneSidedLights);
     // Files that the command line asks for look as they do without a window, and the window as the files.
