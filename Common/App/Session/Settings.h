@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "Common/Shared/Base/Types.h"
+#include "Common/Shared/Sampler/Samplers.h"
 
 namespace rt::app {
 
@@ -26,10 +27,9 @@ enum class ShapeSampling : std::uint32_t {
     Area = shared::kShapeArea
 };
 enum class SamplerKind : std::uint32_t {
-    Independent = shared::kSamplerIndependent,
-    Stratified = shared::kSamplerStratified,
-    Sobol = shared::kSamplerSobol,
-    SobolBlue = shared::kSamplerSobolBlue
+#define RT_SAMPLER(Name, number, begin, words, name, title, help) Name = number,
+    RT_SAMPLERS(RT_SAMPLER)
+#undef RT_SAMPLER
 };
 
 inline constexpr std::uint32_t kErrorReplicates = 4; // at least, where a render ends by its estimated error

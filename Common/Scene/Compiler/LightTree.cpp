@@ -255,12 +255,13 @@ class Builder {
     void placeLight(std::uint32_t node, std::uint32_t slot, std::uint32_t light) {
         const shared::LightBound& bound = out_.lightBounds[light];
         shared::LightNode& n = out_.lightNodes[node];
-        placeSphere(n, slot, bound.center, -bound.radius);
+        placeSphere(n, slot, bound.center, bound.radius);
         placeCone(n, slot, bound.axis, 1.0f, 0.0);
         const bool isFlat = bound.axis != shared::vec3(0.0f);
-        n.planarIntensity[slot] = !isFlat ? 0.0f : bound.twoSided > 0.0f ? -bound.intensity : bound.intensity;
+        n.planarIntensity[slot] = isFlat ? bound.intensity : 0.0f;
         n.omnidirectionalIntensity[slot] = isFlat ? 0.0f : bound.intensity;
-        n.child[slot] = light | shared::kLightLeaf;
+        const bool isTwoSided = isFlat && bound.twoSided > 0.0f;
+        n.child[slot] = light | shared::kLightLeaf | (isTwoSided ? shared::kLightTwoSided : 0u);
         out_.lightToLeaf[light] = node * kLightNodeChildren + slot;
     }
 
