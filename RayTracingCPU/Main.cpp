@@ -68,7 +68,7 @@ bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ra
     std::ostream nowhere(nullptr);
     const auto options = rt::app::parseOptions(kProgram, arguments, nowhere);
     if (!options || options->window || options->command != rt::app::Command::Render) return false;
-    rt::setUpLog({.program = kProgram, .quiet = true});
+    rt::setUpLog({kProgram, true, false, ""});
     rt::app::followSession(*options, engineFactory(*options, &ranks), ranks);
     return true;
 }

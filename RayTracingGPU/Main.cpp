@@ -153,7 +153,7 @@ bool follow(const std::vector<std::string>& arguments, rt::app::Communicator& ra
     std::ostream nowhere(nullptr);
     const auto options = rt::app::parseOptions(kGpuProgram, arguments, nowhere);
     if (!options || options->window || options->command != rt::app::Command::Render) return false;
-    rt::setUpLog({.program = kGpuProgram, .quiet = true});
+    rt::setUpLog({kGpuProgram, true, false, ""});
     Device device(*options, &ranks);
     rt::app::followSession(
         *options, [&] { return device.makeEngine(); }, ranks);

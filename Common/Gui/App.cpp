@@ -298,8 +298,8 @@ void App::rescue() {
 } // namespace
 
 ExitCode runWindow(const app::Options& options, const WindowProgram& program) {
-    app::checkOutputs(options); // before hours are spent
-    app::Interrupt interrupt;   // longer than the window: a signal while it opens or closes is none that kills
+    app::Interrupt interrupt; // longer than the window: a signal while it opens or closes is none that kills
+    interrupt.finishFirst([&options] { app::checkOutputs(options); }); // before hours are spent
     ExitCode code;
     {
         App app(options, program);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "Common/Image/Metrics.h"
@@ -44,26 +45,51 @@ struct Span {
     double count() const { return static_cast<double>(last - first + 1); }
 };
 
+// Those rows of an image that the windows of one row cover, each read once.
+class SlidingRows {
+  public:
+    explicit SlidingRows(const ImageRows& image) : image_(image), values_(kRows * image.rowValues()) {}
+
+    void readUpTo(std::size_t last) {
+        for (; next_ <= last; ++next_) image_.read(static_cast<std::uint32_t>(next_), row(next_));
+    }
+    std::span<float> row(std::size_t y) {
+        return std::span(values_).subspan(y % kRows * image_.rowValues(), image_.rowValues());
+    }
+
+  private:
+    static constexpr std::size_t kRows = 2 * kReach + 1;
+
+    const ImageRows& image_;
+    std::vector<float> values_;
+    std::size_t next_ = 0; // that has not been read
+};
+
 // The windows around the values of one row of pixels. Every row is summed anew: what is added and subtracted again
 // would leave the rounding error of a firefly in all rows below it.
 class RowOfWindows {
   public:
-    RowOfWindows(const Image& mean, const Image& variance)
-        : mean_(mean),
+    RowOfWindows(const ImageRows& mean, const ImageRows& variance)
+        : width_(mean.width),
+          height_(mean.height),
+          channels_(mean.channels),
+          mean_(mean),
           variance_(variance),
-          values_(std::size_t{mean.width} * mean.channels),
           margin_(kReach * mean.channels),
-          means_(values_ + 2 * margin_),
+          means_(mean.rowValues() + 2 * margin_),
           squares_(means_.size()),
           variances_(means_.size()) {}
 
+    // From each row to the one below.
     void moveTo(std::uint32_t row) {
         for (std::vector<double>* sums : {&means_, &squares_, &variances_}) std::fill(sums->begin(), sums->end(), 0.0);
-        rows_ = Span(row, mean_.height);
+        row_ = row;
+        rows_ = Span(row, height_);
+        mean_.readUpTo(rows_.last);
+        variance_.readUpTo(rows_.last);
         for (std::size_t y = rows_.first; y <= rows_.last; ++y) {
-            const float* const means = &mean_.data[y * values_];
-            const float* const variances = &variance_.data[y * values_];
-            for (std::size_t i = 0; i < values_; ++i) {
+            const std::span<const float> means = mean_.row(y), variances = variance_.row(y);
+            for (std::size_t i = 0; i < means.size(); ++i) {
                 const double mean = means[i];
                 means_[margin_ + i] += mean;
                 squares_[margin_ + i] += mean * mean;
@@ -72,22 +98,27 @@ class RowOfWindows {
         }
     }
 
-    // Around the row's pixel x.
-    Window window(std::size_t x, std::size_t channel) const {
-        const std::size_t left = x * mean_.channels + channel; // the margin shifts it from the middle
-        const auto across = [&](const std::vector<double>& sums) {
-            double sum = 0;
-            for (std::size_t i = 0; i <= 2 * kReach; ++i) sum += sums[left + i * mean_.channels];
-            return sum;
-        };
-        return {across(means_), across(squares_), across(variances_), rows_.count() * Span(x, mean_.width).count()};
+    // What the value of the row's pixel x adds to relMSE.
+    double error(std::size_t x, std::size_t channel) {
+        const std::size_t value = x * channels_ + channel;
+        return relativeError(mean_.row(row_)[value], variance_.row(row_)[value], window(x, channel));
     }
 
   private:
-    const Image& mean_;
-    const Image& variance_;
-    std::size_t values_; // of a row
+    Window window(std::size_t x, std::size_t channel) const {
+        const std::size_t left = x * channels_ + channel; // the margin shifts it from the middle
+        const auto across = [&](const std::vector<double>& sums) {
+            double sum = 0;
+            for (std::size_t i = 0; i <= 2 * kReach; ++i) sum += sums[left + i * channels_];
+            return sum;
+        };
+        return {across(means_), across(squares_), across(variances_), rows_.count() * Span(x, width_).count()};
+    }
+
+    std::size_t width_, height_, channels_;
+    SlidingRows mean_, variance_;
     std::size_t margin_; // empty values at either end of the sums
+    std::size_t row_ = 0;
     Span rows_{0, 1};
     std::vector<double> means_, squares_, variances_; // over the rows of the windows, as in Window
 };
@@ -102,20 +133,19 @@ double RelMseEstimate::high() const {
     return value + kNormal95 * standardError;
 }
 
-RelMseEstimate estimateRelMse(const Image& mean, const Image& variance) {
+RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance) {
     RowOfWindows row(mean, variance);
     double sum = 0, squares = 0;
     for (std::uint32_t y = 0; y < mean.height; ++y) {
         row.moveTo(y);
         for (std::uint32_t x = 0; x < mean.width; ++x) {
             double pixel = 0;
-            for (std::uint32_t c = 0; c < mean.channels; ++c)
-                pixel += relativeError(mean.pixel(x, y)[c], variance.pixel(x, y)[c], row.window(x, c));
+            for (std::uint32_t c = 0; c < mean.channels; ++c) pixel += row.error(x, c);
             sum += pixel;
             squares += pixel * pixel;
         }
     }
-    const auto values = static_cast<double>(mean.data.size());
+    const double values = static_cast<double>(mean.rowValues()) * mean.height;
     return {sum / values, std::hypot(std::sqrt(squares), kSystematic * sum) / values};
 }
 

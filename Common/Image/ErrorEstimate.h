@@ -1,6 +1,6 @@
 // The relMSE of a picture, told from its own noise.
 #pragma once
-#include "Common/Image/Image.h"
+#include "Common/Image/ImageRows.h"
 
 namespace rt::image {
 
@@ -17,7 +17,7 @@ struct RelMseEstimate {
     double high() const;
 };
 
-// `mean` and `variance` of that mean, as Film gives them: equal sizes and channels.
+// `mean` and `variance` of that mean, as Film gives them: equal sizes and channels. Both are read once, row by row.
 //
 // relMSE is the mean of variance / (expected^2 + 0.01), where `expected` is what a pixel converges to. A pixel's own
 // mean will not do for it: the bright sample that makes the variance large makes the mean large as well, and hides
@@ -33,6 +33,6 @@ struct RelMseEstimate {
 //              single event, is one of many that are as likely, from almost 0 on;
 //   around^2 = (mean of the pixels around)^2 + variance / n^2: a single event among n pixels says no less of their mean
 //              than an n-th of it.
-RelMseEstimate estimateRelMse(const Image& mean, const Image& variance);
+RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance);
 
 } // namespace rt::image

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Shared/Tonemap.h"
@@ -100,15 +101,19 @@ double referenceRelMse(const Image& reference, const Image& variance) {
     return sum / static_cast<double>(reference.data.size());
 }
 
-std::array<double, 3> channelMeans(const Image& image) {
+std::array<double, 3> channelMeans(const ImageRows& image) {
     std::array<double, 3> means = {};
-    for (std::size_t i = 0; i < image.data.size(); i += image.channels)
-        for (std::size_t c = 0; c < 3; ++c) means[c] += image.data[i + (image.channels == 3 ? c : 0)];
+    std::vector<float> row(image.rowValues());
+    for (std::uint32_t y = 0; y < image.height; ++y) {
+        image.read(y, row);
+        for (std::size_t i = 0; i < row.size(); i += image.channels)
+            for (std::size_t c = 0; c < 3; ++c) means[c] += row[i + (image.channels == 3 ? c : 0)];
+    }
     for (double& mean : means) mean /= static_cast<double>(image.width) * image.height;
     return means;
 }
 
-std::array<double, 3> standardErrors(const Image& variance) {
+std::array<double, 3> standardErrors(const ImageRows& variance) {
     std::array<double, 3> errors = channelMeans(variance);
     for (double& error : errors) error = std::sqrt(error / (static_cast<double>(variance.width) * variance.height));
     return errors;

@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "Common/Image/Image.h"
+#include "Common/Image/ImageRows.h"
 
 namespace rt::image {
 
@@ -37,7 +37,7 @@ double referenceRelMse(const Image& reference, const Image& variance);
 
 // Per channel: the mean over all pixels, and the standard error of that mean when pixels are independent. Three equal
 // numbers for an image of one channel.
-std::array<double, 3> channelMeans(const Image& image);
-std::array<double, 3> standardErrors(const Image& variance);
+std::array<double, 3> channelMeans(const ImageRows& image);
+std::array<double, 3> standardErrors(const ImageRows& variance);
 
 } // namespace rt::image

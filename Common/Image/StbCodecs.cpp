@@ -26,8 +26,10 @@ struct FreePixels {
     void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
 
+// As stb takes a file for one: any number of fill bytes may precede the first marker's second.
 bool isJpeg(std::span<const std::byte> bytes) {
-    return bytes.size() >= 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
+    const auto second = std::find_if(bytes.begin(), bytes.end(), [](std::byte b) { return b != std::byte{0xff}; });
+    return second != bytes.begin() && second != bytes.end() && *second == std::byte{0xd8};
 }
 
 // stb takes a PNG that is too large for it for no image at all.

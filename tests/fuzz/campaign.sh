@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # campaign.sh FOLDER SECONDS JOBS: runs all fuzz targets built in FOLDER, JOBS at a time, SECONDS in all. What makes one
-# fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built. Corpora grow in FOLDER/corpus.
+# fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built. Corpora grow in FOLDER/corpus. Files
+# that targets write and read are kept in memory, where the system offers such a folder.
 set -euo pipefail
 folder=$1 seconds=$2 jobs=$3
 [[ -d $folder/targets ]] || { echo "$folder has no fuzz targets: ./build.sh fuzz builds them"; exit 77; }
@@ -10,13 +11,12 @@ cd "$folder"
 fuzz() {
     local target=$1 seconds=$2 log=logs/$1.log status=0 words=()
     [[ ! -f seeds/words/$target ]] || words=("-dict=seeds/words/$target")
-    mkdir -p "corpus/$target" "scratch/$target"
+    mkdir -p "corpus/$target"
     # The programs that are tested see neither the user's files nor another place for files of their own.
-    env -u RT_ASSETS -u RT_DEVICE -u RT_THREADS -u RT_LOG TMPDIR="$PWD/scratch/$target" \
-        XDG_CONFIG_HOME="$PWD/scratch/none" "targets/$target" "corpus/$target" "seeds/$target" \
+    env -u RT_ASSETS -u RT_DEVICE -u RT_THREADS -u RT_LOG TMPDIR="$scratch" \
+        XDG_CONFIG_HOME="$scratch/none" "targets/$target" "corpus/$target" "seeds/$target" \
         -max_total_time="$seconds" -max_len=16384 -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
         "${words[@]}" -artifact_prefix="finds/$target-" -print_final_stats=1 >"$log" 2>&1 || status=$?
-    rm -rf "scratch/${target:?}"
     if ((status)); then
         echo "$target: FAILED"
         grep -E 'ERROR|SUMMARY|runtime error|what\(\)|terminate called' "$log" || tail -n 5 "$log"
@@ -28,6 +28,11 @@ fuzz() {
 export -f fuzz
 
 mkdir -p finds logs
+place=$PWD
+[[ ! -w /dev/shm ]] || place=/dev/shm
+scratch=$(mktemp -d "$place/rt-fuzz-XXXXXX")
+export scratch
+trap 'rm -rf "$scratch"' EXIT
 bin/rt-fuzz-seeds seeds
 targets=(targets/*)
 each=$((seconds * jobs / ${#targets[@]}))

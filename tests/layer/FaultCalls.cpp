@@ -1,8 +1,10 @@
 // A library to preload that lets calls of the operating system fail as they fail on full disks. RT_CALL_FAULTS lists what
 // goes wrong: "write:3=28,fsync:1=5" makes the third write to a file fail with ENOSPC and the first fsync with EIO;
-// "write:2=0" writes but one byte. RT_CALL_LOG names a file that gets a line for each call.
+// "write:2=0" writes but one byte. "remove:1=2" sends the program SIGINT before the first file is removed. RT_CALL_LOG names
+// a file that gets a line for each call.
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -12,7 +14,7 @@
 
 namespace {
 
-std::atomic<int> writes{0}, syncs{0}, renames{0};
+std::atomic<int> writes{0}, syncs{0}, renames{0}, removals{0};
 
 template <class Function>
 Function* next(const char* name) {
@@ -67,5 +69,11 @@ int rename(const char* from, const char* to) noexcept {
         return -1;
     }
     return next<int(const char*, const char*)>("rename")(from, to);
+}
+
+int remove(const char* path) noexcept {
+    log("remove\n");
+    if (const int signal = fault("remove", removals); signal > 0) (void)std::raise(signal);
+    return next<int(const char*)>("remove")(path);
 }
 }

@@ -1,10 +1,11 @@
-// Writes, synchronisations and renames that fail, one after the other (tests/layer/FaultCalls.cpp): nothing
-// is lost that could be kept, and the program ends with one line and the documented exit code.
+// Writes, synchronisations and renames that fail, one after the other, and signals before files are removed
+// (tests/layer/FaultCalls.cpp): nothing is lost that could be kept, and the program ends with one line and the documented exit code.
 #include "tests/program/Program.h"
 
 #if defined(RT_FAULT_CALLS) && !defined(RT_SANITIZED) // sanitizers want to be loaded first
 
 #include <algorithm>
+#include <csignal>
 #include <sstream>
 
 namespace rt::test {
@@ -44,6 +45,22 @@ TEST_F(Fault, ACheckpointIsOnDiskBeforeItReplacesTheLast) {
     EXPECT_TRUE(failsWith(renderWith("fsync:1=5"), 1, "c.rtc"));
     EXPECT_EQ(bytesOf("c.rtc"), "the last one");
     expectNoTemporaries();
+}
+
+// Each output is tried before anything is rendered, by a file that is removed again.
+TEST_F(Fault, SignalsWhileOutputsAreTriedLeaveNothing) {
+    ASSERT_EQ(renderWith("").exitCode, 0);
+    const std::vector<std::string> all = calls();
+    const std::ptrdiff_t count = std::count(all.begin(), all.end(), "remove");
+    EXPECT_EQ(count, 4);
+    for (std::ptrdiff_t n = 1; n <= count; ++n)
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+            for (const char* file : {"a.pfm", "b.exr", "s.json", "c.rtc"}) fs::remove(path(file));
+            const Outcome outcome = renderWith("remove:" + std::to_string(n) + "=" + std::to_string(signal));
+            EXPECT_EQ(outcome.exitCode, 130) << n << ' ' << signal;
+            EXPECT_FALSE(fs::exists(path("a.pfm"))) << n << ' ' << signal;
+            expectNoTemporaries();
+        }
 }
 
 TEST_F(Fault, EachWriteAndRename) {

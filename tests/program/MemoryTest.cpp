@@ -25,7 +25,7 @@ TEST_F(Memory, NothingOfARenderThatFitsIsLost) {
                                  "--height", "900",         "--spp",        "1",     "--scene", "next-week-two-spheres",
                                  "-o",       "a.png",       "-o",           "a.exr", "--aov",   "albedo,depth,samples",
                                  "--stats",  "s.json",      "--checkpoint", "c.rtc"};
-    const char* const always[] = {"a.png", "a.exr", "a.samples.png", "a.samples.exr", "c.rtc"};
+    const char* const always[] = {"a.png", "a.exr", "a.samples.png", "a.samples.exr", "s.json", "c.rtc"};
     bool filmWasTooLarge = false, somethingFailed = false, isEnough = false;
     const std::uint64_t first = leastToStart();
     for (addressSpace_ = first; addressSpace_ <= first + 200'000 && !isEnough; addressSpace_ += 4'000) {

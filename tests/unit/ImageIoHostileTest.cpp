@@ -70,6 +70,20 @@ TEST(ImageIoHostile, APngThatIsTooLargeSaysSo) {
     EXPECT_NE(errorOf("a.png", pngHeader(30000, 30000)).find("a.png: image of 30000x30000 pixels"), std::string::npos);
 }
 
+// stb would write beyond its tables. Fill bytes may precede any marker, that of the file's begin, too.
+TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
+    const std::string whole = dataFile("gradient.jpg");
+    const std::size_t table = whole.find("\xff\xc4");
+    ASSERT_NE(table, std::string::npos);
+    std::string damaged = whole;
+    damaged[table + 5] = damaged[table + 6] = '\xff'; // of 1 and of 2 bits, after marker, length and class
+    for (const std::size_t fill : {0, 1, 3}) {
+        const std::string begin(fill, '\xff');
+        EXPECT_EQ(errorOf("a.jpg", begin + whole), "") << fill;
+        EXPECT_EQ(errorOf("a.jpg", begin + damaged), "a.jpg: damaged JPEG file") << fill;
+    }
+}
+
 TEST(ImageIoHostile, TruncationIsNoticedAtEveryByte) {
     for (const auto& [name, whole] : makeFiles()) {
         // A PNG file is complete without the checksum of its end marker.

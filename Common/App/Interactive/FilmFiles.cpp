@@ -83,7 +83,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     if (record.hasReference) {
         record.relmse = reference.curve().back().relmse;
         record.referenceError = reference.error();
-    } else if (const auto estimated = estimate(film.engine().film()).relmse) {
+    } else if (const auto estimated = estimateRelMse(film.engine().film())) {
         record.relmse = estimated->value;
     }
     for (const ErrorPoint& point : reference.curve()) record.curve.push_back({point.seconds, point.relmse});

@@ -115,7 +115,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     if (!reference.curve().empty())
         relmse = reference.curve().back().relmse;
     else if (film.status().finished)
-        if (const auto estimated = estimate(engine.film()).relmse) relmse = estimated->value;
+        if (const auto estimated = estimateRelMse(engine.film())) relmse = estimated->value;
     const EngineReport report = film.report();
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);

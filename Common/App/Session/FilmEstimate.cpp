@@ -1,5 +1,6 @@
 #include "Common/App/Session/FilmEstimate.h"
 
+#include "Common/Image/FilmRows.h"
 #include "Common/Image/Metrics.h"
 
 namespace rt::app {
@@ -9,14 +10,16 @@ bool hasVariance(const image::Film& film) {
     return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
 }
 
+std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film) {
+    if (!hasVariance(film)) return std::nullopt;
+    return image::estimateRelMse(image::meanRows(film), image::varianceRows(film));
+}
+
 FilmEstimate estimate(const image::Film& film) {
     FilmEstimate result;
-    const image::Image mean = film.resolve();
-    result.meanRadiance = image::channelMeans(mean);
-    if (!hasVariance(film)) return result;
-    const image::Image variance = film.varianceOfMean();
-    result.standardError = image::standardErrors(variance);
-    result.relmse = image::estimateRelMse(mean, variance);
+    result.meanRadiance = image::channelMeans(image::meanRows(film));
+    if (hasVariance(film)) result.standardError = image::standardErrors(image::varianceRows(film));
+    result.relmse = estimateRelMse(film);
     return result;
 }
 

@@ -17,6 +17,8 @@ struct FilmEstimate {
 // Whether a variance can be told: it needs samples in two replicates or more, and then in each, or two blocks of one.
 bool hasVariance(const image::Film& film);
 
+// Both take a few rows of memory, however large the image is.
+std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film);
 FilmEstimate estimate(const image::Film& film);
 
 } // namespace rt::app

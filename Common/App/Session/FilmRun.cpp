@@ -95,7 +95,7 @@ bool FilmRun::reachesTargetError() {
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
     const image::Film& film = engine_->film();
     if (film.minReplicateSamples() < kLeastSamples) return false;
-    const auto relmse = estimate(film).relmse;
+    const auto relmse = estimateRelMse(film);
     const bool isBelow = relmse && relmse->high() < *limits_.targetError;
     return std::exchange(wasBelowTarget_, isBelow) && isBelow;
 }

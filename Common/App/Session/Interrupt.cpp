@@ -62,6 +62,13 @@ void Interrupt::defer() {
     deferring = true;
 }
 
+void Interrupt::finishFirst(const std::function<void()>& work) {
+    deferring = true;
+    work();
+    deferring = false; // from here on the handler ends the program itself
+    if (stopRequested) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+}
+
 const std::atomic<bool>& Interrupt::requested() const {
     return stopRequested;
 }

@@ -1,6 +1,7 @@
 // Ctrl-C, termination requests and terminals that go away, by what standard C++ offers.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,8 @@ class Interrupt {
     Interrupt& operator=(const Interrupt&) = delete;
 
     void defer();
+    // Before defer(): a signal that comes meanwhile ends the program once `work` is done, which would leave files behind.
+    void finishFirst(const std::function<void()>& work);
     const std::atomic<bool>& requested() const;
 
   private:

@@ -57,7 +57,7 @@ class HeadlessRender {
         : options_(std::move(options)), ranks_(ranks) {}
 
     ExitCode run(const EngineFactory& makeEngine) {
-        checkOutputs(options_); // before hours are spent
+        interrupt_.finishFirst([this] { checkOutputs(options_); }); // before hours are spent
         load();
         engine_ = makeEngine();
         if (ranks_ != nullptr) engine_ = makeRankedEngine(std::move(engine_), *ranks_);
