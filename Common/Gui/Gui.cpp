@@ -129,6 +129,7 @@ std::string Gui::pictureTitle() const {
 void Gui::browse(BrowseFor what) {
     namespace fs = std::filesystem;
     browseFor = what;
+    showScenes = false; // one list to choose from at a time
     const auto folderOf = [](const std::string& file) { return fs::path(file).parent_path(); };
     FileBrowser::Request request;
     std::error_code none;

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <imgui_internal.h>
+
 #include "Common/Gui/Fonts.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Vulkan/Check.h"
@@ -146,8 +150,15 @@ void ImGuiLayer::applyStyle() {
 
 // ---- frames --------------------------------------------------------------------------------------------------------
 
+void closeUndrawnPopups(std::span<const int> pressed) {
+    if (std::find(pressed.begin(), pressed.end(), GLFW_KEY_ESCAPE) == pressed.end()) return;
+    auto& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+    while (!popups.empty() && popups.back().Window == nullptr) popups.pop_back();
+}
+
 void ImGuiLayer::beginFrame(std::span<const int> pressed) {
     if (!started_ || wanted_ != style_) applyStyle();
+    closeUndrawnPopups(pressed);
 #if IMGUI_VERSION_NUM < 18700
     // A key that went down and up between two frames would not be seen; later versions queue events.
     ImGuiIO& io = ImGui::GetIO();

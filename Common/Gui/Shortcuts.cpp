@@ -47,7 +47,7 @@ void toggle(bool& value) {
 
 constexpr Shortcut kShortcuts[] = {
     {GLFW_KEY_F1, When::Always, [](Gui& gui) { toggle(gui.showHelp); }},
-    {GLFW_KEY_ESCAPE, When::Plain, [](Gui& gui) { gui.showHelp = gui.showErrors = gui.showScenes = false; }},
+    {GLFW_KEY_ESCAPE, When::Always, [](Gui& gui) { gui.showHelp = gui.showErrors = gui.showScenes = false; }},
     {GLFW_KEY_F2, When::Always, [](Gui& gui) { gui.toggleStatistics(); }},
     {GLFW_KEY_F3, When::Always, [](Gui& gui) { toggle(gui.settings.showComparison); }},
     {GLFW_KEY_F4, When::Always, [](Gui& gui) { toggle(gui.settings.showPanels); }},

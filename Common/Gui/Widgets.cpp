@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "Common/Gui/TextFit.h"
+
 namespace rt::gui {
 namespace {
 
@@ -17,14 +19,14 @@ std::string format(const char* pattern, Values... values) {
     return text;
 }
 
-// Edits a copy until the field is left. `edit` draws the field and returns whether it changed the copy.
+// Edits a copy until the field is left. `edit` draws the field, which is told whether somebody types there.
 template <class T, class Edit>
 bool editLater(T& value, Edit edit) {
     static ImGuiID active = 0; // only one field is edited at a time
     static T draft{};
     const ImGuiID id = ImGui::GetID("##value");
     T shown = active == id ? draft : value;
-    edit(shown);
+    edit(shown, active == id);
     const bool isActive = ImGui::IsItemActive();
     const bool left = ImGui::IsItemDeactivatedAfterEdit();
     if (isActive) {
@@ -90,24 +92,23 @@ void note(const std::string& text) {
     wrapped(text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
 }
 
+float textWidth(const std::string& text) {
+    return ImGui::CalcTextSize(text.c_str()).x;
+}
+
 std::string elided(const std::string& text, float width) {
-    const auto fits = [&](const std::string& part) { return ImGui::CalcTextSize(part.c_str()).x <= width; };
-    if (fits(text)) return text;
-    for (std::size_t end = text.size(); end > 0; --end) {
-        const bool isInCharacter = (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80; // of UTF-8
-        if (const std::string part = text.substr(0, end) + "..."; !isInCharacter && fits(part)) return part;
-    }
-    return "";
+    return elided(text, width, textWidth);
 }
 
 bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                std::uint32_t step) {
+                std::uint32_t step, const char* zero) {
     row(label, tip);
     ImGui::PushID(label);
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
     if (step > 0) ImGui::SetNextItemWidth(-2 * (side + gap));
-    bool changed = editLater(value, [&](std::uint32_t& shown) {
-        ImGui::InputScalar("##value", ImGuiDataType_U32, &shown);
+    bool changed = editLater(value, [&](std::uint32_t& shown, bool isTyped) {
+        const char* pattern = zero != nullptr && shown == 0 && !isTyped ? zero : "%u";
+        ImGui::InputScalar("##value", ImGuiDataType_U32, &shown, nullptr, nullptr, pattern);
         if (!ImGui::IsItemActive()) shown = std::clamp(shown, min, max);
     });
     // Buttons of our own: those of ImGui 1.86 end the program when one is pressed while the mouse holds something else.
@@ -127,11 +128,12 @@ bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::u
     return changed;
 }
 
-bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* pattern) {
+bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* pattern,
+               const char* zero) {
     row(label, tip);
     ImGui::PushID(label);
-    const bool changed = editLater(value, [&](double& shown) {
-        editReal(shown, pattern);
+    const bool changed = editLater(value, [&](double& shown, bool isTyped) {
+        editReal(shown, zero != nullptr && shown == 0 && !isTyped ? zero : pattern);
         if (ImGui::IsItemActive()) return;
         shown = std::isfinite(shown) ? std::clamp(shown, min, max) : value;
     });
@@ -149,7 +151,7 @@ bool inputVector(const char* label, const char* tip, double (&value)[3]) {
         ImGui::PushID(i);
         if (i > 0) ImGui::SameLine(0, space);
         ImGui::SetNextItemWidth(width);
-        changed |= editLater(value[i], [&](double& shown) {
+        changed |= editLater(value[i], [&](double& shown, bool) {
             editReal(shown, "%.5g");
             if (!ImGui::IsItemActive() && !std::isfinite(shown)) shown = value[i];
         });

@@ -18,11 +18,14 @@ void note(const std::string& text); // dimmed and wrapped
 void wrapped(const std::string& text, const ImVec4& color);
 // The beginning of a text, ended by dots where it is wider than that.
 std::string elided(const std::string& text, float width);
+float textWidth(const std::string& text);
 
 // All return whether the value has changed. Typed numbers count when the field is left, brought into their range.
+// `zero`: a word, without "%", that stands for 0 while nobody types.
 bool inputCount(const char* label, const char* tip, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
-                std::uint32_t step);
-bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* format);
+                std::uint32_t step, const char* zero = nullptr);
+bool inputReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
+               const char* zero = nullptr);
 bool inputVector(const char* label, const char* tip, double (&value)[3]);
 bool sliderReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
                 bool logarithmic = false);

@@ -1,6 +1,7 @@
 // The compiled scene: arrays of records, nothing else. What a kernel, CPU or GPU, sees of a scene.
 #pragma once
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,9 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
 
     shared::SceneGlobals globals{};
 
-    CameraDesc camera;      // authored, in world units as authored (not relative to globals.origin)
-    glm::dvec3 origin{0.0}; // globals.origin before rounding
+    CameraDesc camera;                         // authored, in world units as authored (not relative to globals.origin)
+    std::map<std::string, CameraDesc> cameras; // likewise; others that it can be seen with, by name
+    glm::dvec3 origin{0.0};                    // globals.origin before rounding
     RenderDefaults defaults;
     std::vector<std::string> materialNames; // of each material, as the scene or its model has it
     std::vector<std::string> notices;       // one line each: dropped primitives, stand-ins for missing assets

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -128,6 +129,99 @@ TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     click(770, 682); // Delete
     EXPECT_TRUE(eventually([&] { return estimatorsInHistory().empty(); }));
     EXPECT_TRUE(eventually([&] { return !isRowThere(0); }));
+    expectCleanEnd();
+}
+
+// The points of two runs are far from each other, so that each is found by its colour.
+TEST_P(ComparisonTest, TableAndChartAreLinked) {
+    app::RunRecord cpuRun = run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z");
+    app::RunRecord gpuRun = run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z");
+    cpuRun.renderSeconds = 7;
+    cpuRun.relmse = gpuRun.relmse = 0.5;
+    gpuRun.renderSeconds = 2;
+    cpuRun.hasReference = gpuRun.hasReference = true; // points that are filled
+    keep({cpuRun, gpuRun});
+    start({"--spp", "1000000"}); // no run is added
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
+    constexpr int kCpuRow = 1; // the newest is the first
+    struct Point {
+        int x = 0, y = 0, size = 0; // its middle, and the number of its pixels
+    };
+    const auto pointOfCpu = [&] {
+        const std::uint32_t color = bytesOf(gui::engineColor(false, app::ColorMode::Dark));
+        const Screenshot shot = screenshot();
+        Point point;
+        for (int y = 703; y < 790; ++y) // below the legend
+            for (int x = 1005; x < 1260; ++x) {
+                if (shot.at(x, y) != color) continue;
+                point.x += x, point.y += y, ++point.size;
+            }
+        if (point.size > 0) point.x /= point.size, point.y /= point.size;
+        return point;
+    };
+    act("mousemove 1000 300"); // nothing is pointed at
+    ASSERT_TRUE(eventually([&] { return pointOfCpu().size > 0; }));
+    pause(500);
+    const Point plain = pointOfCpu();
+    const std::uint32_t row = rowColor(kCpuRow);
+    act("mousemove " + std::to_string(plain.x) + " " + std::to_string(plain.y));
+    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) != row; }));
+    act("mousemove 1000 300");
+    EXPECT_TRUE(eventually([&] { return rowColor(kCpuRow) == row; }));
+    act("mousemove 640 " + std::to_string(kFirstRow + kCpuRow * kRow));
+    EXPECT_TRUE(eventually([&] { return pointOfCpu().size > 1.3 * plain.size; }));
+    act("mousemove 1000 300");
+    EXPECT_TRUE(eventually([&] { return pointOfCpu().size == plain.size; }));
+    EXPECT_TRUE(eventually([&] { // again where the machine was too busy to see it
+        click(plain.x, plain.y); // selects it
+        pause(700);
+        act("mousemove 1000 300");
+        pause(700);
+        return rowColor(kCpuRow) != row && pointOfCpu().size > 1.3 * plain.size;
+    }));
+    expectCleanEnd();
+}
+
+// By a right click on their titles; the last of the menu's rows stands at the window's lower end.
+TEST_P(ComparisonTest, ColumnsCanBeChosen) {
+    constexpr int kColumns = 9, kTime = 1, kLastItem = 840, kItem = 21;
+    constexpr std::uint32_t kPopupColor = 0x25272c; // of the dark theme
+    keep(
+        {run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z"), run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z")});
+    start({"--spp", "1000000"}); // no run is added
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
+    const auto titles = [this] {
+        const Screenshot shot = screenshot();
+        std::vector<std::uint32_t> colors;
+        for (int y = 680; y < 693; ++y)
+            for (int x = 536; x < 940; ++x) colors.push_back(shot.at(x, y));
+        return colors;
+    };
+    const auto isMenuThere = [this] { return screenshot().at(690, 852) == kPopupColor; };
+    const auto toggleTime = [&] { // again where the machine was too busy to see it
+        act("mousemove 600 686 sleep 0.5 mousedown 3 sleep 0.2 mouseup 3");
+        pause(700);
+        if (isMenuThere()) click(660, kLastItem - (kColumns - 1 - kTime) * kItem);
+        pause(700);
+        key("Escape");
+        act("mousemove 1000 300");
+        pause(700);
+    };
+    act("mousemove 1000 300");
+    pause(500);
+    const auto all = titles();
+    EXPECT_TRUE(eventually([&] {
+        toggleTime();
+        return !isMenuThere() && titles() != all;
+    }));
+    EXPECT_TRUE(eventually([&] {
+        toggleTime();
+        return !isMenuThere() && titles() == all;
+    }));
     expectCleanEnd();
 }
 

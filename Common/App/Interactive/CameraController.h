@@ -11,8 +11,9 @@ namespace rt::app {
 // makeCamera() refuses, whatever it is told.
 class CameraController {
   public:
-    // The camera of a scene: reset() leads back to it, and its distance from what it looks at sets the pace.
+    // A camera of the scene: reset() leads back to it, and its distance from what it looks at sets the pace.
     void setHome(const scene::CameraDesc& camera);
+    const scene::CameraDesc& home() const { return home_; }
     void reset();
 
     const scene::CameraDesc& camera() const { return camera_; }

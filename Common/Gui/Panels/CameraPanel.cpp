@@ -1,8 +1,12 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
+#include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
 
@@ -16,9 +20,38 @@ bool editVector(const char* label, const char* tip, glm::dvec3& vector) {
     return true;
 }
 
+// The cameras that the scene has: its own, which may be one of those with names, and these.
+void drawCameras(Gui& gui) {
+    const scene::CompiledScene* scene = gui.state.scene.get();
+    constexpr const char* kOwn = "From scene";
+    std::vector<std::pair<std::string, scene::CameraDesc>> cameras;
+    if (scene != nullptr) {
+        const auto isOwn = [scene](const auto& named) { return named.second == scene->camera; };
+        if (std::none_of(scene->cameras.begin(), scene->cameras.end(), isOwn))
+            cameras.emplace_back(kOwn, scene->camera);
+        cameras.insert(cameras.end(), scene->cameras.begin(), scene->cameras.end());
+    }
+    const auto at = std::find_if(cameras.begin(), cameras.end(),
+                                 [&gui](const auto& named) { return named.second == gui.camera.home(); });
+    std::string shown = at != cameras.end() ? printable(at->first) : kOwn;
+    if (gui.camera.camera() != gui.camera.home()) shown += ", moved";
+    const Disabled rest(cameras.size() < 2);
+    row("Camera", "Those that the scene has; R leads back to the one that is chosen");
+    if (!ImGui::BeginCombo("##camera", shown.c_str())) return;
+    for (const auto& [name, camera] : cameras) {
+        ImGui::PushID(name.c_str());
+        const bool isChosen = camera == gui.camera.home();
+        if (ImGui::Selectable(printable(name).c_str(), isChosen)) gui.camera.setHome(camera);
+        if (isChosen) ImGui::SetItemDefaultFocus();
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
 } // namespace
 
 void drawCameraPanel(Gui& gui) {
+    drawCameras(gui);
     scene::CameraDesc camera = gui.camera.camera();
     const double distance = glm::length(camera.lookAt - camera.lookFrom);
     bool changed = sliderReal("Field of view", "Vertical, in degrees", camera.verticalFov, 1, 170, "%.1f");
@@ -57,7 +90,7 @@ void drawCameraPanel(Gui& gui) {
     ImGui::SameLine(0, space);
     if (button("Paste pose", "From the clipboard (Ctrl+Shift+V)", true, width)) gui.pastePose();
     ImGui::SameLine(0, space);
-    if (button("Reset", "Back to the scene's camera (R)", true, width)) gui.camera.reset();
+    if (button("Reset", "Back to the chosen camera of the scene (R)", true, width)) gui.camera.reset();
     note("W A S D Q E fly, Shift fast, Ctrl slow; left drag orbits, right drag looks, middle drag pans.");
 }
 

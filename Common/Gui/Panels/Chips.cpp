@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Common/Gui/Panels/Panels.h"
@@ -54,15 +55,42 @@ std::vector<std::string> chipTexts(const Gui& gui) {
     return texts;
 }
 
+struct Chip {
+    std::string text;
+    ImVec2 corner;
+};
+struct ChipLayout {
+    std::vector<Chip> chips;
+    float bottom = 0;
+};
+
+// From left to right, in as many lines as they need; what is wider than a line is left out.
+ChipLayout placeChips(const Gui& gui, const Rect& area, float scale) {
+    const float em = ImGui::GetFontSize(), border = kBorder * scale, gap = 0.4f * em;
+    const float left = area.x + border, right = area.x + area.width - border;
+    ChipLayout layout;
+    ImVec2 at{left, area.y + border};
+    for (std::string& text : chipTexts(gui)) {
+        const float width = chipWidth(text, layout.chips.empty());
+        if (left + width > right) continue;
+        if (at.x + width > right) at = {left, at.y + kHeight * em + gap};
+        layout.chips.push_back({std::move(text), at});
+        at.x += width + gap;
+    }
+    layout.bottom = at.y + kHeight * em;
+    return layout;
+}
+
 // Whether both can be compared: the line between them is drawn.
 bool isSplit(const Gui& gui) {
     const image::Image* shown = gui.state.picture.image.get();
     return gui.held && shown != nullptr && shown->width == gui.held->width && shown->height == gui.held->height;
 }
 
-void drawSides(const Gui& gui, const Rect& area, const Rect& image, float scale) {
+// At the top of the picture, below the chips.
+void drawSides(const Gui& gui, const Rect& area, float imageTop, float chipsBottom, float scale) {
     const float em = ImGui::GetFontSize(), gap = 6 * scale;
-    const float y = std::max(image.y, area.y) + gap, line = area.x + gui.split * area.width;
+    const float y = std::max(imageTop, chipsBottom) + gap, line = area.x + gui.split * area.width;
     const std::string left = "A: " + gui.heldTitle, right = "B: " + gui.pictureTitle();
     const float width = chipWidth(left, false);
     if (y + kHeight * em > area.y + area.height) return;
@@ -73,28 +101,21 @@ void drawSides(const Gui& gui, const Rect& area, const Rect& image, float scale)
 } // namespace
 
 Rect innerArea(const Gui& gui, const Rect& area, float scale) {
-    const float em = ImGui::GetFontSize(), border = kBorder * scale;
-    const float legend = legendHeight(gui, area, scale);
-    const float top = border + kHeight * em + 0.6f * border, bottom = border + (legend > 0 ? legend + border : 0);
+    const float border = kBorder * scale, legend = legendHeight(gui, area, scale);
+    const float top = placeChips(gui, area, scale).bottom - area.y + 0.6f * border;
+    const float bottom = border + (legend > 0 ? legend + border : 0);
     const Rect inner{area.x + border, area.y + top, area.width - 2 * border, area.height - top - bottom};
     const bool isEnough = inner.width > kLeastShare * area.width && inner.height > kLeastShare * area.height;
     return isEnough ? inner : area;
 }
 
 void drawChips(const Gui& gui, const Rect& area, const Rect& image, float scale) {
-    const float em = ImGui::GetFontSize(), border = kBorder * scale, gap = 0.4f * em;
-    if (!gui.state.picture.image || area.height < 4 * kHeight * em) return;
+    if (!gui.state.picture.image || area.height < 4 * kHeight * ImGui::GetFontSize()) return;
     const ImVec4 dot = engineColor(gui.isGpu, gui.settings.colorMode);
-    float x = area.x + border;
-    bool isFirst = true;
-    for (const std::string& text : chipTexts(gui)) {
-        const float width = chipWidth(text, isFirst);
-        if (x + width > area.x + area.width - border) break;
-        drawChip({x, area.y + border}, text, isFirst ? &dot : nullptr);
-        x += width + gap;
-        isFirst = false;
-    }
-    if (isSplit(gui)) drawSides(gui, area, image, scale);
+    const ChipLayout layout = placeChips(gui, area, scale);
+    for (std::size_t i = 0; i < layout.chips.size(); ++i)
+        drawChip(layout.chips[i].corner, layout.chips[i].text, i == 0 ? &dot : nullptr);
+    if (isSplit(gui)) drawSides(gui, area, image.y, layout.bottom, scale);
 }
 
 } // namespace rt::gui

@@ -62,7 +62,7 @@ void drawReferenceMenu(Gui& gui) {
     if (button("Render reference",
                "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
                "render, by whichever program, count. Stop gives it up.",
-               !gui.state.isReferenceRender)) {
+               !gui.state.isReferenceRender && !gui.state.picture.isPreview)) {
         gui.session.renderReference(gui.referenceSpp);
         ImGui::CloseCurrentPopup();
     }

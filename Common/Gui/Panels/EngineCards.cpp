@@ -73,13 +73,14 @@ void drawSpeedUp(float width, const app::EnginePair& pair) {
     if (comparison.timeToEqualError > 0) {
         toError = ratioText(comparison.timeToEqualError);
         tip = std::string(
-                  "relMSE falls as the number of samples grows, so that the time to equal error is as relMSE "
+                  "Time to equal error: relMSE falls as the number of samples grows, so that the time to equal error "
+                  "is as relMSE "
                   "times seconds. Errors are ") +
               (comparison.isMeasured ? "measured against a reference" : "the films' own estimates, no measurements");
     }
     const std::string kind = comparison.timeToEqualError <= 0 ? "" : comparison.isMeasured ? "measured" : "estimated";
     drawCard(width, "GPU against CPU", ImGui::GetColorU32(ImGuiCol_Text),
-             {{"To equal error", toError},
+             {{"Equal error", toError},
               {"Errors", kind.empty() ? "-" : kind},
               {"Samples/s", ratioText(comparison.samplesPerSecond)}},
              tip);

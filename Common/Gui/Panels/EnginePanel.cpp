@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
 
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Widgets.h"
@@ -24,12 +25,13 @@ bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
     return std::any_of(devices.begin(), devices.end(), [](const EngineDevice& d) { return d.hasPipeline; });
 }
 
-void drawProcessor(EngineChoice& engine) {
+void drawProcessor(EngineChoice& engine, std::uint32_t threads) {
     markNextRow(engine.policy != EngineChoice().policy);
     combo("Engine", "std::execution policy that the workers run under", app::kPolicies, engine.policy);
     const Disabled rest(engine.policy == app::Policy::Seq);
     markNextRow(engine.threads != EngineChoice().threads);
-    inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1);
+    const std::string automatic = "Auto (" + std::to_string(threads) + ")";
+    inputCount("Threads", "0: as many as the processor has", engine.threads, 0, 1024, 1, automatic.c_str());
 }
 
 void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
@@ -87,10 +89,13 @@ EngineChoice servedChoice(EngineChoice choice, const Devices& devices, const app
 void drawEnginePanel(Gui& gui) {
     EngineChoice& engine = gui.settings.engine;
     if (!gui.isGpu) {
-        drawProcessor(engine);
+        drawProcessor(engine, std::max(1u, std::thread::hardware_concurrency()));
         return drawErrorOf(gui, app::ErrorSource::Engine);
     }
-    drawKind(engine, gui.state, gui.devices);
+    {
+        const Disabled rest(gui.state.picture.isPreview); // which is rasterised whatever traces rays
+        drawKind(engine, gui.state, gui.devices);
+    }
     drawDevice(engine, gui.devices);
     drawErrorOf(gui, app::ErrorSource::Engine);
     const Disabled rest(!gui.state.canPreview);

@@ -47,7 +47,7 @@ constexpr Shortcut kRight[] = {
     {"Wheel", "flying speed"},
     {"Shift + wheel", "nearer, farther"},
     {"Ctrl + click", "make sharp what is there"},
-    {"R", "back to the scene's camera"},
+    {"R", "back to the chosen camera"},
     {"Ctrl+Shift+C, V", "copy, paste the pose"},
     {nullptr, "Picture"},
     {"Ctrl + wheel", "zoom"},
@@ -59,6 +59,9 @@ template <std::size_t N>
 void drawColumn(const char* id, const Shortcut (&shortcuts)[N]) {
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) return;
     for (const Shortcut& shortcut : shortcuts) {
+        if (shortcut.keys == nullptr && &shortcut != &shortcuts[0]) { // a gap between groups
+            ImGui::TableNextRow(ImGuiTableRowFlags_None, 0.6f * ImGui::GetFontSize());
+        }
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         if (shortcut.keys == nullptr) {

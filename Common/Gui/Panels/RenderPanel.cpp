@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <thread>
+#include <utility>
 
 #include "Common/App/Platform.h"
 #include "Common/Gui/Panels/EnginePanel.h"
@@ -82,18 +82,36 @@ bool isAmong(Methods methods, std::string_view key) {
     return methods == Methods::Others;
 }
 
+// The strategies for shapes of light: what they have in common is said once, so that their fields stand in line.
+constexpr std::string_view kStrategy = "Sampling strategy for ";
+
+bool isStrategy(std::string_view title) {
+    return title.substr(0, kStrategy.size()) == kStrategy;
+}
+
+void drawStrategyHeading() {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(kStrategy.data(), kStrategy.data() + kStrategy.size());
+}
+
+std::string methodLabel(std::string_view title) {
+    return isStrategy(title) ? "  " + std::string(title.substr(kStrategy.size())) : std::string(title);
+}
+
 // What has no effect stays in place, greyed: how lights are sampled where none are.
 void drawMethods(app::RenderSettings& settings, Methods methods) {
     const bool areLightsSampled = settings.lightSampling != app::LightSampling::Bsdf;
     const app::RenderSettings defaults;
+    bool isHeaded = false;
     app::forEachMethod(
-        [areLightsSampled, methods](const char* key, const char* title, const char* help, const auto& table,
-                                    auto& value, const auto& byDefault) {
+        [&isHeaded, areLightsSampled, methods](const char* key, const char* title, const char* help, const auto& table,
+                                               auto& value, const auto& byDefault) {
             if (!isAmong(methods, key)) return;
             const bool isOfLights = std::string_view(key).find("light") != std::string_view::npos;
             const Disabled rest(isOfLights && !areLightsSampled && methods == Methods::Others);
+            if (isStrategy(title) && !std::exchange(isHeaded, true)) drawStrategyHeading();
             markNextRow(value != byDefault);
-            combo(title, sentence(help).c_str(), table, value);
+            combo(methodLabel(title).c_str(), sentence(help).c_str(), table, value);
         },
         settings, defaults);
 }
@@ -135,7 +153,7 @@ void drawFrames(app::RenderRequest& request) {
 void drawBudget(const char* label, const char* tip, std::optional<double>& budget) {
     double value = budget.value_or(0);
     markNextRow(budget.has_value());
-    if (!inputReal(label, tip, value, 0, 1e9, "%g")) return;
+    if (!inputReal(label, tip, value, 0, 1e9, "%g", "none")) return;
     budget = value > 0 ? std::optional(value) : std::nullopt;
 }
 
@@ -153,7 +171,7 @@ void drawSamples(Gui& gui) {
         spp += kMore;
         gui.session.goOn();
     }
-    drawBudget("Time limit (s)", "Ends the render after so many seconds of sampling; 0: none", request.timeLimit);
+    drawBudget("Time limit (s)", "Ends the render after so many seconds of sampling; 0: no limit", request.timeLimit);
     drawBudget("Target relMSE",
                "Ends the render when its estimated relMSE is surely below (95 %); 0: none. Needs four replicates",
                request.targetError);
@@ -191,18 +209,25 @@ void drawDefaults(Gui& gui) {
 
 } // namespace
 
-// What matters first, then the rest.
+// What matters first, then the rest. A preview has no samples and no paths: what is about them rests.
 void drawRenderPanel(Gui& gui) {
     app::RenderSettings& settings = gui.settings.request.settings;
+    const bool isPreview = gui.state.picture.isPreview;
     drawEnginePanel(gui);
-    drawSamples(gui);
-    drawMethods(settings, Methods::LightSampling);
-    drawMethods(settings, Methods::Sampler);
+    {
+        const Disabled rest(isPreview);
+        drawSamples(gui);
+        drawMethods(settings, Methods::LightSampling);
+        drawMethods(settings, Methods::Sampler);
+    }
     drawSize(gui);
     bool& isOpen = gui.settings.openPanels.try_emplace("advanced", false).first->second;
     ImGui::SetNextItemOpen(isOpen);
     isOpen = ImGui::TreeNodeEx("Advanced", ImGuiTreeNodeFlags_NoTreePushOnOpen | ImGuiTreeNodeFlags_SpanAvailWidth);
-    if (isOpen) drawAdvanced(gui.settings.request);
+    if (isOpen) {
+        const Disabled rest(isPreview);
+        drawAdvanced(gui.settings.request);
+    }
     drawDefaults(gui);
 }
 

@@ -3,6 +3,7 @@
 
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/TextFit.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
@@ -24,7 +25,8 @@ void drawSceneButton(Gui& gui, const scene::BuiltinScene* builtin) {
     const float side = kThumbnail * ImGui::GetFontSize(), inner = ImGui::GetStyle().FramePadding.x;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     if (ImGui::Button("##scenes", {-1, side + 2 * inner})) gui.showScenes = !gui.showScenes;
-    tooltip("All scenes. Keys 1 to 9 choose the first nine, Page Up and Page Down the previous and the next");
+    if (!gui.showScenes)
+        tooltip("All scenes. Keys 1 to 9 choose the first nine, Page Up and Page Down the previous and the next");
     const ImVec2 end = ImGui::GetItemRectMax();
     if (!ImGui::IsItemVisible()) return;
     float left = corner.x + inner;
@@ -34,11 +36,11 @@ void drawSceneButton(Gui& gui, const scene::BuiltinScene* builtin) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText({left, corner.y + inner}, ImGui::GetColorU32(ImGuiCol_Text), elided(title, width).c_str());
     const std::string description(builtin != nullptr ? builtin->description : gui.state.source);
-    const float top = corner.y + inner + 1.15f * ImGui::GetFontSize();
-    list.PushClipRect({left, top}, {end.x - inner, top + 2 * ImGui::GetFontSize()}, true); // two whole lines
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {left, top}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-                 description.c_str(), nullptr, width);
-    list.PopClipRect();
+    float top = corner.y + inner + 1.15f * ImGui::GetFontSize();
+    for (const std::string& line : elidedLines(description, width, 2, textWidth)) {
+        list.AddText({left, top}, ImGui::GetColorU32(ImGuiCol_TextDisabled), line.c_str());
+        top += ImGui::GetFontSize();
+    }
 }
 
 void drawSceneCount(Gui& gui, const scene::BuiltinScene& scene) {

@@ -126,9 +126,10 @@ void drawRight(Gui& gui) {
     beside();
     const bool isUnread = gui.errors.unread() != nullptr;
     if (isUnread) ImGui::PushStyleColor(ImGuiCol_Text, errorColor(settings.colorMode));
-    if (iconButton("errors", Icon::Warning, "What went wrong so far", !gui.errors.all().empty(), gui.showErrors))
+    if (iconButton("errors", Icon::Warning, nullptr, !gui.errors.all().empty(), gui.showErrors))
         gui.showErrors = !gui.showErrors;
     if (isUnread) ImGui::PopStyleColor();
+    tooltip("What went wrong so far"); // in the colour of all others
 }
 
 } // namespace

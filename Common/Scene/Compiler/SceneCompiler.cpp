@@ -37,6 +37,7 @@ class Compiler {
         out_->id = desc_.id;
         out_->title = desc_.title;
         out_->camera = camera_;
+        out_->cameras = desc_.cameras;
         out_->defaults = desc_.render;
         out_->origin = desc_.camera.lookFrom;
         out_->globals.origin = shared::vec3(out_->origin);
