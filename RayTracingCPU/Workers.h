@@ -12,24 +12,24 @@
 #include <tbb/parallel_for_each.h>
 #endif
 
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 #include "RayTracingCPU/CpuEngine.h"
 
 namespace rt::cpu {
 
 // Calls work(i) once for each i below count. The policies know no number of threads: at most `count` calls run at a
-// time, so each call is a worker that pulls its share of the work itself. The first exception of a worker is thrown
+// time, so each call is a worker that pulls its share of the work itself. The exception of a worker is thrown
 // again when all are done.
 template <class Work>
 void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
-    if (policy == Policy::Seq || count == 1 || !accel::canStartThreads()) {
+    if (policy == Policy::Seq || count == 1 || !canStartThreads()) {
         for (std::uint32_t i = 0; i < count; ++i) work(i);
         return;
     }
-    accel::FirstFailure failure;
+    FirstFailure failure;
     const auto guarded = [&](std::uint32_t i) { failure.guard([&] { work(i); }); };
 #if defined(RT_THREADS_SANITIZED)
-    accel::onThreads(count, [&guarded](std::size_t i) { guarded(static_cast<std::uint32_t>(i)); });
+    onThreads(count, [&guarded](std::size_t i) { guarded(static_cast<std::uint32_t>(i)); });
 #else
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);

@@ -11,10 +11,14 @@ thread_local const std::atomic<bool>* requested = nullptr;
 
 } // namespace
 
-Interruptible::Interruptible(const std::atomic<bool>& flag) : outer_(std::exchange(requested, &flag)) {}
+Interruptible::Interruptible(const std::atomic<bool>* flag) : outer_(std::exchange(requested, flag)) {}
 
 Interruptible::~Interruptible() {
     requested = outer_;
+}
+
+const std::atomic<bool>* interruptionFlag() {
+    return requested;
 }
 
 bool interruptionRequested() {

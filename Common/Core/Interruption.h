@@ -13,7 +13,8 @@ class Interrupted : public std::exception {
 // While it exists, interruptionPoint() throws on this thread once the flag is set. The flag must outlive it.
 class Interruptible {
   public:
-    explicit Interruptible(const std::atomic<bool>& flag);
+    explicit Interruptible(const std::atomic<bool>& flag) : Interruptible(&flag) {}
+    explicit Interruptible(const std::atomic<bool>* flag); // null: nobody may
     ~Interruptible();
     Interruptible(const Interruptible&) = delete;
     Interruptible& operator=(const Interruptible&) = delete;
@@ -21,6 +22,8 @@ class Interruptible {
   private:
     const std::atomic<bool>* outer_;
 };
+
+const std::atomic<bool>* interruptionFlag(); // of this thread; null: nobody may call its work off
 
 bool interruptionRequested(); // somebody waits for the end of this thread's work
 

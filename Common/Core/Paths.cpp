@@ -79,6 +79,13 @@ std::vector<fs::path> assetFolders() {
     return found;
 }
 
+fs::path planetMapFolder() {
+    const char* chosen = std::getenv("RT_PLANET_MAPS");
+    const fs::path folder = chosen != nullptr ? chosen : "/usr/share/xplanet/images";
+    std::error_code ignored;
+    return fs::is_directory(folder, ignored) ? folder : fs::path();
+}
+
 std::optional<fs::path> findAsset(const fs::path& name) {
     std::error_code ignored;
     for (const fs::path& folder : assetFolders())

@@ -27,4 +27,8 @@ std::vector<std::filesystem::path> assetFolders();
 // An asset by its name relative to an asset folder, e.g. "textures/mars.jpg"; nothing when no folder has such a file.
 std::optional<std::filesystem::path> findAsset(const std::filesystem::path& name);
 
+// Where a package of the system puts maps of planets, xplanet-images on Debian; $RT_PLANET_MAPS in its place where that
+// is set, also to nothing. Empty: there is no such folder.
+std::filesystem::path planetMapFolder();
+
 } // namespace rt

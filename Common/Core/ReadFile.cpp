@@ -33,6 +33,7 @@ ReadsBelow::ReadsBelow(const std::filesystem::path& folder, const std::filesyste
         throw InputError("--assets-below " + folder.string() + ": there is no such folder");
     folders_ = assetFolders();
     folders_.push_back(folder);
+    if (const std::filesystem::path maps = planetMapFolder(); !maps.empty()) folders_.push_back(maps);
     for (std::filesystem::path& allowed : folders_) allowed = located(allowed);
     confinement = this;
 }

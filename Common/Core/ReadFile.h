@@ -7,7 +7,8 @@
 
 namespace rt {
 
-// While it exists, readFile() on this thread takes only files below a folder, assets (Paths.h), and one file more:
+// While it exists, readFile() on this thread takes only files below a folder, assets and planet maps (Paths.h), and one file
+// more:
 // for scenes of others. Links are followed first. An empty folder confines nothing. Throws InputError for one that does
 // not exist.
 class ReadsBelow {

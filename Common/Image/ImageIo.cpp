@@ -129,9 +129,18 @@ Image readImage(const fs::path& path) {
 }
 
 Texels loadTexels(const fs::path& path) {
+    return decodeTexels(readTexels(path), path);
+}
+
+std::vector<std::byte> readTexels(const fs::path& path) {
+    codecOf<InputError>(path, false); // before reading what cannot be decoded
+    return readFile(path, kMaxFileBytes);
+}
+
+Texels decodeTexels(std::span<const std::byte> bytes, const fs::path& path) {
     const Codec codec = codecOf<InputError>(path, false);
-    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeStb(readFile(path, kMaxFileBytes), path.string());
-    const Image image = readImage(path);
+    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeStb(bytes, path.string());
+    const Image image = decodeImage(bytes, path);
     if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
     Texels texels = toTexels(image);
     for (float& value : texels.linear) value = std::max(value, 0.0f);

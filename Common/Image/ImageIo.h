@@ -36,8 +36,15 @@ Image readImage(const std::filesystem::path& path);
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
 Texels loadTexels(const std::filesystem::path& path);
 
+// In two steps, of which the second may be on another thread: the bytes of a file, and what they hold.
+std::vector<std::byte> readTexels(const std::filesystem::path& path);
+Texels decodeTexels(std::span<const std::byte> bytes, const std::filesystem::path& path);
+
 // Of a PNG or JPEG in memory; errors name it `name`.
 Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name);
+
+// Texels of a PNG or JPEG as its header says, at most what the bytes can hold; 0 for others.
+std::size_t texelCount(std::span<const std::byte> bytes);
 
 // Writes 1 or 3 channels, a row at a time, replacing the file atomically. NaN is written as 0 and an infinity, or what
 // a format cannot hold, as the nearest value that it can. Throws UsageError for an extension that is unknown,

@@ -73,6 +73,16 @@ void split(const T* pixels, std::size_t count, bool hasAlpha, std::vector<T>& co
 
 } // namespace
 
+std::size_t texelCount(std::span<const std::byte> bytes) {
+    if (bytes.size() > std::size_t(std::numeric_limits<int>::max())) return 0;
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width,
+                               &height, &channels))
+        return 0;
+    const double most = kDensest * double(bytes.size());
+    return static_cast<std::size_t>(std::clamp(double(width) * height, 0.0, most));
+}
+
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto fail = [&name](const std::string& what) { throw InputError(name + ": " + what); };
     if (bytes.size() > std::size_t(std::numeric_limits<int>::max())) fail("file is larger than 2 GiB");

@@ -101,6 +101,7 @@ void Desktop::launch(const std::string& program, const std::vector<std::string>&
     std::vector<std::pair<std::string, std::string>> environment = {
         {"DISPLAY", display_},
         {"XDG_CONFIG_HOME", (folder_ / "config").string()},
+        {"RT_PLANET_MAPS", ""},                // the generated ones, wherever tests run
         {"XDG_RUNTIME_DIR", folder_.string()}, // newer drivers complain where there is none
         {"XDG_PICTURES_DIR", (folder_ / "pictures").string()}};
     environment.insert(environment.end(), environment_.begin(), environment_.end());

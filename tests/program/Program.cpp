@@ -93,6 +93,7 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
         kEnterFolder + quoted(folder_.string()) + " && " + assignment("XDG_CONFIG_HOME", (folder_ / "config").string());
     command += assignment("XDG_CACHE_HOME", cacheFolder().string());
     command += assignment("XDG_STATE_HOME", (folder_ / "state").string());
+    command += assignment("RT_PLANET_MAPS", ""); // the generated ones, wherever tests run
     // No window opens by mistake.
     command += assignment("DISPLAY", "") + assignment("WAYLAND_DISPLAY", "");
     for (const auto& [name, value] : environment) command += assignment(name, value);

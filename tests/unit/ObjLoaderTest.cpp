@@ -139,10 +139,53 @@ TEST_F(ObjLoader, WhatIsNoFaceIsLeftOutByName) {
                         "2 lines, 1 points"),
               std::string::npos);
     const ObjModel model = load("v 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 0 1 0\n l 1 2\nf 1 2 3\nf\n");
-    ASSERT_EQ(model.notices.size(), 2u);
+    ASSERT_EQ(model.notices.size(), 1u);
     EXPECT_NE(model.notices[0].find("1 lines, 1 faces without corners"), std::string::npos);
-    EXPECT_NE(model.notices[1].find("colours of vertices"), std::string::npos);
-    EXPECT_TRUE(load("v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nf 1 2 3\n").notices.empty()) << "w is no colour";
+}
+
+TEST_F(ObjLoader, ColorsOfVerticesTintWhatScattersThem) {
+    const std::string colored = "v 0 0 0 1 0 0\nv 1 0 0 0 1 0 \nv 1 1 0 0.5 2 -1 # beyond [0,1]\r\n";
+    ObjModel model = load(colored + "f 1 2 3\n");
+    EXPECT_TRUE(model.notices.empty());
+    ASSERT_EQ(model.parts.size(), 1u);
+    const MeshData& mesh = model.parts[0].mesh;
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    EXPECT_EQ(mesh.colors[0], glm::dvec4(1, 0, 0, 1));
+    EXPECT_NEAR(mesh.colors[2].r, 0.214041, 1e-6) << "encoded as sRGB, IEC 61966-2-1";
+    EXPECT_EQ(glm::dvec3(mesh.colors[2].g, mesh.colors[2].b, mesh.colors[2].a), glm::dvec3(1, 0, 1));
+    const MaterialDesc& white = model.materials.at(model.parts[0].material);
+    EXPECT_EQ(white.kind, MaterialKind::Principled);
+    EXPECT_EQ(std::get<glm::dvec3>(white.albedo), glm::dvec3(1));
+    EXPECT_EQ(white.principled.specular.factor, 0);
+    const SceneDesc scene = loadObjScene(folder_ / "model.obj");
+    SceneDesc again = parseScene(toJson(scene), "again.json", {});
+    again.id = scene.id;
+    EXPECT_EQ(again, scene);
+    EXPECT_EQ(compileScene(scene)->colors.size(), 3u);
+    EXPECT_TRUE(load(colored + "f 1 2 3\n", false).parts[0].mesh.colors.empty()) << "they go with the materials";
+
+    write("model.mtl",
+          "newmtl red\nKd 0.5 0 0\nnewmtl shiny\nKd 1 0 0\nKs 0.5 0.5 0.5\nnewmtl glass\nillum 7\nNi 1.5\n"
+          "newmtl mixed\nKd 0 0 1\n");
+    model = load("mtllib model.mtl\n" + colored + "v 2 0 0\nusemtl red\nf 1 2 3\nusemtl shiny\nf 3 2 1\n" +
+                 "usemtl glass\nf 1 2 3\nusemtl mixed\nf 1 2 4\n");
+    ASSERT_EQ(model.parts.size(), 4u);
+    for (const ObjPart& part : model.parts) {
+        const MaterialDesc& material = model.materials.at(part.material);
+        const bool isTinted = part.material == "red" || part.material == "shiny";
+        EXPECT_EQ(part.mesh.colors.size(), isTinted ? 3u : 0u) << part.material;
+        EXPECT_EQ(material.kind, isTinted                   ? MaterialKind::Principled
+                                 : part.material == "glass" ? MaterialKind::Dielectric
+                                                            : MaterialKind::Lambertian);
+    }
+    EXPECT_EQ(std::get<glm::dvec3>(model.materials.at("red").albedo), glm::dvec3(0.5, 0, 0));
+    EXPECT_EQ(model.materials.at("shiny").principled.specular.factor, 1);
+    ASSERT_EQ(model.notices.size(), 1u);
+    EXPECT_NE(model.notices[0].find("the colours of vertices are left out of 2 materials"), std::string::npos);
+
+    EXPECT_TRUE(load("v 0 0 0 1\nv 1 0 0 1\nv 1 1 0 1\nf 1 2 3\n").materials.empty()) << "w is no colour";
+    EXPECT_EQ(errorOf("v 0 0 0 1 red 0\n"), "model.obj:1: the colour of a vertex must be three finite numbers");
+    EXPECT_EQ(load("v 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0 0 0 1\nf 1 2 3\n").notices.size(), 1u);
 }
 
 TEST_F(ObjLoader, Utf16AndByteOrderMarksAreRead) {

@@ -1,8 +1,8 @@
 // The small parts that the scene compiler is made of: distributions on a grid, orders along a curve, Perlin tables,
-// polygons,
-// generated assets.
+// polygons, assets that are generated or of packages.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <random>
 
@@ -16,6 +16,8 @@
 #include "Common/Scene/Compiler/MeshOrder.h"
 #include "Common/Scene/Compiler/PerlinTable.h"
 #include "Common/Scene/Obj/Polygon.h"
+#include "tests/Environment.h"
+#include "tests/TempFolder.h"
 
 namespace rt::scene {
 namespace {
@@ -150,6 +152,35 @@ TEST(StandIns, TheStatueIsClosedAndOfTheSizeOfLucy) {
     EXPECT_NEAR(upper.y, 885, 5);
     EXPECT_NEAR(upper.z - lower.z, 480, 20);
     EXPECT_THROW(makeMeshStandIn("bunny"), InputError);
+}
+
+TEST(StandIns, MapsOfPackagesAreTakenWhereAskedFor) {
+    const test::TempFolder folder;
+    std::ofstream(folder / "earth.jpg") << "a map";
+    test::setVariable("RT_PLANET_MAPS", folder.path().string());
+    SceneDesc desc;
+    desc.textures["t"] = ImageTexture{"textures/none.jpg", "earth"};
+    desc.materials["m"].albedo = "t";
+    desc.objects = {{SphereDesc{{0, 0, -5}, 1, {}, "m"}}};
+    std::vector<std::filesystem::path> read;
+    CompileOptions options;
+    options.loadTexels = [&](const std::filesystem::path& path, std::optional<std::uint32_t>) {
+        read.push_back(path);
+        return TexelData{1, 1, shared::kTexelSrgb8, {0xff0000ffu}};
+    };
+    EXPECT_EQ(compileScene(desc, options)->images[0].width, 1024u) << "tests take generated maps";
+    options.installedMaps = true;
+    const auto compiled = compileScene(desc, options);
+    EXPECT_EQ(compiled->images[0].width, 1u);
+    EXPECT_EQ(compiled->notices.at(0), "textures/none.jpg: " + (folder / "earth.jpg").string() + " stands in");
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0], folder / "earth.jpg");
+    options.generatedAssets = true; // as benchmarks do: nothing is installed for them
+    EXPECT_EQ(installedPlanetMap("earth-night"), std::filesystem::path());
+    std::get<ImageTexture>(desc.textures["t"]).standIn = "mars";
+    EXPECT_EQ(compileScene(desc, options)->images[0].width, 1024u);
+    test::setVariable("RT_PLANET_MAPS", "");
+    EXPECT_THROW(installedPlanetMap("pluto"), InputError);
 }
 
 TEST(StandIns, PlanetMapsDiffer) {

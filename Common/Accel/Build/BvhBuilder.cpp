@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "Common/Accel/Build/BinnedSplit.h"
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 
 namespace rt::accel {
 namespace {
@@ -34,9 +34,15 @@ struct Division {
     std::uint32_t group = 0;
 };
 
+// Gives back the memory of what is no longer needed: that of large scenes adds up.
+template <typename T>
+void release(std::vector<T>& values) {
+    std::vector<T>().swap(values);
+}
+
 class Builder {
   public:
-    Builder(const BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
+    Builder(BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
             std::atomic<std::uint64_t>* itemsDone)
         : input_(input),
           settings_(settings),
@@ -62,7 +68,7 @@ class Builder {
     void partition(const Range& range, const Division& division, const Binning& binning, Range& left, Range& right);
     void makeLeaf(const Range& range, std::vector<BvhNode>& nodes);
 
-    const BvhInput& input_;
+    BvhInput& input_;
     const BvhSettings& settings_;
     const std::atomic<bool>* cancel_;
     std::atomic<std::uint64_t>* itemsDone_;
@@ -296,10 +302,11 @@ std::optional<Bvh> Builder::build() {
     if (input_.boxes.empty()) return bvh;
     const std::size_t count = input_.boxes.size();
     buffers_[0].resize(count);
+    const Range all = prepareItems();
+    release(input_.boxes);
     buffers_[1].resize(count);
     items_.resize(count);
 
-    const Range all = prepareItems();
     bvh.nodes.push_back({all.box.box(), 0, 0});
     std::vector<Range> large, tasks;
     (all.size() > kTaskItems ? large : tasks).push_back(all);
@@ -315,6 +322,7 @@ std::optional<Bvh> Builder::build() {
         if (!cancelled()) buildTask(tasks[i], trees[i]);
     });
     if (cancelled()) return std::nullopt;
+    for (std::vector<ItemBox>& buffer : buffers_) release(buffer);
 
     std::vector<std::size_t> offsets(tasks.size()); // of a tree's second node; its root replaces the node of its task
     std::size_t total = bvh.nodes.size();
@@ -336,7 +344,7 @@ std::optional<Bvh> Builder::build() {
 
 } // namespace
 
-std::optional<Bvh> buildBvh(const BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
+std::optional<Bvh> buildBvh(BvhInput input, const BvhSettings& settings, const std::atomic<bool>* cancel,
                             std::atomic<std::uint64_t>* itemsDone) {
     return Builder(input, settings, cancel, itemsDone).build();
 }

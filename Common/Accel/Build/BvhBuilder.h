@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "Common/Accel/Bvh.h"
 
@@ -24,12 +25,12 @@ struct BvhSettings {
 // A box of each item. Items of different groups never share a leaf; `groups` has one element for each box, or one for
 // all alike, or none (group 0).
 struct BvhInput {
-    std::span<const Box> boxes; // finite, lower <= upper
+    std::vector<Box> boxes; // finite, lower <= upper
     std::span<const std::uint8_t> groups;
 };
 
 // Nothing when *cancel became true. *itemsDone, if given, rises by the number of boxes while the build goes on.
-std::optional<Bvh> buildBvh(const BvhInput& input, const BvhSettings& settings,
-                            const std::atomic<bool>* cancel = nullptr, std::atomic<std::uint64_t>* itemsDone = nullptr);
+std::optional<Bvh> buildBvh(BvhInput input, const BvhSettings& settings, const std::atomic<bool>* cancel = nullptr,
+                            std::atomic<std::uint64_t>* itemsDone = nullptr);
 
 } // namespace rt::accel

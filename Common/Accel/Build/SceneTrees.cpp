@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 
 namespace rt::accel {
 namespace {
@@ -32,7 +32,7 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
             }
         });
         tree.kinds = tree.items.kinds();
-        std::optional<Bvh> bvh = buildBvh({boxes, tree.kinds}, treeSettings, cancel, primitivesDone);
+        std::optional<Bvh> bvh = buildBvh({std::move(boxes), tree.kinds}, treeSettings, cancel, primitivesDone);
         if (!bvh) return false;
         geometryBoxes[geometry] = bvh->nodes[0].box;
         tree.bvh = std::move(*bvh);

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <cstring>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/CameraController.h"
+#include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
@@ -60,18 +62,20 @@ scene::TexelData toTexelData(const image::Texels& texels) {
 }
 
 std::shared_ptr<const scene::CompiledScene> compileWith(const scene::SceneDesc& desc, bool oneSidedLights,
-                                                        bool generatedAssets,
-                                                        const std::optional<scene::CameraDesc>& camera) {
-    scene::CompileOptions options;
+                                                        scene::CompileOptions options) {
     options.oneSidedLights = oneSidedLights;
-    options.generatedAssets = generatedAssets;
-    options.camera = camera;
     std::map<std::filesystem::path, scene::GltfImages> files; // read once each
     options.loadTexels = [&files](const std::filesystem::path& path, std::optional<std::uint32_t> image) {
-        if (!image) return toTexelData(image::loadTexels(path));
+        if (!image) {
+            const auto bytes = std::make_shared<const std::vector<std::byte>>(image::readTexels(path));
+            return scene::EncodedTexels(image::texelCount(*bytes),
+                                        [bytes, path] { return toTexelData(image::decodeTexels(*bytes, path)); });
+        }
         const scene::GltfImages& images = files.try_emplace(path, path).first->second;
-        return toTexelData(
-            image::decodeTexels(images.encoded(*image), path.string() + ": /images/" + std::to_string(*image)));
+        const std::span<const std::byte> bytes = images.encoded(*image);
+        const std::string name = path.string() + ": /images/" + std::to_string(*image);
+        return scene::EncodedTexels(image::texelCount(bytes),
+                                    [bytes, name] { return toTexelData(image::decodeTexels(bytes, name)); });
     };
     return scene::compileScene(desc, options);
 }
@@ -97,15 +101,21 @@ scene::SceneDesc loadScene(const std::string& source) {
 
 std::shared_ptr<const scene::CompiledScene> compile(const scene::SceneDesc& desc, bool oneSidedLights,
                                                     bool generatedAssets) {
-    return compileWith(desc, oneSidedLights, generatedAssets, std::nullopt);
+    scene::CompileOptions options;
+    options.generatedAssets = generatedAssets;
+    return compileWith(desc, oneSidedLights, options);
 }
 
 std::shared_ptr<const scene::CompiledScene> compile(const SceneRequest& request) {
     const ReadsBelow confined(request.assetsBelow, request.source);
-    const scene::SceneDesc desc = loadScene(request.source);
-    std::optional<scene::CameraDesc> camera;
-    if (!request.pose.empty()) camera = cameraOf(request.pose, desc);
-    return compileWith(desc, request.oneSidedLights, false, camera);
+    std::optional<scene::SceneDesc> desc = loadScene(request.source);
+    scene::CompileOptions options;
+    options.installedMaps = true;
+    if (!request.pose.empty()) options.camera = cameraOf(request.pose, *desc);
+    auto compiled = compileWith(*desc, request.oneSidedLights, options);
+    desc.reset(); // as large as what was made of it, and engines now want memory
+    releaseFreedMemory();
+    return compiled;
 }
 
 scene::CameraDesc poseOf(const std::string& pose, const scene::CameraDesc& scenes) {

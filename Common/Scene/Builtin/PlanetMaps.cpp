@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <system_error>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Paths.h"
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Shared/Base/Random.h"
 
@@ -108,9 +110,18 @@ glm::dvec3 venus(const glm::dvec3& d) {
 struct PlanetMap {
     const char* name;
     glm::dvec3 (*color)(const glm::dvec3&);
+    const char* installed; // file of planetMapFolder(); empty: packages have none
 };
-constexpr std::array<PlanetMap, 4> kMaps = {
-    {{"earth", earth}, {"earth-night", earthNight}, {"mars", mars}, {"venus", venus}}};
+constexpr std::array<PlanetMap, 4> kMaps = {{{"earth", earth, "earth.jpg"},
+                                             {"earth-night", earthNight, "night.jpg"},
+                                             {"mars", mars, ""},
+                                             {"venus", venus, ""}}};
+
+const PlanetMap& mapOf(const std::string& name) {
+    const auto map = std::find_if(kMaps.begin(), kMaps.end(), [&](const PlanetMap& m) { return m.name == name; });
+    if (map == kMaps.end()) throw InputError("stand-in \"" + name + "\": no such map");
+    return *map;
+}
 
 } // namespace
 
@@ -123,9 +134,16 @@ const std::vector<std::string>& planetMapNames() {
     return names;
 }
 
+std::filesystem::path installedPlanetMap(const std::string& name) {
+    const std::filesystem::path folder = planetMapFolder();
+    const std::string file = mapOf(name).installed;
+    std::error_code ignored;
+    if (folder.empty() || file.empty() || !std::filesystem::is_regular_file(folder / file, ignored)) return {};
+    return folder / file;
+}
+
 TexelData makePlanetMap(const std::string& name) {
-    const auto map = std::find_if(kMaps.begin(), kMaps.end(), [&](const PlanetMap& m) { return m.name == name; });
-    if (map == kMaps.end()) throw InputError("stand-in \"" + name + "\": no such map");
+    const PlanetMap& map = mapOf(name);
     TexelData data{kWidth, kHeight, shared::kTexelSrgb8, {}};
     data.words.reserve(std::size_t{kWidth} * kHeight);
     for (std::uint32_t y = 0; y < kHeight; ++y) {
@@ -134,7 +152,7 @@ TexelData makePlanetMap(const std::string& name) {
         for (std::uint32_t x = 0; x < kWidth; ++x) {
             const double phi = 2 * kPi * (x + 0.5) / kWidth;
             const glm::dvec3 d(-std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
-            const glm::dvec3 c = glm::clamp(map->color(d), 0.0, 1.0) * 255.0 + 0.5;
+            const glm::dvec3 c = glm::clamp(map.color(d), 0.0, 1.0) * 255.0 + 0.5;
             data.words.push_back(static_cast<std::uint32_t>(c.x) | static_cast<std::uint32_t>(c.y) << 8 |
                                  static_cast<std::uint32_t>(c.z) << 16 | 0xff000000u);
         }

@@ -14,6 +14,9 @@ namespace rt::scene {
 const std::vector<std::string>& planetMapNames();
 TexelData makePlanetMap(const std::string& name); // one of the names
 
+// A real map of the planet that a package of the system brought; empty: there is none.
+std::filesystem::path installedPlanetMap(const std::string& name);
+
 // "statue": a winged figure on the size and place of the Stanford Lucy model (about 870 units high along +Y from y =
 // 15, facing -X), a closed surface of about 450 000 triangles with normals.
 const std::vector<std::string>& meshStandInNames();

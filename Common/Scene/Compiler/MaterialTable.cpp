@@ -117,21 +117,9 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
 }
 
 bool MaterialTable::mayShowImage(const MaterialDesc& desc) const {
-    const auto* albedo = std::get_if<std::string>(&desc.albedo);
-    if ((albedo && textures_.mayShowImage(*albedo)) || textures_.mayShowImage(desc.emissionTexture)) return true;
-    if (desc.kind != MaterialKind::Principled) return false;
-    const auto shows = [&](const auto& source) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(source)>, NumberOrTexture>)
-            return textures_.mayShowImage(source.texture);
-        else
-            return std::holds_alternative<std::string>(source) && textures_.mayShowImage(std::get<std::string>(source));
-    };
-    const PrincipledDesc& p = desc.principled;
-#define RT_SHOWS(member, usual) || shows(p.member)
-    return textures_.mayShowImage(p.normalTexture) || textures_.mayShowImage(p.clearcoatNormalTexture)
-                                                          RT_PRINCIPLED_NUMBERS(RT_SHOWS)
-                                                              RT_PRINCIPLED_COLORS(RT_SHOWS);
-#undef RT_SHOWS
+    bool shows = false;
+    forEachTexture(desc, [&](const std::string& name) { shows = shows || textures_.mayShowImage(name); });
+    return shows;
 }
 
 } // namespace rt::scene

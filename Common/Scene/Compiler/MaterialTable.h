@@ -12,6 +12,36 @@
 
 namespace rt::scene {
 
+inline bool emits(const MaterialDesc& material) {
+    return material.emission.x > 0 || material.emission.y > 0 || material.emission.z > 0;
+}
+
+// Calls visit(name) for the textures of a material, in the order in which MaterialTable resolves them.
+template <typename Visit>
+void forEachTexture(const MaterialDesc& desc, const Visit& visit) {
+    const auto color = [&](const ColorOrTexture& source) {
+        if (const auto* name = std::get_if<std::string>(&source)) visit(*name);
+    };
+    const auto number = [&](const NumberOrTexture& source) {
+        if (!source.texture.empty()) visit(source.texture);
+    };
+    const auto map = [&](const std::string& name) {
+        if (!name.empty()) visit(name);
+    };
+    color(desc.albedo);
+    if (emits(desc)) map(desc.emissionTexture);
+    if (desc.kind != MaterialKind::Principled) return;
+    const PrincipledDesc& p = desc.principled;
+#define RT_NUMBER(member, usual) number(p.member);
+#define RT_COLOR(member, usual) color(p.member);
+    RT_PRINCIPLED_NUMBERS(RT_NUMBER)
+    RT_PRINCIPLED_COLORS(RT_COLOR)
+#undef RT_NUMBER
+#undef RT_COLOR
+    map(p.normalTexture);
+    map(p.clearcoatNormalTexture);
+}
+
 class MaterialTable {
   public:
     MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out, TextureTable& textures);
@@ -44,9 +74,5 @@ class MaterialTable {
     std::map<float, std::uint32_t> glass_; // by index of refraction: first of glassAlbedos
     std::vector<glm::dvec3> meanEmission_;
 };
-
-inline bool emits(const MaterialDesc& material) {
-    return material.emission.x > 0 || material.emission.y > 0 || material.emission.z > 0;
-}
 
 } // namespace rt::scene

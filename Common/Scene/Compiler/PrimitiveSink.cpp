@@ -39,6 +39,13 @@ shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
     return shared::vec4(glm::dvec4(glm::normalize(along), sign));
 }
 
+// For `count` more elements: all at once where they are many, and as a vector does where they come in small pieces.
+template <typename T>
+void makeRoom(std::vector<T>& values, std::size_t count) {
+    if (const std::size_t needed = values.size() + count; needed > values.capacity())
+        values.reserve(std::max(needed, 2 * values.size()));
+}
+
 bool isExcluded(Part part, bool isShareable) {
     return part == Part::Shared ? !isShareable : part == Part::Rest && isShareable;
 }
@@ -271,6 +278,15 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     const bool hasLights = isLight(mesh.material, light);
     mesh.firstLight = hasLights ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
     const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
+
+    const std::size_t vertices = positions.size();
+    makeRoom(out_.triangles, triangles.size());
+    makeRoom(out_.triangleMesh, triangles.size());
+    makeRoom(out_.positions, vertices);
+    if (!data.normals.empty()) makeRoom(out_.normals, vertices);
+    if (!data.uvs.empty()) makeRoom(out_.uvs, vertices);
+    if (!data.colors.empty()) makeRoom(out_.colors, vertices);
+    if (!data.tangents.empty()) makeRoom(out_.tangents, vertices);
 
     // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
     std::vector<std::uint32_t> renamed(positions.size(), shared::kNone);

@@ -13,6 +13,7 @@
 #include "Common/Scene/Compiler/PrimitiveSink.h"
 #include "Common/Scene/Compiler/SceneHash.h"
 #include "Common/Scene/Compiler/TextureTable.h"
+#include "Common/Scene/Compiler/TexturesInUse.h"
 
 namespace rt::scene {
 
@@ -43,6 +44,7 @@ class Compiler {
         out_->globals.origin = shared::vec3(out_->origin);
         const Affine toWorld = translation(-out_->origin);
         const InstancePlan plan(desc_, materials_, models_, toWorld);
+        textures_.loadImages(texturesInUse(desc_, plan, materials_, models_));
         emitWorld(plan, toWorld);
         emitSharedGeometries(plan);
         emitEllipsoids();
@@ -206,7 +208,11 @@ class Compiler {
         }
     }
 
+    // Arrays were made without knowing their length.
     void finish() {
+#define RT_SHRINK(type, name, ...) out_->name.shrink_to_fit();
+        RT_SCENE_ARRAYS(RT_SHRINK, RT_SHRINK)
+#undef RT_SHRINK
         shared::SceneGlobals& globals = out_->globals;
         globals.mediumCount = static_cast<std::uint32_t>(out_->media.size());
         globals.instanceCount = static_cast<std::uint32_t>(out_->instances.size());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "Common/Scene/CompiledScene.h"
@@ -22,12 +23,23 @@ struct TexelData {
     bool isEncoded = false; // of floats: colours have yet to be decoded
 };
 
+// An image that was found, and read but not decoded.
+struct EncodedTexels {
+    EncodedTexels() = default;
+    EncodedTexels(std::size_t texels, std::function<TexelData()> decode) : count(texels), decoded(std::move(decode)) {}
+    EncodedTexels(TexelData data) : decoded([data = std::move(data)] { return data; }) {}
+
+    std::size_t count = 0;              // of texels, as far as the header tells
+    std::function<TexelData()> decoded; // on any thread; throws InputError
+};
+
 struct CompileOptions {
     bool oneSidedLights = true;   // what emitters do that do not say it themselves
     bool generatedAssets = false; // take stand-ins even where the file exists, so that figures compare across machines
+    bool installedMaps = false;   // take planet maps of the system's packages before those that are generated
     std::optional<CameraDesc> camera; // in place of the scene's, which the compiled scene's origin stays at
     // Reads an image file, or the image of a number in a file of glTF; throws InputError. A scene with images needs it.
-    std::function<TexelData(const std::filesystem::path&, std::optional<std::uint32_t>)> loadTexels;
+    std::function<EncodedTexels(const std::filesystem::path&, std::optional<std::uint32_t>)> loadTexels;
 };
 
 // Flattens groups and nested instances, finds the light table in the geometry, subtracts the camera's authored

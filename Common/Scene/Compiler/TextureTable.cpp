@@ -6,6 +6,8 @@
 #include <filesystem>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Compiler/PerlinTable.h"
 
@@ -26,6 +28,12 @@ const std::array<double, 256>& srgbTable() {
         return linear;
     }();
     return table;
+}
+
+// What two textures of the same texels have in common.
+std::string keyOf(const ImageTexture& source) {
+    return source.file + '\n' + source.standIn + '\n' + (source.image ? std::to_string(*source.image) : "") +
+           (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
 }
 
 std::uint32_t noiseKind(NoiseKind kind) {
@@ -148,23 +156,21 @@ shared::Texture TextureTable::record(const TextureDesc& desc) {
     return texture;
 }
 
-TexelData TextureTable::load(const ImageTexture& source) {
-    const std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_);
+EncodedTexels TextureTable::open(const ImageTexture& source) {
+    std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_);
     if (!path) {
-        out_.notices.push_back(source.file + ": a generated map stands in");
-        return makePlanetMap(source.standIn);
+        const std::filesystem::path installed =
+            options_.installedMaps ? installedPlanetMap(source.standIn) : std::filesystem::path();
+        out_.notices.push_back(source.file + ": " + (installed.empty() ? "a generated map" : installed.string()) +
+                               " stands in");
+        if (installed.empty()) return {0, [name = source.standIn] { return makePlanetMap(name); }};
+        path = installed;
     }
     if (!options_.loadTexels) throw InputError(id_ + ": " + path->string() + ": images cannot be read here");
     return options_.loadTexels(*path, source.image);
 }
 
-std::uint32_t TextureTable::image(const ImageTexture& source) {
-    const std::string key = source.file + '\n' + source.standIn + '\n' +
-                            (source.image ? std::to_string(*source.image) : "") +
-                            (source.colorSpace == ColorSpace::Linear ? "\nlinear" : "");
-    const auto [entry, isNew] = images_.try_emplace(key, shared::kNone);
-    if (!isNew) return entry->second;
-    TexelData data = load(source);
+void TextureTable::append(const ImageTexture& source, TexelData data) {
     shared::Image image{};
     image.firstTexel = static_cast<std::uint32_t>(out_.texels.size());
     image.width = data.width;
@@ -182,7 +188,54 @@ std::uint32_t TextureTable::image(const ImageTexture& source) {
     if (out_.texels.size() > shared::kNone)
         throw InputError(id_ + ": " + source.file + ": all images together exceed 16 GiB");
     out_.images.push_back(image);
-    return entry->second = static_cast<std::uint32_t>(out_.images.size() - 1);
+}
+
+// Few at a time are decoded beside those that are done, and these take their memory once, so that all takes little more
+// than the texels do.
+void TextureTable::loadImages(const std::vector<const ImageTexture*>& sources) {
+    constexpr std::size_t kMostAtATime = 8;
+    std::vector<const ImageTexture*> images;
+    std::vector<EncodedTexels> encoded;
+    std::size_t count = out_.texels.size();
+    for (const ImageTexture* source : sources) {
+        const auto index = static_cast<std::uint32_t>(out_.images.size() + images.size());
+        if (!images_.try_emplace(keyOf(*source), index).second) continue;
+        images.push_back(source);
+        encoded.push_back(open(*source));
+        count += encoded.back().count;
+    }
+    if (images.size() > 1) out_.texels.reserve(count);
+    const std::size_t atATime = std::min(threadCount(0), kMostAtATime);
+    for (std::size_t first = 0; first < images.size(); first += atATime) {
+        std::vector<TexelData> decoded(std::min(atATime, images.size() - first));
+        parallelFor(0, decoded.size(), [&](std::size_t i) {
+            interruptionPoint();
+            decoded[i] = encoded[first + i].decoded();
+            encoded[first + i] = {};
+        });
+        for (std::size_t i = 0; i < decoded.size(); ++i) append(*images[first + i], std::move(decoded[i]));
+    }
+}
+
+void TextureTable::findImages(const std::string& name, int depth, std::vector<const ImageTexture*>& found) const {
+    const auto texture = library_.find(name);
+    if (texture == library_.end()) return;
+    if (const auto* image = std::get_if<ImageTexture>(&texture->second)) found.push_back(image);
+    const auto* checker = std::get_if<CheckerTexture>(&texture->second);
+    if (!checker || depth == 0) return;
+    for (const ColorOrTexture* cube : {&checker->even, &checker->odd})
+        if (const auto* inner = std::get_if<std::string>(cube)) findImages(*inner, depth - 1, found);
+}
+
+void TextureTable::loadImages(const std::vector<std::string>& textures) {
+    std::vector<const ImageTexture*> sources;
+    for (const std::string& name : textures) findImages(name, shared::kMaxCheckerDepth, sources);
+    loadImages(sources);
+}
+
+std::uint32_t TextureTable::image(const ImageTexture& source) {
+    loadImages(std::vector<const ImageTexture*>{&source});
+    return images_.at(keyOf(source));
 }
 
 bool TextureTable::mayShowImage(const std::string& name, int depth) const {

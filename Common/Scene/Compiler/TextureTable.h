@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
@@ -20,8 +21,12 @@ class TextureTable {
     void add(const std::map<std::string, TextureDesc>& textures) { library_.insert(textures.begin(), textures.end()); }
     // Index of the texture, or kNone and `color` set for a constant.
     std::uint32_t resolve(const ColorOrTexture& source, shared::vec3& color);
-    // Index into images of a source, of which wrapping and coordinates do not count; files and stand-ins are read once each. Throws InputError when there is neither.
+    // Index into images of a source, of which wrapping and coordinates do not count; files and stand-ins are read once
+    // each. Throws InputError when there is neither.
     std::uint32_t image(const ImageTexture& source);
+    // Makes the images of textures, those of checkers included, on all threads; in their order. Names that are not
+    // defined are passed over.
+    void loadImages(const std::vector<std::string>& textures);
     // Whether a texture depends on texture coordinates: an image, or a checker of images (or nested deeper than
     // `depth`).
     bool mayShowImage(const std::string& name, int depth = shared::kMaxCheckerDepth) const;
@@ -35,7 +40,10 @@ class TextureTable {
     std::uint32_t child(const ColorOrTexture& source);
     int nesting(const shared::Texture& texture) const; // checkers on the longest way down from it, itself included
     shared::Texture record(const TextureDesc& desc);
-    TexelData load(const ImageTexture& source);
+    void findImages(const std::string& name, int depth, std::vector<const ImageTexture*>& found) const;
+    void loadImages(const std::vector<const ImageTexture*>& sources);
+    EncodedTexels open(const ImageTexture& source);
+    void append(const ImageTexture& source, TexelData data);
 
     const std::string id_; // of the scene, for errors
     std::map<std::string, TextureDesc> library_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -12,6 +13,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/Bounds.h"
@@ -107,31 +109,34 @@ class Importer {
         return instances;
     }
 
-    // The surfaces of a mesh, and its bounds.
-    std::pair<std::vector<ObjectDesc>, Bounds> surfacesOf(const PosedMesh& posed) {
-        std::vector<ObjectDesc> surfaces;
-        Bounds bounds;
+    // A primitive that is to be read, and then was.
+    struct Surface {
+        const tinygltf::Primitive* primitive;
+        GltfMaterials::Use material;
+        const PosedMesh& posed;
+        std::shared_ptr<const std::vector<Affine>> joints;
+        std::string place;
+        MeshData data;
+    };
+
+    // The primitives of a mesh, none of them read yet.
+    void addSurfaces(const PosedMesh& posed, std::vector<Surface>& surfaces) {
         const tinygltf::Mesh& mesh = file_.model.meshes[static_cast<std::size_t>(posed.mesh)];
-        const std::vector<Affine> joints =
-            posed.skin < 0 ? std::vector<Affine>() : jointMaps(file_, posed.skin, nodes_);
-        budget_.spend(joints.size(), "/skins/" + std::to_string(posed.skin));
+        const auto joints = std::make_shared<const std::vector<Affine>>(
+            posed.skin < 0 ? std::vector<Affine>() : jointMaps(file_, posed.skin, nodes_));
+        budget_.spend(joints->size(), "/skins/" + std::to_string(posed.skin));
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             const tinygltf::Primitive& primitive = mesh.primitives[i];
             const std::string place = "/meshes/" + std::to_string(posed.mesh) + "/primitives/" + std::to_string(i);
             if (primitive.extensions.count("KHR_draco_mesh_compression") > 0 && !isTriangles(primitive))
                 file_.fail(place, "is compressed by KHR_draco_mesh_compression, which is not supported");
-            const GltfMaterials::Use& material = materials_.use(primitive.material);
-            const PrimitiveUse use{material.isOpaque, material.tangentSet, posed.weights, joints};
-            budget_.spend(elementCount(file_, primitive, use), place);
-            MeshData data = readPrimitive(file_, primitive, use, place);
-            if (data.triangles.empty()) {
-                ++withoutTriangles_;
-                continue;
-            }
-            for (const glm::dvec3& position : data.positions) bounds.add(position);
-            surfaces.push_back({MeshDesc{std::move(data), material.name, !material.isUnlit}});
+            surfaces.push_back({&primitive, materials_.use(primitive.material), posed, joints, place, {}});
+            budget_.spend(elementCount(file_, primitive, useOf(surfaces.back())), place);
         }
-        return {std::move(surfaces), bounds};
+    }
+
+    static PrimitiveUse useOf(const Surface& surface) {
+        return {surface.material.isOpaque, surface.material.tangentSet, surface.posed.weights, *surface.joints};
     }
 
     // Whether joints move all of a mesh.
@@ -169,24 +174,42 @@ class Importer {
     }
 
     void addMeshes() {
+        const std::map<PosedMesh, std::vector<Affine>> places = placeMeshes();
+        std::vector<Surface> surfaces;
+        for (const auto& [posed, where] : places) addSurfaces(posed, surfaces);
+        parallelFor(0, surfaces.size(), [&](std::size_t i) {
+            Surface& surface = surfaces[i];
+            surface.data = readPrimitive(file_, *surface.primitive, useOf(surface), surface.place);
+        });
+        auto next = surfaces.begin();
         UniqueNames names;
-        for (const auto& [posed, where] : placeMeshes()) {
-            auto [surfaces, bounds] = surfacesOf(posed);
-            if (surfaces.empty()) continue;
-            for (const Affine& toWorld : where) bounds_.add(bounds, toWorld);
-            if (where.size() == 1) {
-                if (!isIdentity(where.front()))
-                    surfaces = {{GroupDesc{toTransform(where.front()), std::move(surfaces)}}};
-                std::move(surfaces.begin(), surfaces.end(), std::back_inserter(scene_.objects));
-                continue;
+        for (const auto& [posed, where] : places) {
+            std::vector<ObjectDesc> objects;
+            Bounds bounds;
+            for (; next != surfaces.end() && &next->posed == &posed; ++next) {
+                if (next->data.triangles.empty()) {
+                    ++withoutTriangles_;
+                    continue;
+                }
+                for (const glm::dvec3& position : next->data.positions) bounds.add(position);
+                objects.push_back({MeshDesc{std::move(next->data), next->material.name, !next->material.isUnlit}});
             }
-            const auto number = static_cast<std::size_t>(posed.mesh);
-            const std::string name = names.unique(file_.model.meshes[number].name, "mesh", number);
-            scene_.prototypes[name] = std::move(surfaces);
-            for (const Affine& toWorld : where)
-                scene_.objects.push_back({InstanceDesc{name, toTransform(toWorld), {}}});
+            if (!objects.empty()) place(static_cast<std::size_t>(posed.mesh), std::move(objects), bounds, where, names);
         }
         if (scene_.objects.empty()) file_.fail("/scenes", "there is no triangle in the scene");
+    }
+
+    void place(std::size_t mesh, std::vector<ObjectDesc> surfaces, const Bounds& bounds,
+               const std::vector<Affine>& where, UniqueNames& names) {
+        for (const Affine& toWorld : where) bounds_.add(bounds, toWorld);
+        if (where.size() == 1) {
+            if (!isIdentity(where.front())) surfaces = {{GroupDesc{toTransform(where.front()), std::move(surfaces)}}};
+            std::move(surfaces.begin(), surfaces.end(), std::back_inserter(scene_.objects));
+            return;
+        }
+        const std::string name = names.unique(file_.model.meshes[mesh].name, "mesh", mesh);
+        scene_.prototypes[name] = std::move(surfaces);
+        for (const Affine& toWorld : where) scene_.objects.push_back({InstanceDesc{name, toTransform(toWorld), {}}});
     }
 
     // ---- cameras and light ------------------------------------------------------------------------------------------

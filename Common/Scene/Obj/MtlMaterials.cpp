@@ -78,6 +78,25 @@ double scaledIor(double ior, double times) {
 
 } // namespace
 
+// ---- colours of vertices -------------------------------------------------------------------------------------------
+
+bool takesVertexColors(const MaterialDesc& material) {
+    return material.kind == MaterialKind::Lambertian || material.kind == MaterialKind::Principled;
+}
+
+MaterialDesc withVertexColors(MaterialDesc material) {
+    if (material.kind == MaterialKind::Principled) return material;
+    material.kind = MaterialKind::Principled;
+    material.principled.specular.factor = 0;
+    return material;
+}
+
+std::string MtlMaterials::addWhite() {
+    const std::string key = prefix_ + names_.unique("vertex colours", "material", keys_.size());
+    model_.materials[key] = withVertexColors({});
+    return key;
+}
+
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 // Name of a texture of the model; empty where there is no image.

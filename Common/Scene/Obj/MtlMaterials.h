@@ -12,6 +12,11 @@
 
 namespace rt::scene {
 
+// Whether the colours of vertices multiply the colour of a material: not those of mirrors and glass.
+bool takesVertexColors(const MaterialDesc& material);
+// The same surface as one that they multiply.
+MaterialDesc withVertexColors(MaterialDesc material);
+
 // Adds them to a model, which must outlive this; the names of materials and textures begin with `prefix`.
 //
 // What is no more than Kd, Ke and their maps becomes a lambertian. Ks, opacity, maps of normals and the PBR extension
@@ -29,6 +34,8 @@ class MtlMaterials {
     void addFile(const std::filesystem::path& file);
     // Key of ObjModel::materials; null: no file has it.
     const std::string* find(std::string_view name) const;
+    // Adds a white one, which the colours of vertices tint, and returns its key.
+    std::string addWhite();
     // What had to be left out, as notices of the model.
     void appendNotices();
 

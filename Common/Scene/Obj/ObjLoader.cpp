@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <istream>
+#include <locale>
 #include <set>
+#include <sstream>
 #include <streambuf>
 #include <string_view>
 #include <tiny_obj_loader.h>
@@ -19,6 +20,7 @@
 #include "Common/Scene/Obj/Polygon.h"
 #include "Common/Scene/Tangents.h"
 #include "Common/Shared/Base/Types.h"
+#include "Common/Shared/Tonemap.h"
 
 namespace rt::scene {
 
@@ -48,49 +50,13 @@ class MemoryBuffer : public std::streambuf {
     }
 };
 
-std::size_t countWords(std::string_view text) {
-    std::size_t count = 0;
-    for (std::string_view rest = trimmed(text.substr(0, text.find_first_of("\r\n"))); !rest.empty(); ++count)
-        rest = trimmed(rest.substr(std::min(rest.find_first_of(" \t"), rest.size())));
-    return count;
-}
-
-// Statements that the parser passes over.
-struct LeftOut {
-    const char* keyword;
-    const char* name;
-    std::size_t count = 0;
-};
-using LeftOuts = std::array<LeftOut, 5>;
-LeftOuts countLeftOut(std::string_view text) {
-    LeftOuts kinds{{{"l", "lines"},
-                    {"p", "points"},
-                    {"curv", "curves"},
-                    {"surf", "free-form surfaces"},
-                    {"f", "faces without corners"}}};
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
-        for (LeftOut& kind : kinds) kind.count += keyword == kind.keyword && (keyword != "f" || keyword == line);
-    }
-    return kinds;
-}
-
-// `6 lines, 2 points`; empty: there is none of them.
-std::string describe(const LeftOuts& kinds) {
-    std::string text;
-    for (const LeftOut& kind : kinds)
-        if (kind.count > 0) text += (text.empty() ? "" : ", ") + std::to_string(kind.count) + " " + kind.name;
-    return text;
-}
-
 // Receives the parser's events.
 class Builder : public tinyobj::MaterialReader {
   public:
-    Builder(const fs::path& path, const MemoryBuffer& buffer, const std::string& prefix)
-        : path_(path), buffer_(buffer), materials_(path.parent_path(), prefix, model_) {}
+    Builder(const fs::path& path, const MemoryBuffer& buffer, bool withColors, const std::string& prefix)
+        : path_(path), buffer_(buffer), withColors_(withColors), materials_(path.parent_path(), prefix, model_) {
+        numbers_.imbue(std::locale::classic());
+    }
 
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(path_.string() + ":" + std::to_string(buffer_.line()) + ": " + message);
@@ -98,9 +64,9 @@ class Builder : public tinyobj::MaterialReader {
 
     void addPosition(float x, float y, float z) {
         interruptionPoint();
-        checkNumbers(3);
+        const std::string_view rest = checkNumbers(3);
         if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) fail("a coordinate is too large");
-        if (positions_.empty()) hasColors_ = countWords(buffer_.text()) >= 1 + 3 + 3;
+        if (countWords(rest) >= 3) addColor(rest);
         positions_.emplace_back(x, y, z);
         firstVertex_.push_back(shared::kNone);
     }
@@ -164,7 +130,7 @@ class Builder : public tinyobj::MaterialReader {
 
     // Materials are looked up now, as their files may be named anywhere.
     ObjModel finish(std::string_view text) {
-        const std::string leftOut = describe(countLeftOut(text));
+        const std::string leftOut = describeLeftOut(text);
         Part plain;
         std::map<std::string, Part> known;
         std::set<std::string> unknown;
@@ -178,10 +144,15 @@ class Builder : public tinyobj::MaterialReader {
             else
                 triangles.insert(triangles.end(), part.triangles.begin(), part.triangles.end());
         }
-        if (!plain.triangles.empty()) model_.parts.push_back({{}, toMesh(plain.triangles)});
+        if (!plain.triangles.empty()) {
+            model_.parts.push_back({{}, toMesh(plain.triangles, true)});
+            if (!model_.parts.back().mesh.colors.empty()) model_.parts.back().material = materials_.addWhite();
+        }
         for (auto& [material, part] : known) {
-            model_.parts.push_back({material, toMesh(part.triangles)});
+            const bool isTinted = takesVertexColors(model_.materials.at(material));
+            model_.parts.push_back({material, toMesh(part.triangles, isTinted)});
             MeshData& mesh = model_.parts.back().mesh;
+            if (!mesh.colors.empty()) model_.materials.at(material) = withVertexColors(model_.materials.at(material));
             const bool hasMap = !model_.materials.at(material).principled.normalTexture.empty();
             if (hasMap && !mesh.uvs.empty()) addTangents(mesh, 0);
         }
@@ -195,7 +166,11 @@ class Builder : public tinyobj::MaterialReader {
         if (!unknown.empty())
             model_.notices.push_back(
                 path_.string() + ": materials that none of its material files has, grey instead: " + listed(unknown));
-        if (hasColors_) model_.notices.push_back(path_.string() + ": the colours of vertices are left out");
+        if (uncoloredParts_ > 0)
+            model_.notices.push_back(path_.string() + ": the colours of vertices are left out of " +
+                                     std::to_string(uncoloredParts_) +
+                                     (uncoloredParts_ == 1 ? " material" : " materials") +
+                                     ": mirrors and glass take none, and every vertex must have one");
         materials_.appendNotices();
         return std::move(model_);
     }
@@ -204,8 +179,8 @@ class Builder : public tinyobj::MaterialReader {
     static constexpr std::uint32_t kNone = shared::kNone;
 
     // The parser takes what is no number for 0: the first `count` fields behind the keyword of the line at hand must be
-    // numbers.
-    void checkNumbers(int count) const {
+    // numbers. Returns what is behind them.
+    std::string_view checkNumbers(int count) const {
         constexpr const char* kSpace = " \t\r\n";
         std::string_view rest = buffer_.text();
         rest.remove_prefix(std::min(rest.find_first_not_of(kSpace), rest.size()));
@@ -217,7 +192,23 @@ class Builder : public tinyobj::MaterialReader {
             if (field.find_first_not_of("+-.0123456789eE") != field.npos)
                 fail("\"" + std::string(field) + "\" is not a finite number");
         }
+        rest.remove_prefix(std::min(rest.find_first_of(kSpace), rest.size()));
+        return rest;
     }
+
+    // Red, green and blue behind the position that is added next, encoded as in images: no specification has them, and
+    // Blender's importer reads them so. Vertices before them that have none are -1.
+    void addColor(std::string_view text) {
+        if (!withColors_) return;
+        glm::vec3 color(0);
+        numbers_.clear();
+        numbers_.str(std::string(text.substr(0, text.find_first_of("\r\n"))));
+        if (!(numbers_ >> color.r >> color.g >> color.b)) fail("the colour of a vertex must be three finite numbers");
+        colors_.resize(positions_.size(), glm::vec3(-1));
+        for (int c = 0; c < 3; ++c) color[c] = shared::srgbDecode(std::clamp(color[c], 0.0f, 1.0f));
+        colors_.push_back(color);
+    }
+    bool hasColor(std::uint32_t position) const { return position < colors_.size() && colors_[position].r >= 0; }
 
     // A combination of indices that some corner has; those of one position are chained.
     struct Vertex {
@@ -265,10 +256,10 @@ class Builder : public tinyobj::MaterialReader {
         return index;
     }
 
-    MeshData toMesh(std::vector<glm::uvec3>& triangles) {
+    MeshData toMesh(std::vector<glm::uvec3>& triangles, bool takesColors) {
         MeshData mesh;
         renamed_.assign(vertices_.size(), kNone);
-        bool hasNormals = true, hasUvs = true;
+        bool hasNormals = true, hasUvs = true, hasColors = takesColors, hasAnyColor = false;
         std::vector<std::uint32_t> used;
         for (glm::uvec3& t : triangles)
             for (int i = 0; i < 3; ++i) {
@@ -278,6 +269,9 @@ class Builder : public tinyobj::MaterialReader {
                     used.push_back(t[i]);
                     hasNormals = hasNormals && vertices_[t[i]].normal != kNone;
                     hasUvs = hasUvs && vertices_[t[i]].uv != kNone;
+                    const bool isColored = hasColor(vertices_[t[i]].position);
+                    hasColors = hasColors && isColored;
+                    hasAnyColor = hasAnyColor || isColored;
                 }
                 t[i] = name;
             }
@@ -287,18 +281,23 @@ class Builder : public tinyobj::MaterialReader {
             mesh.positions.emplace_back(positions_[v.position]);
             if (hasNormals) mesh.normals.emplace_back(normals_[v.normal]);
             if (hasUvs) mesh.uvs.emplace_back(uvs_[v.uv]);
+            if (hasColors) mesh.colors.emplace_back(colors_[v.position], 1);
         }
+        uncoloredParts_ += hasAnyColor && !hasColors;
         return mesh;
     }
 
     const fs::path& path_;
     const MemoryBuffer& buffer_;
+    const bool withColors_;
     ObjModel model_;
     MtlMaterials materials_;
     std::set<fs::path> files_; // of materials, read
     std::set<std::string> missingFiles_;
-    bool hasColors_ = false; // red, green and blue behind each position, as some programs write
     std::vector<glm::vec3> positions_, normals_;
+    std::vector<glm::vec3> colors_;  // linear, of as many positions as the last that has one; -1: it has none
+    std::istringstream numbers_;     // scratch
+    std::size_t uncoloredParts_ = 0; // some of whose vertices have colours that do not count
     std::vector<glm::vec2> uvs_;
     std::vector<Vertex> vertices_;
     std::vector<std::uint32_t> firstVertex_; // of each position
@@ -325,7 +324,7 @@ ObjModel loadObj(const fs::path& path, bool withMaterials, const std::string& pr
     std::vector<std::byte> bytes = readText(path);
     MemoryBuffer buffer(bytes);
     std::istream stream(&buffer);
-    Builder target(path, buffer, prefix);
+    Builder target(path, buffer, withMaterials, prefix);
     tinyobj::callback_t events;
     events.vertex_cb = [](void* user, float x, float y, float z, float) { builder(user).addPosition(x, y, z); };
     events.normal_cb = [](void* user, float x, float y, float z) { builder(user).addNormal(x, y, z); };

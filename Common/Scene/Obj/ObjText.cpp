@@ -1,6 +1,7 @@
 #include "Common/Scene/Obj/ObjText.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <system_error>
 
@@ -64,6 +65,29 @@ fs::path portable(std::string_view name) {
     return path;
 }
 
+// Statements that the parser passes over.
+struct LeftOut {
+    const char* keyword;
+    const char* name;
+    std::size_t count = 0;
+};
+using LeftOuts = std::array<LeftOut, 5>;
+LeftOuts countLeftOut(std::string_view text) {
+    LeftOuts kinds{{{"l", "lines"},
+                    {"p", "points"},
+                    {"curv", "curves"},
+                    {"surf", "free-form surfaces"},
+                    {"f", "faces without corners"}}};
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = trimmed(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+        const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
+        for (LeftOut& kind : kinds) kind.count += keyword == kind.keyword && (keyword != "f" || keyword == line);
+    }
+    return kinds;
+}
+
 } // namespace
 
 std::vector<std::byte> readText(const fs::path& path) {
@@ -94,6 +118,20 @@ fs::path findNamed(std::string_view name, const fs::path& folder) {
 fs::path findMoved(std::string_view name, const fs::path& folder) {
     const fs::path path = findNamed(name, folder);
     return path.empty() ? findNamed(portable(name).filename().string(), folder) : path;
+}
+
+std::size_t countWords(std::string_view line) {
+    std::size_t count = 0;
+    for (std::string_view rest = trimmed(line.substr(0, line.find_first_of("\r\n"))); !rest.empty(); ++count)
+        rest = trimmed(rest.substr(std::min(rest.find_first_of(" \t"), rest.size())));
+    return count;
+}
+
+std::string describeLeftOut(std::string_view text) {
+    std::string described;
+    for (const LeftOut& kind : countLeftOut(text))
+        if (kind.count > 0) described += (described.empty() ? "" : ", ") + std::to_string(kind.count) + " " + kind.name;
+    return described;
 }
 
 std::string listed(const std::set<std::string>& names) {

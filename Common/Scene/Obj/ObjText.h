@@ -21,6 +21,11 @@ std::filesystem::path findNamed(std::string_view name, const std::filesystem::pa
 // at.
 std::filesystem::path findMoved(std::string_view name, const std::filesystem::path& folder);
 
+std::size_t countWords(std::string_view line);
+
+// The statements that are no faces, which alone are rendered: `6 lines, 2 points`; empty: there is none of them.
+std::string describeLeftOut(std::string_view text);
+
 // `"a"`, `"a" and "b"`, `"a", "b", "c" and 7 others`; not of nothing.
 std::string listed(const std::set<std::string>& names);
 

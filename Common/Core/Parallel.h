@@ -16,6 +16,8 @@
 #include <tbb/parallel_for.h>
 #endif
 
+#include "Common/Core/Interruption.h"
+
 #if defined(__SANITIZE_THREAD__)
 #define RT_THREADS_SANITIZED 1
 #elif defined(__has_feature)
@@ -24,7 +26,7 @@
 #endif
 #endif
 
-namespace rt::accel {
+namespace rt {
 
 inline std::size_t threadCount(std::size_t threads) {
     return threads != 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
@@ -34,17 +36,17 @@ inline std::size_t threadCount(std::size_t threads) {
 // the program if one could not be started later, when memory has run short.
 bool canStartThreads();
 
-// The first exception of work on several threads, which must not leave a parallel algorithm: that would end the
-// program.
+// The exception of work on several threads, which must not leave a parallel algorithm: that would end the program. Of
+// several the one of the least order, or else the first.
 class FirstFailure {
   public:
     template <class Function>
-    void guard(const Function& function) {
+    void guard(const Function& function, std::size_t order = 0) {
         try {
             function();
         } catch (...) {
             const std::scoped_lock lock(mutex_);
-            if (!exception_) exception_ = std::current_exception();
+            if (!exception_ || order < order_) exception_ = std::current_exception(), order_ = order;
             happened_.store(true, std::memory_order_relaxed);
         }
     }
@@ -57,6 +59,7 @@ class FirstFailure {
   private:
     std::mutex mutex_;
     std::exception_ptr exception_;
+    std::size_t order_ = 0;
     std::atomic<bool> happened_{false};
 };
 
@@ -74,8 +77,9 @@ void onThreads(std::size_t count, const Work& work) {
 #endif
 
 // Calls f(i) once for each i in [0, count), on up to `threads` threads (0: as many as the machine has). Calls start in
-// order of i, so the largest pieces of work belong first. When one throws, no more are started, and the first exception
-// is thrown again when those that run are done.
+// order of i, so the largest pieces of work belong first. When one throws, no more are started, and when those that run
+// are done the exception of the least i is thrown again: the same for any number of threads. Who may call this thread's
+// work off (Interruption.h) calls off the others' as well.
 template <class Function>
 void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
     const std::size_t workers = std::min(threadCount(threads), count);
@@ -87,12 +91,12 @@ void parallelFor(std::size_t threads, std::size_t count, const Function& f) {
     }
     std::atomic<std::size_t> next{0};
     FirstFailure failure;
+    const std::atomic<bool>* callOff = interruptionFlag();
     const auto work = [&](std::size_t) {
-        failure.guard([&] {
-            for (std::size_t i; !failure.happened() && (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
-                f(i);
-            }
-        });
+        const Interruptible likeTheCaller(callOff);
+        for (std::size_t i; !failure.happened() && (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) {
+            failure.guard([&] { f(i); }, i);
+        }
     };
 #if defined(RT_THREADS_SANITIZED)
     onThreads(workers, work);
@@ -120,4 +124,4 @@ struct Chunks {
     std::size_t items_;
 };
 
-} // namespace rt::accel
+} // namespace rt
