@@ -20,6 +20,7 @@
 #include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "RayTracingCPU/KernelArgs.h"
+#include "RayTracingCPU/TileBatch.h"
 #include "RayTracingCPU/Workers.h"
 
 namespace rt::cpu {
@@ -230,7 +231,7 @@ class CpuEngine final : public app::Engine {
         task.count = samples;
         task.sum = sum;
         const Clock::time_point start = Clock::now();
-        kernel_->renderTile(context_, task, counters);
+        kernel_->renderTiles(context_, {&task, 1}, nullptr, counters);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
         const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow);
         return static_cast<float>((cost == app::Cost::Time ? seconds : rays) / samples);
@@ -274,48 +275,20 @@ class CpuEngine final : public app::Engine {
         std::atomic<std::uint32_t> next{nextTile_};
         std::atomic<bool> abandoned{false};
         runWorkers(policy_, threads_, [&](std::uint32_t) {
-            KernelCounters counters;
-            for (;;) {
+            TileBatch batch(*kernel_, context_, film_, cancel);
+            bool isDone = true;
+            do {
                 const std::uint32_t position = next.fetch_add(1, std::memory_order_relaxed);
                 if (position >= tiles_.size()) break;
-                if (!renderTile(tiles_[position], cancel, counters)) abandoned.store(true, std::memory_order_relaxed);
-                if (abandoned.load(std::memory_order_relaxed) || Clock::now() >= deadline) break;
-            }
-            addCounters(counters);
+                for (std::uint32_t replicate = 0; isDone && replicate < settings_.replicates; ++replicate)
+                    isDone = batch.add(tiles_[position], replicate, replicateSamples(passEnd_, replicate));
+            } while (isDone && !abandoned.load(std::memory_order_relaxed) && Clock::now() < deadline);
+            if (!isDone || !batch.flush()) abandoned.store(true, std::memory_order_relaxed);
+            addCounters(batch.counters());
         });
         // After an interruption tiles below `next` may be unfinished: the pass starts over, and finished tiles are
         // skipped.
         nextTile_ = abandoned.load() ? 0 : std::min(next.load(), static_cast<std::uint32_t>(tiles_.size()));
-    }
-
-    bool renderTile(std::uint32_t tile, const std::atomic<bool>* cancel, KernelCounters& counters) {
-        const std::uint32_t x = tile % film_.tilesX() * Film::kTile;
-        const std::uint32_t y = tile / film_.tilesX() * Film::kTile;
-        Film::TileBlock block;
-        for (std::uint32_t replicate = 0; replicate < settings_.replicates; ++replicate) {
-            std::uint32_t end = replicateSamples(passEnd_, replicate);
-            if (film_.hasPlan()) end = std::min(end, film_.planEnd(tile, replicate));
-            while (film_.samples(tile, replicate) < end) {
-                film_.begin(tile, replicate, block);
-                TileTask task;
-                task.x = x;
-                task.y = y;
-                task.width = std::min(Film::kTile, settings_.width - x);
-                task.height = std::min(Film::kTile, settings_.height - y);
-                task.stride = Film::kTile;
-                task.replicate = replicate;
-                task.first = block.firstSample + block.count;
-                task.count = std::min(Film::kBlock - block.count, end - task.first);
-                task.sum = block.sum;
-                if (film_.hasPlan()) task.plan = film_.plan(tile, replicate).data();
-                if (film_.isPilot()) task.squares = block.squares;
-                task.cancel = cancel;
-                if (!kernel_->renderTile(context_, task, counters)) return false;
-                block.count += task.count;
-                film_.commit(tile, replicate, block);
-            }
-        }
-        return true;
     }
 
     void addCounters(const KernelCounters& counters) {

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <cstdint>
+#include <span>
 
 #include "Common/Accel/Traverse/RayQuery.h"
 #include "Common/Shared/Base/SceneAccess.h"
@@ -35,14 +36,22 @@ struct TileTask {
     const std::uint32_t* plan = nullptr; // of each pixel, as sum: index at which its samples end before the others'
     float* sum = nullptr;                // RGB a pixel: continued, not cleared
     float* squares = nullptr;            // likewise, of the samples' squares, if they are wanted
-    const std::atomic<bool>* cancel = nullptr;
 
     std::uint32_t samplesOf(std::uint32_t column, std::uint32_t row) const {
         if (plan == nullptr) return count;
         const std::uint32_t end = plan[row * stride + column];
         return end <= first ? 0 : end - first < count ? end - first : count;
     }
+    std::uint32_t samples() const {
+        if (plan == nullptr) return count * width * height;
+        std::uint32_t total = 0;
+        for (std::uint32_t row = 0; row < height; ++row)
+            for (std::uint32_t column = 0; column < width; ++column) total += samplesOf(column, row);
+        return total;
+    }
 };
+
+inline constexpr std::uint32_t kBatchSamples = 1024; // of all tasks that a kernel is given at a time: a block of a tile
 
 // First-hit features of one row, averaged over samples 0 .. count - 1; null planes are not computed.
 struct AovTask {
@@ -63,8 +72,9 @@ struct KernelContext {
 struct Kernel {
     std::uint32_t features;
     const char* name;
-    // False: cancelled, the task's sums are not usable.
-    bool (*renderTile)(const KernelContext&, const TileTask&, KernelCounters&);
+    // At most kBatchSamples in all tasks. False: cancelled, the tasks' sums are not usable.
+    bool (*renderTiles)(const KernelContext&, std::span<const TileTask>, const std::atomic<bool>* cancel,
+                        KernelCounters&);
     void (*renderAovs)(const KernelContext&, const AovTask&);
 };
 

@@ -11,8 +11,8 @@ using namespace rt::shared;
 
 // ---- tiles ---------------------------------------------------------------------------------------------------------
 
-// A sample that is not a number is dropped and counted, and stays in the divisor.
-void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& counters) {
+// Takes the first of the radiances. A sample that is not a number is dropped and counted, and stays in the divisor.
+void addRadiances(const TileTask& task, const vec3*& radiances, KernelCounters& counters) {
     for (std::uint32_t y = 0; y < task.height; ++y) {
         for (std::uint32_t x = 0; x < task.width; ++x) {
             const std::uint32_t pixel = 3 * (y * task.stride + x);
@@ -38,11 +38,13 @@ void addRadiances(const TileTask& task, const vec3* radiances, KernelCounters& c
 }
 
 template <std::uint32_t kFeatures>
-bool renderTile(const KernelContext& context, const TileTask& task, KernelCounters& counters) {
-    vec3 radiances[image::Film::kTilePixels * image::Film::kBlock];
-    const bool isDone = PathPacket<kFeatures>(context, task, radiances, counters).trace();
-    if (isDone) addRadiances(task, radiances, counters);
-    return isDone;
+bool renderTiles(const KernelContext& context, std::span<const TileTask> tasks, const std::atomic<bool>* cancel,
+                 KernelCounters& counters) {
+    vec3 radiances[kBatchSamples];
+    if (!PathPacket<kFeatures>(context, tasks, cancel, radiances, counters).trace()) return false;
+    const vec3* next = radiances;
+    for (const TileTask& task : tasks) addRadiances(task, next, counters);
+    return true;
 }
 
 // Not worth a specialisation: one first hit a sample.
@@ -92,7 +94,7 @@ constexpr std::uint32_t kBookFeatures =
 
 template <std::uint32_t kFeatures>
 constexpr Kernel makeKernel(const char* name) {
-    return {kFeatures, name, &renderTile<kFeatures>, &renderAovs};
+    return {kFeatures, name, &renderTiles<kFeatures>, &renderAovs};
 }
 
 constexpr Kernel kKernels[kKernelCount] = {

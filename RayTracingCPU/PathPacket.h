@@ -1,4 +1,4 @@
-// Paths on the CPU: sixteen of a tile's make a packet and go from vertex to vertex together, and as soon as one ends
+// Paths on the CPU: sixteen make a packet and go from vertex to vertex together, and as soon as one ends
 // the next takes its slot. An iteration takes every path through the stages of PathStep.h, one stage after the other
 // for all of them: what is arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one
 // translation unit per instruction set; all it defines has internal linkage.
@@ -14,7 +14,7 @@ using namespace rt::shared;
 // A path under way.
 struct PathSlot {
     PathState path;
-    uint sample = kNone; // of the tile; kNone: there is no path
+    uint sample = kNone; // of TileSamples; kNone: there is no path
 };
 
 // Which of the slots an iteration has to do with, a bit a slot.
@@ -80,12 +80,13 @@ RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& 
 template <uint kFeatures>
 class PathPacket {
   public:
-    // radiances: of the tile's samples, in the order of TileSamples.
-    PathPacket(const KernelContext& context, const TileTask& task, vec3* radiances, KernelCounters& counters)
+    // radiances: of the tasks' samples, in the order of TileSamples.
+    PathPacket(const KernelContext& context, std::span<const TileTask> tasks, const std::atomic<bool>* cancel,
+               vec3* radiances, KernelCounters& counters)
         : scene_(*context.scene),
           params_(context.params),
-          cancel_(task.cancel),
-          samples_(context, task),
+          cancel_(cancel),
+          samples_(context, tasks),
           radiances_(radiances),
           counters_(counters) {}
 

@@ -1,4 +1,4 @@
-// The samples of a tile, whose paths begin sixteen at a time. Included by one translation unit per instruction set; all
+// The samples of some tiles, whose paths begin sixteen at a time. Included by one translation unit per instruction set; all
 // it defines has internal linkage.
 #pragma once
 #include "RayTracingCPU/SampleLanes.h"
@@ -8,14 +8,13 @@ namespace {
 
 using namespace rt::shared;
 
-// Camera rays of the samples of a tile, pixel by pixel, and what they hit.
+// Camera rays of the samples of tiles, pixel by pixel, and what they hit.
 class TileSamples {
   public:
-    TileSamples(const KernelContext& context, const TileTask& task)
-        : context_(context), task_(task), inPixel_(task.samplesOf(0u, 0u)) {
-        for (uint y = 0u; y < task.height; ++y) {
-            for (uint x = 0u; x < task.width; ++x) count_ += task.samplesOf(x, y);
-        }
+    // There is at least one task.
+    TileSamples(const KernelContext& context, std::span<const TileTask> tasks)
+        : context_(context), task_(tasks.data()), inPixel_(task_->samplesOf(0u, 0u)) {
+        for (const TileTask& task : tasks) count_ += task.samples();
     }
 
     // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is
@@ -43,14 +42,14 @@ class TileSamples {
             const bool isSample = next_ + i < count_; // those behind the last stay in its pixel
             while (isSample && sampleInPixel_ == inPixel_) nextPixel();
             if (sampleInPixel_ == 0u) {
-                const uint index = (task_.y + y_) * context_.params.width + task_.x + x_;
-                first_ = makeSampler(context_.params, index, task_.replicate, task_.first);
+                const uint index = (task_->y + y_) * context_.params.width + task_->x + x_;
+                first_ = makeSampler(context_.params, index, task_->replicate, task_->first);
             }
             Sampler s = first_;
             s.index += sampleInPixel_++;
             set(samplers_, i, s);
-            x.at[i] = task_.x + x_;
-            y.at[i] = task_.y + y_;
+            x.at[i] = task_->x + x_;
+            y.at[i] = task_->y + y_;
         }
         RecordLanes<CameraSamples> u;
         const RenderParams params = context_.params; // of this function, so that no lane could overlap them
@@ -73,18 +72,21 @@ class TileSamples {
 
     void nextPixel() {
         sampleInPixel_ = 0u;
-        if (++x_ == task_.width) {
+        if (++x_ == task_->width) {
             x_ = 0u;
-            ++y_;
+            if (++y_ == task_->height) {
+                y_ = 0u;
+                ++task_;
+            }
         }
-        inPixel_ = task_.samplesOf(x_, y_);
+        inPixel_ = task_->samplesOf(x_, y_);
     }
 
     const KernelContext& context_;
-    const TileTask& task_;
-    uint count_ = 0u; // samples
-    uint next_ = 0u;  // sample of the tile
-    uint x_ = 0u;     // of the pixel in the tile
+    const TileTask* task_; // of the next sample
+    uint count_ = 0u;      // samples
+    uint next_ = 0u;       // sample of the tiles
+    uint x_ = 0u;          // of the pixel in the tile
     uint y_ = 0u;
     uint inPixel_; // samples
     uint sampleInPixel_ = 0u;

@@ -5,9 +5,8 @@
 #include <vector>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ErrorEstimate.h"
-#include "Common/Image/Metrics.h"
 #include "Common/Image/Summary.h"
+#include "tests/image/EstimateRatios.h"
 #include "tests/image/Harness.h"
 
 namespace rt::test {
@@ -15,46 +14,10 @@ namespace {
 
 constexpr std::uint32_t kSeeds = 40;
 
-// Of one seed, by its own replicates.
-struct Run {
-    image::Image picture;
-    double estimated = 0;
-};
-
-std::vector<Run> renderSeeds(app::Engine& engine, const scene::CompiledScene& scene, app::RenderSettings settings) {
-    std::vector<Run> runs(kSeeds);
-    for (Run& run : runs) {
-        ++settings.seed;
-        engine.reset(scene.camera, settings);
-        while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-        }
-        run.picture = engine.film().resolve();
-        run.estimated = image::estimateRelMse(run.picture, engine.film().varianceOfMean()).value;
-    }
-    return runs;
-}
-
-// Estimated over measured relMSE of each run. It is measured against the mean of the other runs, whose own variance is
-// subtracted.
-std::vector<double> ratios(const std::vector<Run>& runs) {
-    const std::size_t values = runs[0].picture.data.size();
-    constexpr double kOthers = kSeeds - 1.0;
-    std::vector<double> measured(runs.size());
-    for (std::size_t i = 0; i < values; ++i) {
-        double sum = 0, squares = 0;
-        for (const Run& run : runs) {
-            sum += double{run.picture.data[i]};
-            squares += double{run.picture.data[i]} * double{run.picture.data[i]};
-        }
-        const double variance = (squares - sum * sum / kSeeds) / kOthers;
-        for (std::size_t r = 0; r < runs.size(); ++r) {
-            const double value = runs[r].picture.data[i], reference = (sum - value) / kOthers;
-            const double square = (value - reference) * (value - reference) - variance / kOthers;
-            measured[r] += square / (reference * reference + image::kRelativeFloor) / static_cast<double>(values);
-        }
-    }
-    std::vector<double> result;
-    for (std::size_t r = 0; r < runs.size(); ++r) result.push_back(runs[r].estimated / measured[r]);
+// Estimated over measured relMSE of each run.
+std::vector<double> ratios(const std::vector<EstimatedRun>& runs) {
+    std::vector<double> result = measuredErrors(runs);
+    for (std::size_t r = 0; r < runs.size(); ++r) result[r] = runs[r].estimated.value / result[r];
     return result;
 }
 
@@ -71,7 +34,7 @@ TEST(ErrorEstimate, HoldsOnScenesWithFireflies) {
             app::RenderSettings settings = smallSettings(40, spp);
             settings.replicates = 4;
             settings.sampler = sampler;
-            const std::vector<double> of = ratios(renderSeeds(*engine, *scene, settings));
+            const std::vector<double> of = ratios(renderSeeds(*engine, *scene, settings, kSeeds));
             EXPECT_NEAR(image::median(of), 1, 0.15) << id << ", " << spp << " spp, " << describe(settings);
             all += of.size();
             low += static_cast<std::size_t>(std::count_if(of.begin(), of.end(), [](double r) { return r < 0.8; }));
