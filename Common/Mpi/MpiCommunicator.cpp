@@ -5,6 +5,7 @@
 #include <list>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #define OMPI_SKIP_MPICXX 1 // the C++ bindings are not used
@@ -23,6 +24,7 @@ namespace rt::app {
 namespace {
 
 constexpr std::chrono::milliseconds kPush{20};
+constexpr std::chrono::microseconds kPushPause{100};
 
 // MPI's default is to end all ranks when one of its calls fails, so results are not looked at.
 class MpiCommunicator final : public Communicator {
@@ -81,11 +83,15 @@ class MpiCommunicator final : public Communicator {
     };
 
     // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is asleep
-    // between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped.
+    // between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped. The pauses leave the
+    // processor to threads that render.
     void push() {
         const auto begin = std::chrono::steady_clock::now();
-        do forgetSent();
-        while (rank_ != 0 && !sending_.empty() && std::chrono::steady_clock::now() - begin < kPush);
+        forgetSent();
+        while (rank_ != 0 && !sending_.empty() && std::chrono::steady_clock::now() - begin < kPush) {
+            std::this_thread::sleep_for(kPushPause);
+            forgetSent();
+        }
     }
 
     void forgetSent() {

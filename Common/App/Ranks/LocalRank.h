@@ -80,6 +80,7 @@ class LocalRank {
 
 // Takes messages from rank 0 to this rank, and back, until rank 0 ends it.
 inline void connect(LocalRank& rank, Communicator& ranks) {
+    IdleWait idle;
     for (bool isEnd = false; !isEnd;) {
         bool any = false;
         for (; auto message = rank.receive(); any = true) ranks.send(0, toBytes(std::move(*message)));
@@ -88,7 +89,10 @@ inline void connect(LocalRank& rank, Communicator& ranks) {
             isEnd = message.kind == MessageKind::End;
             rank.send(std::move(message));
         }
-        if (!any) std::this_thread::sleep_for(kPollInterval);
+        if (any)
+            idle.wake();
+        else
+            idle.rest();
     }
 }
 

@@ -88,6 +88,7 @@ class RankedEngine final : public Engine {
     bool isPart_ = false;          // of the image: renderOnly() has said which
     std::optional<TilePool> pool_; // from the first samples on
     Stopwatch clock_;
+    IdleWait idle_;
     double sampling_ = 0; // seconds
     std::vector<RankState> states_;
     std::optional<Error> failure_;       // of a rank
@@ -123,7 +124,10 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
             if (!pool_->isLeased(rank)) lease(rank);
         for (std::size_t rank = 0; rank < states_.size(); ++rank) lease(rank); // ahead
         if (watch.seconds() >= budget.time.count()) break;
-        if (!isBusy) std::this_thread::sleep_for(kPollInterval);
+        if (isBusy)
+            idle_.wake();
+        else
+            idle_.rest();
     }
     sampling_ += watch.seconds();
     return status();

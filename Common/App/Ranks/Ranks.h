@@ -1,15 +1,32 @@
 // A program as one of several ranks: how it joins the others, and how all end.
 #pragma once
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <thread>
 
 #include "Common/App/Ranks/Communicator.h"
 
 namespace rt::app {
 
 inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that waits for messages: nearly idle
+
+// The same for a thread beside others that render: the longer no message came, the longer it sleeps, since every look
+// takes MPI some microseconds of a processor that has better things to do.
+class IdleWait {
+  public:
+    void rest() {
+        std::this_thread::sleep_for(interval_);
+        interval_ = std::min(2 * interval_, kLongest);
+    }
+    void wake() { interval_ = kPollInterval; }
+
+  private:
+    static constexpr std::chrono::milliseconds kLongest{8}; // far less than a lease takes, of which a rank holds two
+    std::chrono::milliseconds interval_ = kPollInterval;
+};
 
 // The ranks of the mpirun that has started this program; null when it was started alone. Throws UsageError where that
 // needs MPI and this program was built without.
