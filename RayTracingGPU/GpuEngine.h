@@ -24,7 +24,8 @@ struct GpuEngineOptions {
     std::optional<double> launchSeconds; // of a launch, at most; else as suits the device
 };
 
-// `context` must outlive the engine. Throws NoDeviceError when its device does not have the engine that is asked for. Failures of the device are RenderErrors; film() then returns the last copy on the host, which is at most
+// `context` must outlive the engine. Throws NoDeviceError when its device does not have the engine that is asked for.
+// Failures of the device are RenderErrors; film() then returns the last copy on the host, which is at most
 // kRefreshSeconds old.
 std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options = {});
 
