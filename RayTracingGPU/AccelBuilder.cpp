@@ -111,7 +111,6 @@ VkDeviceSize AccelBuilder::placeScratch(std::span<Build> builds) {
 }
 
 void AccelBuilder::record(VkCommandBuffer commands, std::span<const Build> builds) const {
-    using vulkan::kStructureRead, vulkan::kStructureTrace, vulkan::kStructureWrite;
     std::vector<VkAccelerationStructureBuildGeometryInfoKHR> infos;
     std::vector<const VkAccelerationStructureBuildRangeInfoKHR*> ranges;
     for (std::size_t i = 0; i < builds.size(); ++i) {
@@ -120,7 +119,7 @@ void AccelBuilder::record(VkCommandBuffer commands, std::span<const Build> build
         if (i + 1 < builds.size() && builds[i + 1].scratchOffset != 0) continue;
         const auto count = static_cast<std::uint32_t>(infos.size());
         context_.rayTracing().cmdBuild(commands, count, infos.data(), ranges.data());
-        vulkan::barrier(commands, kStructureWrite, kStructureRead | kStructureWrite | kStructureTrace);
+        vulkan::barrier(commands, vulkan::kStructureWrite, vulkan::kStructureWrite | context_.structureUses());
         infos.clear();
         ranges.clear();
     }
@@ -172,7 +171,7 @@ AccelStorage AccelBuilder::buildCompacted(std::span<Build> builds) {
             copy.mode = VK_COPY_ACCELERATION_STRUCTURE_MODE_COMPACT_KHR;
             context_.rayTracing().cmdCopy(commands, &copy);
         }
-        vulkan::barrier(commands, vulkan::kStructureWrite, vulkan::kStructureRead | vulkan::kStructureTrace);
+        vulkan::barrier(commands, vulkan::kStructureWrite, context_.structureUses());
     });
     return compacted;
 }

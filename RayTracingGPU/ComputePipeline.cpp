@@ -2,16 +2,17 @@
 
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Pipelines.h"
+#include "Common/Vulkan/ShaderFigures.h"
 
 namespace rt::gpu {
 namespace {
 
-std::string describe(std::uint32_t features, bool isLinear) {
-    std::string name = isLinear ? "list" : "tree";
+std::string describe(std::uint32_t features, bool queries, bool isLinear) {
+    std::string name = queries ? "queries" : isLinear ? "list" : "tree";
     if (shared::has(features, shared::kFeatureTriangles)) name += "+triangles";
     if (shared::has(features, shared::kFeatureQuads)) name += "+quads";
     if (shared::has(features, shared::kFeatureSpheres)) name += "+spheres";
-    if (!isLinear && shared::has(features, shared::kFeatureInstances)) name += "+instances";
+    if ((queries || !isLinear) && shared::has(features, shared::kFeatureInstances)) name += "+instances";
     return name;
 }
 
@@ -19,14 +20,15 @@ std::string describe(std::uint32_t features, bool isLinear) {
 
 ComputePipeline::ComputePipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                  const RenderBindings& bindings, const SpecializationConstants& constants,
-                                 Shader shader)
+                                 Shader shader, bool queries)
     : bindings_(bindings),
-      name_(describe(constants.features, constants.traversal.isLinear != 0)),
+      name_(describe(constants.features, queries, constants.traversal.isLinear != 0)),
       groupSize_(constants.traversal.groupSize) {
     const VkSpecializationInfo specialization = specializationInfo(constants);
     const auto module = vulkan::makeShaderModule(context.device(), shaderCode(shader));
-    pipeline_ = vulkan::makeComputePipeline(context.device(), cache.get(), bindings.layout(), module.get(),
-                                            &specialization, "Creating the compute pipeline");
+    pipeline_ =
+        vulkan::makeComputePipeline(context.device(), cache.get(), bindings.layout(), module.get(), &specialization,
+                                    "Creating the compute pipeline", vulkan::figureFlags(context));
 }
 
 void ComputePipeline::record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,

@@ -1,4 +1,4 @@
-// A compute shader that traces rays on its own.
+// A compute shader that traces rays: on its own, or by ray queries.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,11 +14,13 @@ class ComputePipeline final : public Kernel {
   public:
     // `bindings` must outlive it.
     ComputePipeline(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const RenderBindings& bindings,
-                    const SpecializationConstants& constants, Shader shader);
+                    const SpecializationConstants& constants, Shader shader, bool queries);
 
     vulkan::Access access() const override { return vulkan::kComputeRead | vulkan::kComputeWrite; }
-    // How rays are traced and through what: "list+quads+spheres", "tree+triangles+instances".
+    // How rays are traced and through what: "list+quads+spheres", "tree+triangles+instances",
+    // "queries+spheres".
     const std::string& name() const override { return name_; }
+    VkPipeline pipeline() const override { return pipeline_.get(); }
 
   private:
     void record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,

@@ -4,19 +4,26 @@ namespace {
 
 using std::uint32_t; // the generated headers say uint32_t
 
+#include <Aov.Query.comp.h>
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
+#include <Cost.Full.Query.Time.comp.h>
+#include <Cost.Full.Query.comp.h>
 #include <Cost.Full.Time.comp.h>
 #include <Cost.Full.Time.rgen.h>
 #include <Cost.Full.comp.h>
 #include <Cost.Full.rgen.h>
+#include <Cost.Query.Time.comp.h>
+#include <Cost.Query.comp.h>
 #include <Cost.Time.comp.h>
 #include <Cost.Time.rgen.h>
 #include <Cost.comp.h>
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
 #include <FilmResolve.comp.h>
+#include <PathTrace.Full.Query.comp.h>
 #include <PathTrace.Full.comp.h>
+#include <PathTrace.Query.comp.h>
 #include <PathTrace.comp.h>
 #include <Preview.comp.h>
 #include <Preview.frag.h>
@@ -37,18 +44,32 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
     switch (shader) {
         case Shader::PathCompute:
             return PathTrace_comp;
+        case Shader::PathQuery:
+            return PathTrace_Query_comp;
         case Shader::FullPathCompute:
             return PathTrace_Full_comp;
+        case Shader::FullPathQuery:
+            return PathTrace_Full_Query_comp;
         case Shader::AovCompute:
             return Aov_comp;
+        case Shader::AovQuery:
+            return Aov_Query_comp;
         case Shader::CostCompute:
             return Cost_comp;
+        case Shader::CostQuery:
+            return Cost_Query_comp;
         case Shader::FullCostCompute:
             return Cost_Full_comp;
+        case Shader::FullCostQuery:
+            return Cost_Full_Query_comp;
         case Shader::TimeCompute:
             return Cost_Time_comp;
+        case Shader::TimeQuery:
+            return Cost_Query_Time_comp;
         case Shader::FullTimeCompute:
             return Cost_Full_Time_comp;
+        case Shader::FullTimeQuery:
+            return Cost_Full_Query_Time_comp;
         case Shader::RayGeneration:
             return RayTracing_rgen;
         case Shader::FullRayGeneration:

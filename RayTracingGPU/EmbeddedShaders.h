@@ -7,12 +7,19 @@ namespace rt::gpu {
 
 enum class Shader {
     PathCompute,
+    PathQuery,
     FullPathCompute, // with all code of shared headers, as have others named so, see Shim.h
+    FullPathQuery,
     AovCompute,
+    AovQuery,
     CostCompute,
+    CostQuery,
     FullCostCompute,
+    FullCostQuery,
     TimeCompute,
+    TimeQuery,
     FullTimeCompute,
+    FullTimeQuery,
     RayGeneration,
     FullRayGeneration,
     AovGeneration,

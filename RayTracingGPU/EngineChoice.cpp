@@ -1,22 +1,33 @@
 #include "RayTracingGPU/EngineChoice.h"
 
+#include <algorithm>
+
 #include "Common/Vulkan/Check.h"
 
 namespace rt::gpu {
 
 using app::GpuEngineKind;
 
-bool computeIsFaster(const vulkan::DeviceInfo& device) {
-    return device.isSoftware() || !device.hasRayQueries;
+vulkan::RayTracing neededBy(GpuEngineKind engine) {
+    return engine == GpuEngineKind::Pipeline ? vulkan::RayTracing::Pipeline
+           : engine == GpuEngineKind::Query  ? vulkan::RayTracing::Query
+                                             : vulkan::RayTracing::None;
 }
 
-GpuEngineKind chooseEngine(GpuEngineKind wish, const vulkan::DeviceInfo& device) {
-    if (wish == GpuEngineKind::Pipeline && !device.tracesRays()) {
-        throw vulkan::NoDeviceError(device.name + " has no ray tracing pipeline: it lacks " +
-                                    device.missingForPipeline);
-    }
-    if (wish != GpuEngineKind::Auto) return wish;
-    return device.tracesRays() && !computeIsFaster(device) ? GpuEngineKind::Pipeline : GpuEngineKind::Compute;
+void requireEngine(GpuEngineKind engine, const vulkan::DeviceInfo& device) {
+    if (device.serves(neededBy(engine))) return;
+    const bool isQuery = engine == GpuEngineKind::Query;
+    throw vulkan::NoDeviceError(device.name + " does not have " + (isQuery ? "ray queries" : "a ray tracing pipeline") +
+                                ": it lacks " + (isQuery ? device.missingForQuery : device.missingForPipeline));
+}
+
+std::vector<GpuEngineKind> enginesOf(const vulkan::DeviceInfo& device) {
+    const bool hasHardware = !device.isSoftware() && device.queriesRays();
+    std::vector<GpuEngineKind> engines{GpuEngineKind::Query, GpuEngineKind::Pipeline, GpuEngineKind::Compute};
+    if (hasHardware) std::swap(engines.front(), engines.back());
+    if (hasHardware) std::swap(engines[1], engines[2]);
+    std::erase_if(engines, [&](GpuEngineKind engine) { return !device.serves(neededBy(engine)); });
+    return engines;
 }
 
 } // namespace rt::gpu

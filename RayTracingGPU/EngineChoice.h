@@ -1,18 +1,26 @@
-// Which of the two ways to trace rays a device is served best by.
+// Which ways to trace rays a device has, and how they differ.
 #pragma once
+#include <vector>
+
 #include "Common/App/Options/Names.h"
 #include "Common/Vulkan/DeviceSelection.h"
 
 namespace rt::gpu {
 
-// Whether compute shaders serve better than the device's ray tracing pipelines, which they do where those are programs,
-// too: on a device that is the processor itself, and on a GPU without hardware for rays, which an NVIDIA H200 is
-// (measured there: 2.8 to 3.4 times as fast, from Cornell Box Lights to One Weekend). Vulkan does not tell about
-// hardware; but drivers offer ray queries only with it.
-bool computeIsFaster(const vulkan::DeviceInfo& device);
+// Whether rays go through an acceleration structure of the device, not through a tree of our own.
+inline bool usesAccelStructure(app::GpuEngineKind engine) {
+    return engine != app::GpuEngineKind::Compute;
+}
 
-// `wish`, or for Auto what is there and faster. Throws NoDeviceError when the device has no pipeline and one is wished
-// for.
-app::GpuEngineKind chooseEngine(app::GpuEngineKind wish, const vulkan::DeviceInfo& device);
+// What a device must have for an engine; for Auto nothing beyond compute shaders.
+vulkan::RayTracing neededBy(app::GpuEngineKind engine);
+
+// Throws NoDeviceError when the device does not have what the engine needs.
+void requireEngine(app::GpuEngineKind engine, const vulkan::DeviceInfo& device);
+
+// The engines that a device has, at least one. The last one is likely to be the fastest: compute shaders where
+// pipelines are programs, too, as on a processor and on a GPU without hardware for rays. Vulkan does not tell about
+// hardware; but drivers offer ray queries only with it, or where they are programs themselves.
+std::vector<app::GpuEngineKind> enginesOf(const vulkan::DeviceInfo& device);
 
 } // namespace rt::gpu

@@ -13,6 +13,7 @@
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
+#include "Common/Vulkan/ShaderFigures.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/AovPass.h"
 #include "RayTracingGPU/CostPass.h"
@@ -22,6 +23,7 @@
 #include "RayTracingGPU/Kernels.h"
 #include "RayTracingGPU/LaunchQueue.h"
 #include "RayTracingGPU/Launches.h"
+#include "RayTracingGPU/MeasuredEngine.h"
 #include "RayTracingGPU/Pass.h"
 #include "RayTracingGPU/PreviewPass.h"
 
@@ -37,7 +39,7 @@ class GpuEngine final : public app::Engine {
         : context_(context),
           options_(options),
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
-          engine_(chooseEngine(options.engine, context.info())),
+          engine_(options.engine),
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                     Memory::Device, "constants"),
@@ -85,7 +87,7 @@ class GpuEngine final : public app::Engine {
     vulkan::VulkanContext& context_;
     GpuEngineOptions options_;
     vulkan::PipelineCache cache_;
-    app::GpuEngineKind engine_; // which was chosen
+    app::GpuEngineKind engine_; // not Auto
     RenderBindings bindings_;
     std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer uniforms_;              // RenderConstants
@@ -126,10 +128,10 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     params_ = app::makeRenderParams(scene_->compiled(), settings);
     setFilm(Film(app::filmDesc(settings)));
     uploadConstants(camera);
-    if (engine_ == app::GpuEngineKind::Compute) {
-        bindings_.update(uniforms_, scene_->linearLists());
-    } else {
+    if (usesAccelStructure(engine_)) {
         bindings_.update(uniforms_, scene_->topLevel());
+    } else {
+        bindings_.update(uniforms_, scene_->linearLists());
     }
 
     const SpecializationConstants constants =
@@ -386,7 +388,11 @@ app::EngineReport GpuEngine::report() const {
     report.device = context_.info().name;
     report.features = features_;
     report.lightSampling = app::describeLightShapes(settings_, features_);
-    if (kernel_) report.kernel = kernel_->name();
+    if (kernel_) {
+        report.kernel = kernel_->name();
+        for (const vulkan::ShaderFigure& figure : vulkan::shaderFigures(context_, kernel_->pipeline()))
+            report.shaders.push_back({figure.shader, figure.name, figure.value});
+    }
     if (scene_) report.accelBuildSeconds = scene_->buildSeconds();
     report.deviceBytes = context_.memory().deviceBytes();
     report.longestDispatchSeconds = context_.longestRun();
@@ -396,7 +402,13 @@ app::EngineReport GpuEngine::report() const {
 } // namespace
 
 std::unique_ptr<app::Engine> makeGpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options) {
-    return std::make_unique<GpuEngine>(context, options);
+    requireEngine(options.engine, context.info());
+    if (options.engine != app::GpuEngineKind::Auto) return std::make_unique<GpuEngine>(context, options);
+    const std::vector<app::GpuEngineKind> engines = enginesOf(context.info());
+    if (options.measures && engines.size() > 1) return makeMeasuredEngine(context, options);
+    GpuEngineOptions named = options;
+    named.engine = engines.back();
+    return std::make_unique<GpuEngine>(context, named);
 }
 
 } // namespace rt::gpu

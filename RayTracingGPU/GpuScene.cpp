@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "Common/App/Session/Stopwatch.h"
+#include "RayTracingGPU/EngineChoice.h"
 
 namespace rt::gpu {
 
@@ -19,13 +20,13 @@ GpuScene::GpuScene(vulkan::VulkanContext& context, app::GpuEngineKind engine,
                    std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel)
     : compiled_(std::move(compiled)) {
     const scene::CompiledScene& s = *compiled_;
-    const bool pipeline = engine == app::GpuEngineKind::Pipeline;
+    const bool hasStructure = usesAccelStructure(engine);
     const VkBufferUsageFlags usage = // vertices and triangles are built from
-        pipeline ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR : 0;
+        hasStructure ? VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR : 0;
     shared::forEachArray([&](const char* name, const auto& records,
                              std::uint64_t& address) { address = add(context, records, name, usage); },
                          s, arrays_);
-    if (!pipeline) {
+    if (!hasStructure) {
         buildTree(context, cancel);
         return;
     }

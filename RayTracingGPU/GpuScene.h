@@ -12,8 +12,8 @@
 
 namespace rt::gpu {
 
-// The arrays that exist, and what rays are traced through: the acceleration structure of the pipeline engine, or the
-// tree or the lists of the compute engine. Immutable.
+// The arrays that exist, and what rays are traced through: an acceleration structure of the device, or the tree or the
+// lists of the compute engine. Immutable.
 class GpuScene {
   public:
     // Uploads and builds. Useless when *cancel became true. Throws RenderError.
@@ -28,7 +28,7 @@ class GpuScene {
     const shared::TreeArrays& tree() const { return tree_; }
     double buildSeconds() const { return buildSeconds_; }
 
-    // Of the pipeline engine.
+    // Of engines that usesAccelStructure().
     VkAccelerationStructureKHR topLevel() const { return accel_->topLevel(); }
     // Of the compute engine.
     const vulkan::Buffer& linearLists() const { return linearLists_; }

@@ -22,6 +22,7 @@ class Kernel {
     virtual vulkan::Access access() const = 0;
     // What is part of it, for the statistics.
     virtual const std::string& name() const = 0;
+    virtual VkPipeline pipeline() const = 0;
 
   private:
     virtual void record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,

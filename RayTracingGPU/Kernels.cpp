@@ -13,8 +13,15 @@ constexpr std::uint32_t kInvocations = 1u << 17;     // fill the largest GPUs
 constexpr std::uint32_t kSoftInvocations = 1u << 14; // fill the largest processors
 
 struct Shaders {
-    Shader rayGeneration;
+    Shader pipeline; // ray generation
     Shader compute;
+    Shader query;
+
+    Shader of(app::GpuEngineKind engine) const {
+        return engine == app::GpuEngineKind::Pipeline ? pipeline
+               : engine == app::GpuEngineKind::Query  ? query
+                                                      : compute;
+    }
 };
 
 // What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
@@ -24,18 +31,18 @@ constexpr std::uint32_t kFeaturesOfFull =
 Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {
         case KernelPurpose::FirstHits:
-            return {Shader::AovGeneration, Shader::AovCompute}; // full as well
+            return {Shader::AovGeneration, Shader::AovCompute, Shader::AovQuery}; // full as well
         case KernelPurpose::Rays:
-            return full ? Shaders{Shader::FullCostGeneration, Shader::FullCostCompute}
-                        : Shaders{Shader::CostGeneration, Shader::CostCompute};
+            return full ? Shaders{Shader::FullCostGeneration, Shader::FullCostCompute, Shader::FullCostQuery}
+                        : Shaders{Shader::CostGeneration, Shader::CostCompute, Shader::CostQuery};
         case KernelPurpose::Time:
-            return full ? Shaders{Shader::FullTimeGeneration, Shader::FullTimeCompute}
-                        : Shaders{Shader::TimeGeneration, Shader::TimeCompute};
+            return full ? Shaders{Shader::FullTimeGeneration, Shader::FullTimeCompute, Shader::FullTimeQuery}
+                        : Shaders{Shader::TimeGeneration, Shader::TimeCompute, Shader::TimeQuery};
         case KernelPurpose::Paths:
             break;
     }
-    return full ? Shaders{Shader::FullRayGeneration, Shader::FullPathCompute}
-                : Shaders{Shader::RayGeneration, Shader::PathCompute};
+    return full ? Shaders{Shader::FullRayGeneration, Shader::FullPathCompute, Shader::FullPathQuery}
+                : Shaders{Shader::RayGeneration, Shader::PathCompute, Shader::PathQuery};
 }
 
 } // namespace
@@ -43,16 +50,17 @@ Shaders shadersFor(KernelPurpose purpose, bool full) {
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants) {
-    const Shaders shaders = shadersFor(purpose, shared::has(constants.features, kFeaturesOfFull));
-    if (engine != app::GpuEngineKind::Compute) {
-        return std::make_unique<RtPipeline>(context, cache, bindings, constants, shaders.rayGeneration);
+    const Shader shader = shadersFor(purpose, shared::has(constants.features, kFeaturesOfFull)).of(engine);
+    if (engine == app::GpuEngineKind::Pipeline) {
+        return std::make_unique<RtPipeline>(context, cache, bindings, constants, shader);
     }
-    return std::make_unique<ComputePipeline>(context, cache, bindings, constants, shaders.compute);
+    return std::make_unique<ComputePipeline>(context, cache, bindings, constants, shader,
+                                             engine == app::GpuEngineKind::Query);
 }
 
 std::uint32_t maxInvocations(const vulkan::VulkanContext& context, app::GpuEngineKind engine) {
     const std::uint32_t filling = context.info().isSoftware() ? kSoftInvocations : kInvocations;
-    if (engine == app::GpuEngineKind::Compute) return filling;
+    if (engine != app::GpuEngineKind::Pipeline) return filling;
     return std::min(filling, context.limits().maxInvocations);
 }
 

@@ -1,4 +1,4 @@
-// What the engine runs over pixels and samples, by its purpose, for either way of tracing rays.
+// What the engine runs over pixels and samples, by its purpose, for each way of tracing rays.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -19,7 +19,7 @@ enum class KernelPurpose {
     Time,      // ticks that it takes; of devices with a shader clock
 };
 
-// Of the pipeline or the compute engine. `bindings` must outlive it. Throws RenderError.
+// Of an engine that was chosen. `bindings` must outlive it. Throws RenderError.
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants);

@@ -11,9 +11,11 @@
 
 #include "Common/App/Options/Options.h"
 #include "Common/App/Ranks/Ranks.h"
+#include "Common/App/Session/ForwardingEngine.h"
 #include "Common/App/Session/Session.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
+#include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
 #ifdef RT_HAS_WINDOW
 #include "Common/Gui/App.h"
@@ -23,18 +25,15 @@ namespace {
 
 using rt::app::kGpuProgram;
 
-bool needsRayTracing(rt::app::GpuEngineKind engine) {
-    return engine == rt::app::GpuEngineKind::Pipeline;
-}
-
 // The device is opened only when something is to be rendered.
 class Device {
   public:
     Device(const rt::app::Options& options, const rt::app::Communicator* ranks) : options_(options), ranks_(ranks) {}
     std::unique_ptr<rt::app::Engine> makeEngine() {
         const std::string device = ranks_ == nullptr || !options_.device.empty() ? options_.device : deviceOfRank();
-        context_.emplace(rt::vulkan::ContextOptions{device, options_.validation, needsRayTracing(options_.gpuEngine)});
-        return rt::gpu::makeGpuEngine(*context_, {.engine = options_.gpuEngine});
+        context_.emplace(
+            rt::vulkan::ContextOptions{device, options_.validation, rt::gpu::neededBy(options_.gpuEngine)});
+        return rt::gpu::makeGpuEngine(*context_, {.engine = options_.gpuEngine, .measures = ranks_ == nullptr});
     }
 
   private:
@@ -42,7 +41,7 @@ class Device {
     std::string deviceOfRank() const {
         const rt::vulkan::Instance instance(false);
         const std::vector<std::size_t> places =
-            rt::vulkan::devicesForRanks(rt::vulkan::findDevices(instance), needsRayTracing(options_.gpuEngine));
+            rt::vulkan::devicesForRanks(rt::vulkan::findDevices(instance), rt::gpu::neededBy(options_.gpuEngine));
         return std::to_string(places[static_cast<std::size_t>(ranks_->localRank()) % places.size()]);
     }
 
@@ -67,41 +66,15 @@ rt::ExitCode render(const rt::app::Options& options, rt::app::Communicator* rank
 #ifdef RT_HAS_WINDOW
 
 // An engine and the device that it alone uses.
-class OwningEngine final : public rt::app::Engine {
+class OwningEngine final : public rt::app::ForwardingEngine {
   public:
-    OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind)
-        : context_(options), engine_(rt::gpu::makeGpuEngine(context_, {.engine = kind})) {}
-
-    bool setScene(std::shared_ptr<const rt::scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
-        return engine_->setScene(std::move(scene), cancel);
+    OwningEngine(const rt::vulkan::ContextOptions& options, rt::app::GpuEngineKind kind) : context_(options) {
+        engine_ = rt::gpu::makeGpuEngine(context_, {.engine = kind});
     }
-    void reset(const rt::scene::CameraDesc& camera, const rt::app::RenderSettings& settings) override {
-        engine_->reset(camera, settings);
-    }
-    void restore(rt::image::Film film) override { engine_->restore(std::move(film)); }
-    void renderOnly(rt::image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
-        engine_->renderOnly(std::move(tiles), spp, packed);
-    }
-    rt::app::RenderStatus renderSome(const rt::app::Budget& budget) override { return engine_->renderSome(budget); }
-    const rt::image::Film& film() override { return engine_->film(); }
-    rt::app::Snapshot snapshot() override { return engine_->snapshot(); }
-    rt::app::AovImages renderAovs(const rt::app::AovRequest& request, std::uint32_t samples) override {
-        return engine_->renderAovs(request, samples);
-    }
-    bool knowsCost(rt::app::Cost cost) const override { return engine_->knowsCost(cost); }
-    rt::image::Image renderCost(rt::app::Cost cost, std::uint32_t samples) override {
-        return engine_->renderCost(cost, samples);
-    }
-    bool canPreview() const override { return engine_->canPreview(); }
-    rt::app::Preview renderPreview(const rt::scene::CameraDesc& camera, std::uint32_t width,
-                                   std::uint32_t height) override {
-        return engine_->renderPreview(camera, width, height);
-    }
-    rt::app::EngineReport report() const override { return engine_->report(); }
+    ~OwningEngine() override { engine_ = nullptr; } // before its device
 
   private:
     rt::vulkan::VulkanContext context_;
-    std::unique_ptr<rt::app::Engine> engine_;
 };
 
 std::vector<rt::app::EngineDevice> suitableDevices() {
@@ -112,7 +85,7 @@ std::vector<rt::app::EngineDevice> suitableDevices() {
         if (!all[i].suitable()) continue;
         const auto isNamesake = [&](const auto& device) { return device.name.find(all[i].name) != std::string::npos; };
         const bool isUnique = std::count_if(all.begin(), all.end(), isNamesake) == 1;
-        suitable.push_back({all[i].name, isUnique ? all[i].name : std::to_string(i), all[i].tracesRays()});
+        suitable.push_back({all[i].name, isUnique ? all[i].name : std::to_string(i), rt::gpu::enginesOf(all[i])});
     }
     return suitable;
 }
@@ -120,7 +93,7 @@ std::vector<rt::app::EngineDevice> suitableDevices() {
 rt::ExitCode showWindow(const rt::app::Options& options) {
     rt::gui::WindowProgram program;
     program.makeEngine = [&options](const rt::app::EngineChoice& choice) {
-        const rt::vulkan::ContextOptions context{choice.device, options.validation, needsRayTracing(choice.kind)};
+        const rt::vulkan::ContextOptions context{choice.device, options.validation, rt::gpu::neededBy(choice.kind)};
         return std::make_unique<OwningEngine>(context, choice.kind);
     };
     program.devices = suitableDevices();

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "RayTracingGPU/EngineChoice.h"
+
 namespace rt::gpu {
 namespace {
 
@@ -18,15 +20,16 @@ constexpr VkShaderStageFlags kPipelineStages = VK_SHADER_STAGE_RAYGEN_BIT_KHR | 
 } // namespace
 
 RenderBindings::RenderBindings(vulkan::VulkanContext& context, app::GpuEngineKind engine, std::uint32_t pushBytes) {
-    const bool compute = engine == app::GpuEngineKind::Compute;
-    bindPoint_ = compute ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR;
-    pushStages_ = compute ? kComputeStage : kRayGenerationStage;
-    const VkShaderStageFlags stages = compute ? kComputeStage : kPipelineStages;
+    const bool isPipeline = engine == app::GpuEngineKind::Pipeline;
+    const bool hasLists = !usesAccelStructure(engine);
+    bindPoint_ = isPipeline ? VK_PIPELINE_BIND_POINT_RAY_TRACING_KHR : VK_PIPELINE_BIND_POINT_COMPUTE;
+    pushStages_ = isPipeline ? kRayGenerationStage : kComputeStage;
+    const VkShaderStageFlags stages = isPipeline ? kPipelineStages : kComputeStage;
     const VkDescriptorType traced =
-        compute ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
+        hasLists ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR;
     const std::array<VkDescriptorSetLayoutBinding, 2> bindings{{
         {kConstants, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages, nullptr},
-        {compute ? kLinearLists : kTopLevel, traced, 1, pushStages_, nullptr},
+        {hasLists ? kLinearLists : kTopLevel, traced, 1, pushStages_, nullptr},
     }};
     set_ = vulkan::DescriptorSet(context.device(), bindings, "Creating bindings");
     layout_ =

@@ -11,12 +11,12 @@ namespace rt::gpu {
 
 class RenderBindings {
   public:
-    // Of the pipeline or the compute engine, whose shaders read up to `pushBytes` of push constants.
+    // Of an engine, whose shaders read up to `pushBytes` of push constants.
     RenderBindings(vulkan::VulkanContext& context, app::GpuEngineKind engine, std::uint32_t pushBytes);
 
-    // The uniform buffer, and the top level of the acceleration structure: of the pipeline engine.
+    // The uniform buffer, and the top level of the acceleration structure, of engines that trace rays through one.
     void update(const vulkan::Buffer& constants, VkAccelerationStructureKHR topLevel) const;
-    // The uniform buffers of Bindings.glsl and Traverse.glsl: of the compute engine.
+    // The uniform buffers of Bindings.glsl and Traverse.glsl: of the engine with a tree of our own.
     void update(const vulkan::Buffer& constants, const vulkan::Buffer& linearLists) const;
 
     // Binds the set and sets push constants.

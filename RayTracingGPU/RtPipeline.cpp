@@ -6,6 +6,7 @@
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/Pipelines.h"
+#include "Common/Vulkan/ShaderFigures.h"
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
@@ -98,6 +99,7 @@ RtPipeline::RtPipeline(vulkan::VulkanContext& context, const vulkan::PipelineCac
     GroupList list(context.device(), specialization);
     const ShaderGroups groups = addGroups(list, constants, rayGeneration, name_);
     VkRayTracingPipelineCreateInfoKHR info{VK_STRUCTURE_TYPE_RAY_TRACING_PIPELINE_CREATE_INFO_KHR};
+    info.flags = vulkan::figureFlags(context);
     info.stageCount = static_cast<std::uint32_t>(list.stages().size());
     info.pStages = list.stages().data();
     info.groupCount = groups.count;

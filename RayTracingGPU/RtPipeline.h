@@ -22,6 +22,7 @@ class RtPipeline final : public Kernel {
     }
     // The groups that exist: "paths+quads+spheres".
     const std::string& name() const override { return name_; }
+    VkPipeline pipeline() const override { return pipeline_.get(); }
 
   private:
     void record(VkCommandBuffer commands, const void* launch, std::uint32_t bytes,

@@ -1,8 +1,8 @@
-// First-hit features through our own tree.
+// First-hit features in compute shaders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define RT_FULL // few pixels are traced once
-#include "Traverse.glsl"
+#include "Trace.glsl"
 #include "FirstHit.glsl"
 
 layout(local_size_x_id = kGroupSizeId) in;

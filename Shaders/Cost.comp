@@ -1,7 +1,7 @@
-// What pixels cost, through our own tree.
+// What pixels cost, in compute shaders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "Traverse.glsl"
+#include "Trace.glsl"
 #include "Cost.glsl"
 
 layout(local_size_x_id = kGroupSizeId) in;

@@ -34,15 +34,16 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
     app.set_version_flag("--version", std::string(kName) + " " RT_VERSION);
     BenchOptions options;
     bool quick = false;
-    auto* const suite =
-        app.add_option("SUITE", options.suite,
-                       "quick (the default), predecessor, defaults, lights, samplers, scaling, full, or a .json file");
+    auto* const suite = app.add_option(
+        "SUITE", options.suite,
+        "quick (the default), predecessor, defaults, lights, samplers, scaling, peers, full, or a .json file");
     auto* const quickFlag = app.add_flag("--quick", quick, "the suite quick");
     app.add_flag("--list-suites", options.listSuites, "names and titles of the suites that come with the program");
     app.add_option("--scene", options.scenes, "render these scenes instead of the suite's")
         ->type_name("S")
         ->allow_extra_args(false);
-    app.add_option("--engine", options.engines, "of the suite's engines only these: single, multi, pipeline, compute")
+    app.add_option("--engine", options.engines,
+                   "of the suite's engines only these: single, multi, pipeline, compute, query")
         ->type_name("E")
         ->allow_extra_args(false);
     auto* const report = app.add_option("--report", options.report,
@@ -58,11 +59,16 @@ std::optional<BenchOptions> parseBenchOptions(const std::vector<std::string>& ar
             ->expected(2)
             ->excludes(suite, quickFlag, report);
     compare->multi_option_policy(CLI::MultiOptionPolicy::Throw);
-    app.add_flag(
-           "--stability", options.stability,
-           "instead of a suite: scenes whose answer is known, pushed to the limits of single precision; exits with "
-           "5 when an engine misses one")
-        ->excludes(suite, quickFlag, report, compare);
+    auto* const stability =
+        app.add_flag(
+               "--stability", options.stability,
+               "instead of a suite: scenes whose answer is known, pushed to the limits of single precision; exits with "
+               "5 when an engine misses one")
+            ->excludes(suite, quickFlag, report, compare);
+    app.add_flag("--parts", options.parts,
+                 "instead of a suite: what parts of the work cost, each left out in turn, and what the driver tells of "
+                 "the shaders; of Cornell Box Lights on GPU engines unless --scene and --engine say otherwise")
+        ->excludes(suite, quickFlag, report, compare, stability);
     try {
         std::vector<std::string> reversed(arguments.rbegin(), arguments.rend());
         app.parse(reversed);

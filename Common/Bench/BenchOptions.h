@@ -18,6 +18,7 @@ struct BenchOptions {
     std::vector<std::string> compare; // two reports; empty: measure
     bool listSuites = false;
     bool stability = false; // the stability suite instead of a suite
+    bool parts = false;     // what parts of the work cost instead of a suite
 };
 
 // Nothing after --help and --version, which are answered on `out`. Throws UsageError.

@@ -97,7 +97,7 @@ std::string keyOf(const Config& config, Axis::Says what) {
 }
 
 bool isGpuEngine(std::string_view engine) {
-    return engine == "pipeline" || engine == "compute";
+    return engine == "pipeline" || engine == "compute" || engine == "query";
 }
 
 } // namespace rt::bench

@@ -36,7 +36,7 @@ std::string keyOf(const Config& config);
 // Of those that say one thing alone.
 std::string keyOf(const Config& config, Axis::Says what);
 
-inline constexpr std::string_view kEngines[] = {"single", "multi", "pipeline", "compute"};
+inline constexpr std::string_view kEngines[] = {"single", "multi", "pipeline", "compute", "query"};
 bool isGpuEngine(std::string_view engine);
 
 } // namespace rt::bench

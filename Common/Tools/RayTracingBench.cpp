@@ -14,6 +14,7 @@
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Comparison.h"
 #include "Common/Bench/Machine.h"
+#include "Common/Bench/Parts.h"
 #include "Common/Bench/Report.h"
 #include "Common/Bench/Runner.h"
 #include "Common/Bench/Stability.h"
@@ -24,6 +25,7 @@
 #include "RayTracingCPU/CpuEngine.h"
 #include "tests/bench/EmbreeCeiling.h"
 #ifdef RT_HAS_GPU
+#include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
 #endif
 
@@ -72,7 +74,7 @@ class EngineList {
 #ifdef RT_HAS_GPU
     void addGpu(const bench::BenchOptions& options) {
         try {
-            context_.emplace(vulkan::ContextOptions{options.device, false});
+            context_.emplace(vulkan::ContextOptions{.device = options.device, .shaderFigures = options.parts});
         } catch (const Error& error) {
             if (!options.device.empty()) throw;
             for (const auto& [name, kind] : kGpuKinds) kinds_.push_back({name, {}, error.what()});
@@ -84,22 +86,25 @@ class EngineList {
         facts_.push_back({"GPU driver", context_->info().driver});
         for (const auto& [name, kind] : kGpuKinds) {
             bench::EngineKind added{name, {}, "", [this] { return energy_->joules(); }};
-            if (kind == app::GpuEngineKind::Pipeline && !context_->info().tracesRays()) {
-                added.missing = context_->info().name + " lacks " + context_->info().missingForPipeline;
+            if (const vulkan::DeviceInfo& info = context_->info(); !info.serves(gpu::neededBy(kind))) {
+                const bool isQuery = kind == app::GpuEngineKind::Query;
+                added.missing = info.name + " lacks " + (isQuery ? info.missingForQuery : info.missingForPipeline);
             } else {
                 added.make = [this, engine = kind](std::uint32_t) {
                     return gpu::makeGpuEngine(*context_, {.engine = engine});
                 };
                 if (options.device.empty()) // ranks choose among all
-                    added.mostRanks = static_cast<std::uint32_t>(
-                        vulkan::devicesForRanks(devices, kind == app::GpuEngineKind::Pipeline).size());
+                    added.mostRanks =
+                        static_cast<std::uint32_t>(vulkan::devicesForRanks(devices, gpu::neededBy(kind)).size());
             }
             kinds_.push_back(std::move(added));
         }
     }
 
     static constexpr std::pair<const char*, app::GpuEngineKind> kGpuKinds[] = {
-        {"pipeline", app::GpuEngineKind::Pipeline}, {"compute", app::GpuEngineKind::Compute}};
+        {"pipeline", app::GpuEngineKind::Pipeline},
+        {"compute", app::GpuEngineKind::Compute},
+        {"query", app::GpuEngineKind::Query}};
     std::optional<vulkan::VulkanContext> context_;
     std::optional<bench::NvidiaEnergy> energy_; // of its device
 #endif
@@ -191,6 +196,31 @@ int measureStability(const bench::BenchOptions& options) {
     return static_cast<int>(pass ? ExitCode::Done : ExitCode::Different);
 }
 
+// Of every scene that is asked for on every engine that is, or on all GPU engines that there are.
+int measureParts(const bench::BenchOptions& options) {
+    app::Interrupt interrupt;
+    const EngineList list(options);
+    bench::Engines engines(list.kinds());
+    std::vector<std::string> names = options.engines;
+    for (const bench::EngineKind& kind : list.kinds())
+        if (options.engines.empty() && bench::isGpuEngine(kind.name) && kind.make) names.push_back(kind.name);
+    if (names.empty()) throw RenderError("there is no GPU engine here; --engine multi measures that of the processor");
+    interrupt.defer();
+    for (const std::string& scene : options.scenes.empty() ? std::vector<std::string>{""} : options.scenes)
+        for (const std::string& engine : names) {
+            bench::PartsRequest request;
+            if (!scene.empty()) request.scene = scene;
+            request.engine = engine;
+            const auto rows =
+                bench::measureParts(engines, request, interrupt.requested(), [&](const bench::PartRow& row) {
+                    if (!options.quiet) std::cerr << request.scene << ", " << engine << ": " << row.part << std::endl;
+                });
+            std::cout << toMarkdown(bench::describeParts(request, rows), noLinks) << std::flush;
+            if (interrupt.requested()) return static_cast<int>(ExitCode::Interrupted);
+        }
+    return static_cast<int>(ExitCode::Done);
+}
+
 int run(const std::vector<std::string>& arguments) {
     const auto options = bench::parseBenchOptions(arguments, std::cout);
     if (!options) return 0; // --help, --version
@@ -198,6 +228,7 @@ int run(const std::vector<std::string>& arguments) {
     if (options->listSuites) return listSuites();
     if (!options->compare.empty()) return compare(*options);
     if (options->stability) return measureStability(*options);
+    if (options->parts) return measureParts(*options);
     return measure(*options);
 }
 

@@ -27,6 +27,8 @@ inline constexpr Access kStructureWrite{VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE
                                         VK_ACCESS_ACCELERATION_STRUCTURE_WRITE_BIT_KHR};
 inline constexpr Access kStructureTrace{VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR,
                                         VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR};
+inline constexpr Access kStructureQuery{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+                                        VK_ACCESS_ACCELERATION_STRUCTURE_READ_BIT_KHR};
 
 // Commands behind it do `after` once those before it, of earlier submissions as well, have done `before` and what they
 // wrote can be seen.

@@ -36,21 +36,37 @@ bool contains(const std::vector<VkExtensionProperties>& extensions, const char* 
     });
 }
 
-std::string missingForPipeline(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions) {
+// Of extensions first: features of those that are missing may not be asked for.
+std::string missingFor(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions, RayTracing use) {
     std::string missing;
-    for (const char* name : pipelineExtensions()) {
-        if (!contains(extensions, name)) addMissing(missing, name);
+    for (const auto& names : {extensionsFor(use), structureExtensions()}) {
+        for (const char* name : names) {
+            if (!contains(extensions, name)) addMissing(missing, name);
+        }
     }
-    if (!missing.empty()) return missing; // and may not be asked for features
+    if (!missing.empty()) return missing;
     VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    VkPhysicalDeviceRayQueryFeaturesKHR query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    const bool isPipeline = use == RayTracing::Pipeline;
     VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR,
+        isPipeline ? static_cast<void*>(&pipeline) : &query};
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &structure};
     vkGetPhysicalDeviceFeatures2(device, &features);
-    if (pipeline.rayTracingPipeline == VK_FALSE) addMissing(missing, "feature rayTracingPipeline");
+    if (isPipeline && pipeline.rayTracingPipeline == VK_FALSE) addMissing(missing, "feature rayTracingPipeline");
+    if (!isPipeline && query.rayQuery == VK_FALSE) addMissing(missing, "feature rayQuery");
     if (structure.accelerationStructure == VK_FALSE) addMissing(missing, "feature accelerationStructure");
     return missing;
+}
+
+bool hasShaderFigures(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions) {
+    if (!contains(extensions, VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME)) return false;
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR figures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &figures};
+    vkGetPhysicalDeviceFeatures2(device, &features);
+    return figures.pipelineExecutableInfo == VK_TRUE;
 }
 
 bool hasShaderClock(VkPhysicalDevice device, const std::vector<VkExtensionProperties>& extensions) {
@@ -117,8 +133,9 @@ DeviceInfo describe(VkPhysicalDevice device) {
     const std::vector<VkExtensionProperties> extensions = extensionsOf(device);
     info.missing = missingFeatures(device);
     info.hasShaderClock = hasShaderClock(device, extensions);
-    info.hasRayQueries = contains(extensions, VK_KHR_RAY_QUERY_EXTENSION_NAME);
-    info.missingForPipeline = missingForPipeline(device, extensions);
+    info.hasShaderFigures = hasShaderFigures(device, extensions);
+    info.missingForPipeline = missingFor(device, extensions, RayTracing::Pipeline);
+    info.missingForQuery = missingFor(device, extensions, RayTracing::Query);
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE && !info.missingForPipeline.empty()) {
         // Mesa's older software driver ends the loops of shaders early, which leaves work undone: seen with 22.3.6, not
         // with 25.0.7. Its version number does not tell them apart.
@@ -166,15 +183,17 @@ std::string lowerCase(std::string text) {
     return text;
 }
 
-std::string lacks(const DeviceInfo& device) {
-    return device.missing.empty() ? device.missingForPipeline : device.missing;
+std::string lacks(const DeviceInfo& device, RayTracing needed) {
+    if (!device.missing.empty()) return device.missing;
+    return needed == RayTracing::Query ? device.missingForQuery : device.missingForPipeline;
 }
 
-bool serves(const DeviceInfo& device, bool rayTracing) {
-    return rayTracing ? device.tracesRays() : device.suitable();
+// What the devices that do not serve a need are without.
+const char* nameOf(RayTracing needed) {
+    return needed == RayTracing::Query ? "ray queries" : "a ray tracing pipeline";
 }
 
-const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing) {
+const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const std::string& request, RayTracing needed) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(request.data(), request.data() + request.size(), index);
     if (error == std::errc() && end == request.data() + request.size()) {
@@ -183,7 +202,7 @@ const DeviceInfo* findRequested(const std::vector<DeviceInfo>& devices, const st
     const DeviceInfo* found = nullptr;
     for (const DeviceInfo& device : devices) {
         if (lowerCase(device.name).find(lowerCase(request)) == std::string::npos) continue;
-        if (found == nullptr || (serves(device, rayTracing) && !serves(*found, rayTracing))) found = &device;
+        if (found == nullptr || (device.serves(needed) && !found->serves(needed))) found = &device;
     }
     return found;
 }
@@ -194,11 +213,16 @@ bool offersExtension(VkPhysicalDevice device, const char* name) {
     return contains(extensionsOf(device), name);
 }
 
-const std::vector<const char*>& pipelineExtensions() {
-    static const std::vector<const char*> extensions{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
-                                                     VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+const std::vector<const char*>& structureExtensions() {
+    static const std::vector<const char*> extensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                                      VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME};
     return extensions;
+}
+
+const std::vector<const char*>& extensionsFor(RayTracing use) {
+    static const std::vector<const char*> none, pipeline{VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME},
+        query{VK_KHR_RAY_QUERY_EXTENSION_NAME};
+    return use == RayTracing::None ? none : use == RayTracing::Pipeline ? pipeline : query;
 }
 
 std::vector<DeviceInfo> findDevices(const Instance& instance) {
@@ -218,48 +242,51 @@ std::string describeDevices(const std::vector<DeviceInfo>& devices) {
         const DeviceInfo& device = devices[i];
         text += std::to_string(i) + ": " + device.name + " (" + kindName(device.type) + ", " + device.driver +
                 ", Vulkan " + device.version + "): ";
-        if (device.tracesRays()) {
-            text += "pipeline, compute: suitable\n";
-        } else if (device.suitable()) {
-            text += "compute only; pipeline lacks " + device.missingForPipeline + "\n";
-        } else {
+        if (!device.suitable()) {
             text += "unsuitable, lacks " + device.missing + "\n";
+        } else if (!device.tracesRays()) {
+            text += std::string(device.queriesRays() ? "query and compute" : "compute") + " only; pipeline lacks " +
+                    device.missingForPipeline + "\n";
+        } else {
+            text += std::string(device.queriesRays() ? "query, " : "") + "pipeline, compute: suitable\n";
         }
     }
     return text;
 }
 
-DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing) {
-    const std::string purpose = rayTracing ? " has no ray tracing pipeline" : " cannot render";
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, RayTracing needed) {
+    const bool anyServes = needed == RayTracing::None;
     const DeviceInfo* chosen = nullptr;
     if (!request.empty()) {
-        chosen = findRequested(devices, request, rayTracing);
+        chosen = findRequested(devices, request, needed);
         if (chosen == nullptr) {
             throw NoDeviceError("no Vulkan device matches '" + request + "'; --list-devices shows what there is");
         }
-        if (!serves(*chosen, rayTracing)) throw NoDeviceError(chosen->name + purpose + ": it lacks " + lacks(*chosen));
+        if (!chosen->serves(needed)) {
+            const std::string purpose = anyServes ? " cannot render" : std::string(" does not have ") + nameOf(needed);
+            throw NoDeviceError(chosen->name + purpose + ": it lacks " + lacks(*chosen, needed));
+        }
         return *chosen;
     }
     for (const DeviceInfo& device : devices) {
-        if (!serves(device, rayTracing)) continue;
+        if (!device.serves(needed)) continue;
         if (chosen == nullptr || rank(device.type) > rank(chosen->type)) chosen = &device;
     }
     if (chosen == nullptr) {
         std::string found = devices.empty() ? "there is no Vulkan device" : "";
-        for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + lacks(device));
-        throw NoDeviceError("no Vulkan device " +
-                            std::string(rayTracing ? "has a ray tracing pipeline: " : "can render: ") + found +
-                            (rayTracing ? "; --engine compute does without" : "; a newer driver may help"));
+        for (const DeviceInfo& device : devices) addMissing(found, device.name + " lacks " + lacks(device, needed));
+        throw NoDeviceError("no Vulkan device " + (anyServes ? "can render" : std::string("has ") + nameOf(needed)) +
+                            ": " + found +
+                            (anyServes ? "; a newer driver may help" : "; --engine compute does without"));
     }
     return *chosen;
 }
 
-std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, bool rayTracing) {
-    const VkPhysicalDeviceType type = chooseDevice(devices, "", rayTracing).type;
+std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, RayTracing needed) {
+    const VkPhysicalDeviceType type = chooseDevice(devices, "", needed).type;
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        if (devices[i].type == type && (rayTracing ? devices[i].tracesRays() : devices[i].suitable()))
-            places.push_back(i);
+        if (devices[i].type == type && devices[i].serves(needed)) places.push_back(i);
     return places;
 }
 

@@ -12,6 +12,9 @@ namespace rt::vulkan {
 
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
+// What is asked of a device beyond compute shaders.
+enum class RayTracing { None, Pipeline, Query };
+
 struct DeviceInfo {
     VkPhysicalDevice device = VK_NULL_HANDLE;
     std::string name;
@@ -21,19 +24,27 @@ struct DeviceInfo {
     std::uint32_t queueFamily = 0;
     bool draws = false;             // its queue rasterises, too, into kDepthFormat, and shades single samples
     bool hasShaderClock = false;    // shaders may ask what time it is
-    bool hasRayQueries = false;     // any shader may trace rays; of no use to us, but see computeIsFaster()
+    bool hasShaderFigures = false;  // its driver tells what compiled shaders are like
     std::string missing;            // what it lacks to render at all, in words
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
+    std::string missingForQuery;    // likewise for ray queries, by which any shader traces rays
     bool isSoftware() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool suitable() const { return missing.empty(); }
     bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
+    bool queriesRays() const { return missing.empty() && missingForQuery.empty(); }
+    bool serves(RayTracing needed) const {
+        return needed == RayTracing::None ? suitable() : needed == RayTracing::Pipeline ? tracesRays() : queriesRays();
+    }
+    bool hasAccelStructures() const { return tracesRays() || queriesRays(); }
 };
 
 // Throws RenderError where the driver cannot tell.
 bool offersExtension(VkPhysicalDevice device, const char* name);
 
-// Extensions of ray tracing pipelines, which we enable where a device has all of them.
-const std::vector<const char*>& pipelineExtensions();
+// Extensions of acceleration structures, and of what traces rays through them besides; we enable those of which a
+// device has all.
+const std::vector<const char*>& structureExtensions();
+const std::vector<const char*>& extensionsFor(RayTracing use);
 
 // In the driver's order: the index is what --device takes.
 std::vector<DeviceInfo> findDevices(const Instance& instance);
@@ -43,11 +54,10 @@ std::vector<DeviceInfo> findDevices(const Instance& instance);
 std::string describeDevices(const std::vector<DeviceInfo>& devices);
 
 // The device with this index or with this text in its name, whatever the case; with an empty request the best: discrete
-// before integrated before software. With `rayTracing` only those with ray tracing pipelines. Throws NoDeviceError
-// naming what there is.
-DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, bool rayTracing);
+// before integrated before software. Only those with what is `needed`. Throws NoDeviceError naming what there is.
+DeviceInfo chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& request, RayTracing needed);
 
 // The places of all devices of the best one's type: what the ranks of a host take in turn. Throws as chooseDevice().
-std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, bool rayTracing);
+std::vector<std::size_t> devicesForRanks(const std::vector<DeviceInfo>& devices, RayTracing needed);
 
 } // namespace rt::vulkan

@@ -38,8 +38,10 @@ Handle<VkPipelineLayout> makePipelineLayout(VkDevice device, const VkPushConstan
 }
 
 Handle<VkPipeline> makeComputePipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,
-                                       VkShaderModule module, const VkSpecializationInfo* constants, const char* what) {
+                                       VkShaderModule module, const VkSpecializationInfo* constants, const char* what,
+                                       VkPipelineCreateFlags flags) {
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    info.flags = flags;
     info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module, constants);
     info.layout = layout;
     VkPipeline pipeline = VK_NULL_HANDLE;

@@ -22,7 +22,8 @@ Handle<VkPipelineLayout> makePipelineLayout(VkDevice device, const VkPushConstan
 
 // `cache` may be null, here and below.
 Handle<VkPipeline> makeComputePipeline(VkDevice device, VkPipelineCache cache, VkPipelineLayout layout,
-                                       VkShaderModule module, const VkSpecializationInfo* constants, const char* what);
+                                       VkShaderModule module, const VkSpecializationInfo* constants, const char* what,
+                                       VkPipelineCreateFlags flags = 0);
 
 // Triangles without vertex buffers, no blending; viewport and scissor are set while recording.
 struct Rasterization {

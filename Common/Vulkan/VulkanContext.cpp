@@ -20,10 +20,12 @@ void load(VkDevice device, const char* name, Function& function) {
 } // namespace
 
 VulkanContext::VulkanContext(const ContextOptions& options)
-    : instance_(options.validation), info_(chooseDevice(findDevices(instance_), options.device, options.rayTracing)) {
+    : instance_(options.validation),
+      info_(chooseDevice(findDevices(instance_), options.device, options.rayTracing)),
+      shaderFigures_(options.shaderFigures) {
     queryLimits();
     createDevice();
-    if (info_.tracesRays()) loadFunctions();
+    loadFunctions();
     memory_.emplace(info_.device, device(), true);
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
@@ -42,26 +44,34 @@ VulkanContext::~VulkanContext() {
 }
 
 void VulkanContext::createDevice() {
-    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
-    pipeline.rayTracingPipeline = VK_TRUE;
-    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR, &pipeline};
-    structure.accelerationStructure = VK_TRUE;
-    const bool rays = info_.tracesRays();
     VkPhysicalDeviceVulkan12Features core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    if (rays) core.pNext = &structure;
     core.bufferDeviceAddress = VK_TRUE;
     core.scalarBlockLayout = VK_TRUE;
     std::vector<const char*> extensions;
-    if (rays) extensions = pipelineExtensions();
+    const auto enable = [&](bool is, auto& features, const std::vector<const char*>& names) {
+        if (!is) return;
+        features.pNext = core.pNext;
+        core.pNext = &features;
+        extensions.insert(extensions.end(), names.begin(), names.end());
+    };
+    VkPhysicalDeviceAccelerationStructureFeaturesKHR structure{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR};
+    structure.accelerationStructure = VK_TRUE;
+    enable(info_.hasAccelStructures(), structure, structureExtensions());
+    VkPhysicalDeviceRayTracingPipelineFeaturesKHR pipeline{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR};
+    pipeline.rayTracingPipeline = VK_TRUE;
+    enable(info_.tracesRays(), pipeline, extensionsFor(RayTracing::Pipeline));
+    VkPhysicalDeviceRayQueryFeaturesKHR query{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR};
+    query.rayQuery = VK_TRUE;
+    enable(info_.queriesRays(), query, extensionsFor(RayTracing::Query));
     VkPhysicalDeviceShaderClockFeaturesKHR clock{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_CLOCK_FEATURES_KHR};
-    if (info_.hasShaderClock) {
-        clock.shaderSubgroupClock = VK_TRUE;
-        clock.pNext = core.pNext;
-        core.pNext = &clock;
-        extensions.push_back(VK_KHR_SHADER_CLOCK_EXTENSION_NAME);
-    }
+    clock.shaderSubgroupClock = VK_TRUE;
+    enable(info_.hasShaderClock, clock, {VK_KHR_SHADER_CLOCK_EXTENSION_NAME});
+    VkPhysicalDevicePipelineExecutablePropertiesFeaturesKHR figures{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PIPELINE_EXECUTABLE_PROPERTIES_FEATURES_KHR};
+    figures.pipelineExecutableInfo = VK_TRUE;
+    enable(hasShaderFigures(), figures, {VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME});
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &core, {}};
     features.features.sampleRateShading = info_.draws ? VK_TRUE : VK_FALSE;
 
@@ -83,25 +93,33 @@ void VulkanContext::createDevice() {
 
 void VulkanContext::loadFunctions() {
     RayTracingFunctions& f = rayTracing_;
-    load(device(), "vkCreateAccelerationStructureKHR", f.createAccelerationStructure);
-    load(device(), "vkDestroyAccelerationStructureKHR", f.destroyAccelerationStructure);
-    load(device(), "vkGetAccelerationStructureBuildSizesKHR", f.getBuildSizes);
-    load(device(), "vkGetAccelerationStructureDeviceAddressKHR", f.getAccelerationStructureAddress);
-    load(device(), "vkCmdBuildAccelerationStructuresKHR", f.cmdBuild);
-    load(device(), "vkCmdCopyAccelerationStructureKHR", f.cmdCopy);
-    load(device(), "vkCmdWriteAccelerationStructuresPropertiesKHR", f.cmdWriteProperties);
-    load(device(), "vkCreateRayTracingPipelinesKHR", f.createPipelines);
-    load(device(), "vkGetRayTracingShaderGroupHandlesKHR", f.getGroupHandles);
-    load(device(), "vkCmdTraceRaysKHR", f.cmdTraceRays);
+    if (info_.hasAccelStructures()) {
+        load(device(), "vkCreateAccelerationStructureKHR", f.createAccelerationStructure);
+        load(device(), "vkDestroyAccelerationStructureKHR", f.destroyAccelerationStructure);
+        load(device(), "vkGetAccelerationStructureBuildSizesKHR", f.getBuildSizes);
+        load(device(), "vkGetAccelerationStructureDeviceAddressKHR", f.getAccelerationStructureAddress);
+        load(device(), "vkCmdBuildAccelerationStructuresKHR", f.cmdBuild);
+        load(device(), "vkCmdCopyAccelerationStructureKHR", f.cmdCopy);
+        load(device(), "vkCmdWriteAccelerationStructuresPropertiesKHR", f.cmdWriteProperties);
+    }
+    if (info_.tracesRays()) {
+        load(device(), "vkCreateRayTracingPipelinesKHR", f.createPipelines);
+        load(device(), "vkGetRayTracingShaderGroupHandlesKHR", f.getGroupHandles);
+        load(device(), "vkCmdTraceRaysKHR", f.cmdTraceRays);
+    }
 }
 
 void VulkanContext::queryLimits() {
     VkPhysicalDeviceAccelerationStructurePropertiesKHR structure{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceRayTracingPipelinePropertiesKHR pipeline{
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR, &structure};
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR};
     VkPhysicalDeviceIDProperties identity{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
-    if (info_.tracesRays()) identity.pNext = &pipeline;
+    if (info_.hasAccelStructures()) identity.pNext = &structure;
+    if (info_.tracesRays()) {
+        pipeline.pNext = identity.pNext;
+        identity.pNext = &pipeline;
+    }
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &identity};
     vkGetPhysicalDeviceProperties2(info_.device, &properties);
     limits_.groupHandleSize = pipeline.shaderGroupHandleSize;
@@ -163,11 +181,16 @@ Access VulkanContext::bufferUses() const {
         VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT;
     Access uses = kTransferRead | kTransferWrite | Access{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, kShaders};
     if (info_.draws) uses.stages |= VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    if (info_.tracesRays()) {
-        // Vertices, boxes and instances are shader reads, too, and so is the shader binding table.
-        uses.stages |=
-            VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR | VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
-    }
+    // Vertices, boxes and instances are shader reads, too, and so is the shader binding table.
+    if (info_.hasAccelStructures()) uses.stages |= VK_PIPELINE_STAGE_ACCELERATION_STRUCTURE_BUILD_BIT_KHR;
+    if (info_.tracesRays()) uses.stages |= VK_PIPELINE_STAGE_RAY_TRACING_SHADER_BIT_KHR;
+    return uses;
+}
+
+Access VulkanContext::structureUses() const {
+    Access uses = kStructureRead;
+    if (info_.tracesRays()) uses = uses | kStructureTrace;
+    if (info_.queriesRays()) uses = uses | kStructureQuery;
     return uses;
 }
 

@@ -22,10 +22,11 @@ class StagingRing;
 struct ContextOptions {
     std::string device; // index or part of a name; empty: the best
     bool validation = false;
-    bool rayTracing = false; // ray tracing pipelines are needed; otherwise they are there if the device has them
+    RayTracing rayTracing = RayTracing::None; // that is needed; whatever the device has is there
+    bool shaderFigures = false;               // what its driver tells of compiled shaders, if it does
 };
 
-// Entry points of the extensions, which the loader does not export; null where the device does not trace rays.
+// Entry points of the extensions, which the loader does not export; null where the device lacks what they are part of.
 struct RayTracingFunctions {
     PFN_vkCreateAccelerationStructureKHR createAccelerationStructure = nullptr;
     PFN_vkDestroyAccelerationStructureKHR destroyAccelerationStructure = nullptr;
@@ -72,6 +73,8 @@ class VulkanContext {
     const DeviceInfo& info() const { return info_; }
     const DeviceLimits& limits() const { return limits_; }
     const RayTracingFunctions& rayTracing() const { return rayTracing_; }
+    // Whether pipelines are to be made so that shaderFigures() (ShaderFigures.h) knows them.
+    bool hasShaderFigures() const { return info_.hasShaderFigures && shaderFigures_; }
     std::uint64_t validationMessages() const { return instance_.validationMessages(); }
 
     // Records commands, runs them and waits for their end. Throws DeviceLostError or RenderError.
@@ -85,6 +88,8 @@ class VulkanContext {
     // All that shaders, copies and builds of acceleration structures do with buffers, in the stages that this device
     // has.
     Access bufferUses() const;
+    // All that builds and rays do with acceleration structures, likewise.
+    Access structureUses() const;
 
   protected:
     friend class Run;
@@ -100,6 +105,7 @@ class VulkanContext {
 
     Instance instance_;
     DeviceInfo info_;
+    bool shaderFigures_;
     DeviceLimits limits_;
     OwnedDevice device_;
     VkQueue queue_ = VK_NULL_HANDLE;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -12,7 +13,9 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Shared/Base/Features.h"
+#include "Common/Vulkan/Check.h"
 #include "RayTracingCPU/CpuEngine.h"
+#include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
@@ -128,6 +131,10 @@ class AgreementTest : public ::testing::TestWithParam<SceneAndEngine> {};
 TEST_P(AgreementTest, SampleForSample) {
     const auto [index, engine] = GetParam();
     const auto scene = smallScene(scene::builtinScenes()[index]);
+    if (!device().info().serves(gpu::neededBy(engine))) {
+        EXPECT_THROW(EnginePair(scene, engine), vulkan::NoDeviceError);
+        return;
+    }
     EnginePair engines(scene, engine);
     EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
@@ -146,6 +153,22 @@ std::string sceneName(const ::testing::TestParamInfo<SceneAndEngine>& info) {
 const auto kEveryScene = ::testing::Range(std::size_t{0}, scene::builtinScenes().size());
 INSTANTIATE_TEST_SUITE_P(Scenes, AgreementTest, ::testing::Combine(kEveryScene, kFirstEngine), sceneName);
 INSTANTIATE_TEST_SUITE_P(Nightly, AgreementTest, ::testing::Combine(kEveryScene, kSecondEngine), sceneName);
+
+// Ray queries: spheres and quads, spheres that move, instances and media, a mesh.
+std::vector<std::size_t> fewScenes() {
+    std::vector<std::size_t> scenes;
+    for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i) {
+        const std::string_view id = scene::builtinScenes()[i].id;
+        for (const char* wanted : {"cornell-box-lights", "next-week-default", "next-week-final", "cornell-box-lucy"})
+            if (id == wanted) scenes.push_back(i);
+    }
+    EXPECT_EQ(scenes.size(), 4u);
+    return scenes;
+}
+const auto kQueries = ::testing::Values(app::GpuEngineKind::Query);
+INSTANTIATE_TEST_SUITE_P(Queries, AgreementTest, ::testing::Combine(::testing::ValuesIn(fewScenes()), kQueries),
+                         sceneName);
+INSTANTIATE_TEST_SUITE_P(NightlyQueries, AgreementTest, ::testing::Combine(kEveryScene, kQueries), sceneName);
 
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
 class SupersetTest : public ::testing::TestWithParam<app::GpuEngineKind> {};

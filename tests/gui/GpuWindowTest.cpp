@@ -112,7 +112,8 @@ TEST_F(GpuWindowTest, ThePreviewLooksLikeTheRender) {
     setRayTracing(false);
     const Image preview = picture();
     setRayTracing(true);
-    ASSERT_TRUE(eventually([&] { return isInHistory("compute") || isInHistory("pipeline"); })) << log();
+    ASSERT_TRUE(eventually([&] { return isInHistory("compute") || isInHistory("pipeline") || isInHistory("query"); }))
+        << log();
     const Image render = picture();
     ASSERT_EQ(preview.width, 48u);
     ASSERT_EQ(preview.data.size(), render.data.size());

@@ -1,5 +1,6 @@
 // A test of either program with its window.
 #pragma once
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -13,7 +14,13 @@ namespace rt::test {
 
 class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
   protected:
-    void start(const std::vector<std::string>& arguments = {}) { Desktop::start(GetParam(), arguments); }
+    // By an engine that is named: `auto` would let a software driver compile every engine first.
+    void start(std::vector<std::string> arguments = {}) {
+        const bool isNamed = std::find(arguments.begin(), arguments.end(), "--engine") != arguments.end();
+        if (!isNamed && std::string(GetParam()) == "ray-tracing-gpu")
+            arguments.insert(arguments.end(), {"--engine", "compute"});
+        Desktop::start(GetParam(), arguments);
+    }
     void expectCleanEnd() {
         ASSERT_TRUE(isRunning()) << log();
         EXPECT_EQ(quit(), 0) << log(); // 1 where validation had something to say

@@ -211,7 +211,7 @@ TEST_F(EndedRanks, OneThatStopsForEverHoldsNobodyUp) {
 #ifdef RT_HAS_GPU
 
 TEST_F(Ranks, MakeTheBitsOfOneProcessOnGpus) {
-    const Arguments size = {"--width", "70", "--height", "41", "--spp", "20", "--headless"};
+    const Arguments size = {"--engine", "compute", "--width", "70", "--height", "41", "--spp", "20", "--headless"};
     Arguments alone = size;
     alone.insert(alone.begin(), "-q");
     alone.insert(alone.end(), {"-o", "one.pfm"});

@@ -151,6 +151,7 @@ TEST(StandIns, TheStatueIsClosedAndOfTheSizeOfLucy) {
     EXPECT_NEAR(lower.y, 15, 5);
     EXPECT_NEAR(upper.y, 885, 5);
     EXPECT_NEAR(upper.z - lower.z, 480, 20);
+    EXPECT_NEAR(double(makeMeshStandIn("statue-fine").triangles.size()), 1000000, 20000);
     EXPECT_THROW(makeMeshStandIn("bunny"), InputError);
 }
 

@@ -33,7 +33,7 @@ struct EngineChoice {
 struct EngineDevice {
     std::string name;
     std::string request; // as --device takes it: the name, or the index where names are alike
-    bool hasPipeline = false;
+    std::vector<GpuEngineKind> engines; // that it has
 };
 using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
 

@@ -13,7 +13,7 @@ namespace rt::app {
 // Execution policy of the CPU engine.
 enum class Policy { Par, Seq, ParUnseq };
 // How the GPU engine traces rays.
-enum class GpuEngineKind { Auto, Pipeline, Compute };
+enum class GpuEngineKind { Auto, Pipeline, Compute, Query };
 // How radiance is brought into [0,1] for display.
 enum class Tonemap : std::uint32_t {
     None = shared::kTonemapNone, // clamped
@@ -64,9 +64,10 @@ inline constexpr Named<Policy> kPolicies[] = {{"par", Policy::Par, "Multi core: 
                                               {"seq", Policy::Seq, "Single core: seq"},
                                               {"par_unseq", Policy::ParUnseq, "Multi core: par_unseq"}};
 inline constexpr Named<GpuEngineKind> kGpuEngines[] = {
-    {"auto", GpuEngineKind::Auto, "Auto", "what serves the device best"},
+    {"auto", GpuEngineKind::Auto, "Auto", "what is measured to be fastest on this device for such a scene"},
     {"pipeline", GpuEngineKind::Pipeline, "Ray tracing pipeline", "the device's own acceleration structures"},
-    {"compute", GpuEngineKind::Compute, "Compute shaders", "our tree, for devices without a ray tracing pipeline too"}};
+    {"compute", GpuEngineKind::Compute, "Compute shaders", "our tree, for devices without a ray tracing pipeline too"},
+    {"query", GpuEngineKind::Query, "Ray queries", "compute shaders through the device's own acceleration structures"}};
 inline constexpr Named<Tonemap> kTonemaps[] = {{"none", Tonemap::None, "None (clamp)"},
                                                {"reinhard", Tonemap::Reinhard, "Reinhard"},
                                                {"aces", Tonemap::Aces, "ACES-like"},

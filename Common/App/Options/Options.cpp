@@ -205,7 +205,8 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
         ->configurable(false);
     flags.addSwitch("--validation", parsed.options.validation, "check every Vulkan call; a message makes exit code 1");
     flags.addChoice("--engine", kGpuEngines, parsed.options.gpuEngine,
-                    "Vulkan's ray tracing pipeline, or compute shaders; auto: the faster one");
+                    "Vulkan's ray tracing pipeline, or compute shaders, with a tree of our own or with ray queries; "
+                    "auto: the fastest, by measurement");
     for (const char* flag : {"--threads", "--policy"}) flags.refuse(flag, "a flag of ray-tracing-cpu");
 }
 

@@ -47,8 +47,21 @@ struct RankFigures {
     std::uint64_t bytes = 0;   // exchanged with rank 0
 };
 
+// What a device's driver tells of a shader that it compiled: its registers, and the like, each in words of the driver.
+struct ShaderFigure {
+    std::string shader;
+    std::string name;
+    double value = 0;
+};
+
+// How fast an engine was when `auto` chose among several.
+struct EngineRate {
+    std::string engine;
+    double raysPerSecond = 0;
+};
+
 struct EngineReport {
-    std::string engine;         // "multi", "single", "pipeline", "compute"
+    std::string engine;         // "multi", "single", "pipeline", "compute", "query"
     std::string device;         // processor or Vulkan device
     std::string kernel;         // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
     std::uint32_t threads = 0;  // CPU only
@@ -59,9 +72,12 @@ struct EngineReport {
     double longestDispatchSeconds = 0; // of a GPU for what it gets at a time, since it was opened: draws wait for that
     RayCounts rays;
     std::uint64_t nonfiniteSamples = 0;
-    std::uint64_t deviceBytes = 0;  // acceleration structure, scene and film held by the engine
-    std::vector<RankFigures> ranks; // empty for one process
-    std::string lightSampling;      // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+    std::uint64_t deviceBytes = 0;     // acceleration structure, scene and film held by the engine
+    std::vector<RankFigures> ranks;    // empty for one process
+    std::string lightSampling;         // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+    std::vector<EngineRate> rates;     // by which the engine was chosen; empty: it was named, or there was no choice
+    bool ratesAreOfBefore = false;     // another run has measured them
+    std::vector<ShaderFigure> shaders; // of the kernel; empty unless asked for
 };
 
 // First-hit features averaged over some samples of each pixel; empty unless asked for.

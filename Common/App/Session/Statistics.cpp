@@ -66,6 +66,13 @@ Json windowJson(const WindowFigures& window, const EngineReport& report) {
             {"longest_dispatch_seconds", dispatch > 0 ? Json(dispatch) : Json(nullptr)}};
 }
 
+// How `auto` chose the engine.
+Json choiceJson(const EngineReport& report) {
+    Json rates = Json::object();
+    for (const EngineRate& rate : report.rates) rates[rate.engine] = rate.raysPerSecond;
+    return {{"by", report.ratesAreOfBefore ? "earlier measurement" : "measurement"}, {"rays_per_second", rates}};
+}
+
 Json ranksJson(const std::vector<RankFigures>& ranks) {
     Json json = Json::array();
     for (const RankFigures& rank : ranks)
@@ -118,6 +125,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     if (error) json["error"] = errorJson(*error);
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;
+    if (!report.rates.empty()) json["engine_choice"] = choiceJson(report);
     if (!report.ranks.empty()) json["ranks"] = ranksJson(report.ranks);
     if (window) json["window"] = windowJson(*window, report);
     // Names of files may be anything; JSON is UTF-8.

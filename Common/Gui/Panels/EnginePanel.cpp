@@ -19,10 +19,14 @@ Devices::const_iterator find(const Devices& devices, const std::string& request)
     return std::find_if(devices.begin(), devices.end(), [&](const EngineDevice& d) { return d.request == request; });
 }
 
-// Whether the device of the choice, which may be any, has ray tracing pipelines. One that was named in another way may.
-bool mayHavePipeline(const EngineChoice& choice, const Devices& devices) {
-    if (const auto device = find(devices, choice.device); device != devices.end()) return device->hasPipeline;
-    return std::any_of(devices.begin(), devices.end(), [](const EngineDevice& d) { return d.hasPipeline; });
+// Whether the device of the choice, which may be any, has this engine. One that was named in another way may.
+bool mayHave(GpuEngineKind kind, const EngineChoice& choice, const Devices& devices) {
+    if (kind == GpuEngineKind::Auto || kind == GpuEngineKind::Compute) return true; // all have
+    const auto has = [kind](const EngineDevice& d) {
+        return std::find(d.engines.begin(), d.engines.end(), kind) != d.engines.end();
+    };
+    if (const auto device = find(devices, choice.device); device != devices.end()) return has(*device);
+    return std::any_of(devices.begin(), devices.end(), has);
 }
 
 void drawProcessor(EngineChoice& engine, std::uint32_t threads) {
@@ -37,15 +41,15 @@ void drawProcessor(EngineChoice& engine, std::uint32_t threads) {
 void drawKind(EngineChoice& engine, const app::SessionState& state, const Devices& devices) {
     markNextRow(engine.kind != EngineChoice().kind);
     row("Engine",
-        "How rays are traced: through the device's ray tracing pipeline, or in compute shaders through a tree of our "
-        "own, which needs no such pipeline. Automatic takes the one that serves the device best. The picture is the "
-        "same");
+        "How rays are traced: through the device's ray tracing pipeline, or in compute shaders, through a tree of our "
+        "own or by ray queries. Automatic takes the one that is measured to be the fastest for such a scene. The "
+        "picture is the same");
     std::string shown = app::titleOf(app::kGpuEngines, engine.kind);
     const bool isKnown = state.engine == engine && !state.report.engine.empty();
     if (engine.kind == GpuEngineKind::Auto && isKnown) shown += " (" + state.report.engine + ")";
     if (!ImGui::BeginCombo("##engine", shown.c_str())) return;
     for (const auto& row : app::kGpuEngines) {
-        if (row.value == GpuEngineKind::Pipeline && !mayHavePipeline(engine, devices)) continue;
+        if (!mayHave(row.value, engine, devices)) continue;
         if (ImGui::Selectable(row.title, row.value == engine.kind)) engine.kind = row.value;
         if (row.value == engine.kind) ImGui::SetItemDefaultFocus();
     }
@@ -64,9 +68,7 @@ void drawDevice(EngineChoice& engine, const Devices& devices) {
         ImGui::PushID(request.c_str());
         if (ImGui::Selectable(name.c_str(), request == engine.device)) {
             engine.device = request;
-            if (!mayHavePipeline(engine, devices) && engine.kind == GpuEngineKind::Pipeline) {
-                engine.kind = GpuEngineKind::Auto;
-            }
+            if (!mayHave(engine.kind, engine, devices)) engine.kind = GpuEngineKind::Auto;
         }
         ImGui::PopID();
     };
@@ -80,9 +82,7 @@ void drawDevice(EngineChoice& engine, const Devices& devices) {
 EngineChoice servedChoice(EngineChoice choice, const Devices& devices, const app::Options& options) {
     if (options.device.empty() && find(devices, choice.device) == devices.end()) choice.device.clear();
     const bool isAsked = options.given.count("--engine") > 0;
-    if (!isAsked && choice.kind == GpuEngineKind::Pipeline && !mayHavePipeline(choice, devices)) {
-        choice.kind = GpuEngineKind::Auto;
-    }
+    if (!isAsked && !mayHave(choice.kind, choice, devices)) choice.kind = GpuEngineKind::Auto;
     return choice;
 }
 

@@ -18,7 +18,7 @@ TexelData makePlanetMap(const std::string& name); // one of the names
 std::filesystem::path installedPlanetMap(const std::string& name);
 
 // "statue": a winged figure on the size and place of the Stanford Lucy model (about 870 units high along +Y from y =
-// 15, facing -X), a closed surface of about 450 000 triangles with normals.
+// 15, facing -X), a closed surface of about 450 000 triangles with normals. "statue-fine": of about a million.
 const std::vector<std::string>& meshStandInNames();
 MeshData makeMeshStandIn(const std::string& name); // one of the names
 

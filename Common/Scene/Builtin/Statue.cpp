@@ -13,7 +13,12 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kCell = 1.88; // gives about 450 000 triangles
+struct Size {
+    const char* name;
+    double cell;
+};
+constexpr Size kSizes[] = {{"statue", 1.88},        // about 450 000 triangles
+                           {"statue-fine", 1.255}}; // about a million
 
 // Distances to solids, negative inside; of ellipsoids approximate.
 
@@ -85,13 +90,14 @@ double figure(const glm::dvec3& p) {
 } // namespace
 
 const std::vector<std::string>& meshStandInNames() {
-    static const std::vector<std::string> names = {"statue"};
+    static const std::vector<std::string> names = {kSizes[0].name, kSizes[1].name};
     return names;
 }
 
 MeshData makeMeshStandIn(const std::string& name) {
-    if (name != "statue") throw InputError("stand-in \"" + name + "\": no such mesh");
-    return surfaceNet(figure, {-140, 5, -260}, {120, 895, 260}, kCell);
+    for (const Size& size : kSizes)
+        if (name == size.name) return surfaceNet(figure, {-140, 5, -260}, {120, 895, 260}, size.cell);
+    throw InputError("stand-in \"" + name + "\": no such mesh");
 }
 
 } // namespace rt::scene

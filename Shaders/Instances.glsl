@@ -1,0 +1,44 @@
+// Where a primitive of an acceleration structure stands in the scene.
+#include "Bindings.glsl"
+#include "Common/Shared/Base/Transform.h"
+#include "Common/Shared/Shape/Shapes.h"
+
+// Of an instance with this custom index. They are numbered from 1 in the acceleration structure; the world's own
+// geometry is 0.
+uint instanceOf(uint customIndex) {
+    if (!has(kFeatures, kFeatureInstances)) return kNone;
+    return customIndex - 1u;
+}
+
+Geometry geometryOf(uint instance) {
+    Geometry none;
+    none.firstSphere = 0u;
+    none.firstQuad = 0u;
+    none.firstTriangle = 0u;
+    if (!has(kFeatures, kFeatureInstances)) return none;
+    return constants.arrays.geometries.at[instance == kNone ? 0u : constants.arrays.instances.at[instance].geometry];
+}
+
+// Where a ray of the world meets a sphere of an instance before tMax; not positive: nowhere. By the map that Surface.h
+// brings hits back with: a device may invert an instance's map, and round, in ways of its own, by which a ray from an
+// ellipsoid would meet it again.
+float sphereHit(Ray ray, uint instance, uint index, float tMax) {
+    Sphere sphere = constants.arrays.spheres.at[index];
+    if (has(kFeatures, kFeatureMovingSpheres)) {
+        sphere.center = sphereCenter(sphere.center, constants.arrays.sphereMotions.at[index], ray.time);
+    }
+    if (instance != kNone) ray = rayInObject(constants.arrays.instances.at[instance], ray);
+    return intersectSphere(ray, sphere.center, sphere.radius, tMax);
+}
+
+// (u, v) of a hit of one of the two triangles that a quad is in the acceleration structure; `weights` of the vertices 1
+// and 2:
+//
+//   corner+V .------. corner+U+V     even: corner, +U, +U+V     (u, v) = (w1 + w2, w2)
+//            | odd /|                odd:  corner, +U+V, +V     (u, v) = (w1, w1 + w2)
+//            |  /   |
+//     corner '------' corner+U
+vec2 quadUv(uint triangle, vec2 weights) {
+    float sum = weights.x + weights.y;
+    return (triangle & 1u) == 0u ? vec2(sum, weights.y) : vec2(weights.x, sum);
+}
