@@ -11,6 +11,7 @@
 #include <glm/vec3.hpp>
 
 #include "Common/Shared/Base/Types.h"
+#include "Common/Shared/Light/LightShapes.h"
 
 namespace rt::test {
 

@@ -28,7 +28,7 @@ bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth
 bug 'density of rough metal' Metal.h 's/\(square\(cosine\) \+ square\(root\)\) \/ \(2\.0f/(square(cosine)) \/ (2.0f/' unit.Fuzz/MetalFuzz
 bug 'Fresnel reflectance' Dielectric.h 's/float parallel = \(c - eta \* t\)/float parallel = (c - t)/' unit.Dielectric
 bug 'free flight' Media.h 's/-log1p\(-u\) \/ extinction/u \/ extinction/' unit.FreeFlight
-bug 'half a texel' Textures.h 's/(float\(image\.height\)\)) - 0\.5f;/\1;/' unit.Textures
+bug 'half a texel' Textures.h 's/float at = p - 0\.5f;/float at = p;/' unit.Textures
 
 # ---- acceleration structures -----------------------------------------------------------------------------------------
 bug 'box of a sphere' PrimitiveBoxes.cpp 's/box\.upper \+= vec3\(sphere\.radius\)/box.upper += vec3(0.5f * sphere.radius)/' unit.AccelOracle
@@ -50,7 +50,7 @@ bug 'a scale of 0' ObjectReader.cpp 's/factors\.x == 0 \|\| factors\.y == 0 \|\|
 bug 'defocus in a scene file' SceneWriter.cpp 's/\{"defocus_angle", camera\.defocusAngle\}/{"defocus_angle", camera.focusDistance}/' unit.All/BuiltinScenes
 
 # ---- windows, history, benchmark -------------------------------------------------------------------------------------
-bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, openFile/GLFW_KEY_P, When::Control, openFile/' gui.ControlsTest
+bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, \[\]/GLFW_KEY_P, When::Control, []/' gui.ControlsTest
 bug 'the curve of a run' RunHistory.cpp 's/curve\.push_back\(\{point\.seconds, point\.relmse\}\)/curve.push_back({point.relmse, point.seconds})/' unit.RunHistoryTest
 bug 'uncertainty of two errors' Efficiency.cpp 's/hypot\(relativeCi\(\*match\.best, pixels\), /hypot(0.0, /' unit.BenchEfficiency
 
