@@ -36,8 +36,8 @@ TEST(BenchSuite, NamedOnesAreValidAndUseScenesAndAxesThatExist) {
             EXPECT_GT(combinations(experiment, 8).size(), 0u) << named.name << " " << experiment.name;
         names.insert(named.name);
     }
-    EXPECT_EQ(names,
-              (std::set<std::string>{"defaults", "full", "lights", "predecessor", "quick", "samplers", "scaling"}));
+    EXPECT_EQ(names, (std::set<std::string>{"defaults", "full", "lights", "peers", "predecessor", "quick", "samplers",
+                                            "scaling"}));
 }
 
 TEST(BenchSuite, ThePublishedSchemaAgrees) {
