@@ -10,7 +10,7 @@ build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohma
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
                assimp-testmodels)
 bench_packages=(libbenchmark-dev libembree-dev)
-fuzz_packages=(clang)
+fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
 
 preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
@@ -31,8 +31,9 @@ usage() {
                          render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
-./build.sh fuzz [SECONDS]
-                         build the fuzz targets with Clang and run all, 60 s together; finds are kept in build/fuzz/finds
+./build.sh fuzz [SECONDS [TARGET...]]
+                         build fuzz targets with Clang, unless some are named all, and run them, 60 s together; finds are
+                         kept in build/fuzz/finds
 ./build.sh sanitize      build the CPU program and its tests with sanitizers and run the tests of every change: address and
                          undefined behaviour in build-asan/, then threads in build-tsan/
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
@@ -97,10 +98,11 @@ run_tests() {
     return $status
 }
 
-# The fuzz targets are compiled apart, by Clang, into build/fuzz/.
+# build_fuzz [TARGET...]: fuzz targets are compiled apart, by Clang, into build/fuzz/; without a name all of them.
 build_fuzz() {
+    local targets=("${@/#/fuzz-}")
     preset=fuzz configure
-    preset=fuzz build
+    preset=fuzz build ${targets[@]+--target "${targets[@]}"}
 }
 
 # sanitize PRESET [-DNAME=VALUE...]: what runs without a device, as no driver is compiled with sanitizers.
@@ -147,8 +149,8 @@ case $verb in
     fuzz)
         [[ ${1:-60} =~ ^[1-9][0-9]{0,6}$ ]] || fail "fuzz $1: must be a number of seconds, 1 to 9999999"
         install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
-        build_fuzz
-        tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)"
+        build_fuzz "${@:2}"
+        tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)" "${@:2}"
         ;;
     sanitize)
         install_packages "${build_packages[@]}" "${test_packages[@]}"

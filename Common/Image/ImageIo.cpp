@@ -4,8 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <new>
+#include <sstream>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
@@ -100,7 +102,12 @@ void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::st
 } // namespace
 
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes) {
-    const auto text = [](double side) { return std::to_string(static_cast<std::int64_t>(side)); };
+    const auto text = [](double side) { // a header may claim any number
+        constexpr int kDigits = 10;
+        std::ostringstream out;
+        out << std::setprecision(kDigits) << side;
+        return out.str();
+    };
     const auto good = [](double side) { return side >= 1 && side <= kMaxSide && side == std::floor(side); };
     if (!good(width) || !good(height))
         throw InputError(name + ": image of " + text(width) + "x" + text(height) + " pixels (allowed: 1 to " +

@@ -1,10 +1,7 @@
-// rt-fuzz-seeds FOLDER: writes the inputs that fuzzing starts from, FOLDER/TARGET/*, by the writers of this project.
-#include <iostream>
+// rt-fuzz-seeds FOLDER: what ImageSeeds.cpp does not write, by the writers of this project.
+#include "tests/fuzz/Seeds.h"
+
 #include <iterator>
-#include <map>
-#include <random>
-#include <set>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,60 +11,15 @@
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/RunHistory.h"
 #include "Common/Bench/Suite.h"
-#include "Common/Image/Checkpoint.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Json/SceneJson.h"
-#include "tests/fuzz/Fuzz.h"
-#include "tests/unit/ExrFiles.h"
 #include "tests/unit/GltfBuilder.h"
 
 namespace {
 
+using rt::test::Seeds;
 namespace fs = std::filesystem;
-
-class Seeds {
-  public:
-    explicit Seeds(fs::path folder) : folder_(std::move(folder)) {}
-
-    fs::path place(const std::string& target, const std::string& name) const {
-        fs::create_directories(folder_ / target);
-        return folder_ / target / name;
-    }
-    void write(const std::string& target, const std::string& name, const std::string& bytes) const {
-        std::ofstream(place(target, name), std::ios::binary) << bytes;
-    }
-    // Also the words that mutations of this target insert, those of the document: blind ones make few keys.
-    void writeJson(const std::string& target, const std::string& name, const nlohmann::json& document) {
-        write(target, name, document.dump());
-        std::set<std::string>& words = words_[target];
-        collect(document, words);
-        fs::create_directories(folder_ / "words");
-        std::ofstream file(folder_ / "words" / target);
-        for (const std::string& word : words) file << '"' << word << "\"\n";
-        // Numbers at the limits of types, and structures.
-        for (const char* word : {"-1", "4294967295", "2147483648", "18446744073709551615", "1e300", "1e-300", "0.5",
-                                 "null", "{}", "[]", "[0]", "true"})
-            file << '"' << word << "\"\n";
-    }
-
-  private:
-    static void collect(const nlohmann::json& value, std::set<std::string>& words) {
-        const auto add = [&words](const std::string& text) {
-            constexpr std::size_t kLongest = 40; // data are no words
-            if (text.empty() || text.size() > kLongest || text.find_first_of("\"\\") != text.npos) return;
-            words.insert("\\\"" + text + "\\\"");
-        };
-        if (value.is_string()) add(value.get<std::string>());
-        if (value.is_object())
-            for (const auto& [key, member] : value.items()) add(key);
-        if (value.is_structured())
-            for (const auto& member : value) collect(member, words);
-    }
-
-    std::map<std::string, std::set<std::string>> words_;
-    fs::path folder_;
-};
 
 void writeScenes(Seeds& seeds) {
     // Mutations of long texts are slow, and stand-ins for files take seconds to generate.
@@ -220,55 +172,6 @@ void writeGltf(Seeds& seeds) {
     fs::remove(scratch.string() + ".bin");
 }
 
-void writeImages(const Seeds& seeds) {
-    rt::image::Image image(5, 4);
-    std::minstd_rand random;
-    for (float& value : image.data) value = static_cast<float>(random() % 1000) / 500;
-    for (const std::string format : {"png", "hdr", "exr", "pfm"})
-        rt::image::writeImage(seeds.place(format, "written." + format), rt::image::ImageRows(image),
-                              "{\"scene\": \"a\"}");
-    for (const auto& entry : fs::directory_iterator(fs::path(RT_TEST_DATA_DIR) / "images")) {
-        const std::string format = entry.path().extension().string().substr(1);
-        fs::copy_file(entry.path(), seeds.place(format, entry.path().filename().string()),
-                      fs::copy_options::overwrite_existing);
-    }
-    using rt::test::exrFile;
-    for (const auto compression :
-         {Imf::RLE_COMPRESSION, Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION,
-          Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION})
-        for (const auto type : {Imf::UINT, Imf::HALF, Imf::FLOAT})
-            seeds.write("exr", "lines-" + std::to_string(compression) + '-' + std::to_string(type),
-                        exrFile(image, {.type = type, .compression = compression}));
-    seeds.write("exr", "tiles", exrFile(image, {.type = Imf::HALF, .levels = Imf::ONE_LEVEL}));
-    seeds.write("exr", "levels", exrFile(image, {.compression = Imf::ZIP_COMPRESSION, .levels = Imf::RIPMAP_LEVELS}));
-    seeds.write("exr", "parts", rt::test::exrFileOfParts({image, image}, {.lineOrder = Imf::DECREASING_Y}));
-    seeds.write("exr", "deep", rt::test::deepExrFile());
-    // 1 x 1, 24 bits, uncompressed.
-    const char bmp[] =
-        "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0\0\0\0\0\0\0"
-        "\0\0\0\0\0\0\0\0\0\0\x10\x80\xff";
-    seeds.write("bmp", "one", std::string(bmp, sizeof bmp));
-    const char tga[] = "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\x10\x80\xff";
-    seeds.write("tga", "one", std::string(tga, sizeof tga - 1));
-}
-
-void writeCheckpoints(const Seeds& seeds) {
-    for (const bool adaptive : {false, true}) {
-        rt::image::FilmDesc desc{.width = 9, .height = 3, .replicates = 2, .secondMoments = !adaptive};
-        desc.adaptive = adaptive;
-        rt::image::Film film(desc);
-        film.reserveOpenBlocks();
-        rt::image::Film::TileBlock block;
-        film.begin(0, 0, block);
-        block.count = 3;
-        for (float& value : block.sum) value = 1;
-        film.commit(0, 0, block);
-        std::ostringstream out;
-        rt::image::writeCheckpoint(out, {{"scene", "a"}}, film);
-        seeds.write("checkpoint", adaptive ? "adaptive" : "plain", out.str());
-    }
-}
-
 void writeTexts(const Seeds& seeds) {
     rt::app::RunRecord record;
     record.time = rt::app::utcNow();
@@ -300,16 +203,10 @@ void writeTexts(const Seeds& seeds) {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 2) {
-        std::cerr << "usage: rt-fuzz-seeds FOLDER\n";
-        return 2;
-    }
-    Seeds seeds(argv[1]);
-    writeScenes(seeds);
-    writeMeshes(seeds);
-    writeGltf(seeds);
-    writeImages(seeds);
-    writeCheckpoints(seeds);
-    writeTexts(seeds);
-    return 0;
+    return rt::test::writeSeeds(argc, argv, [](Seeds& seeds) {
+        writeScenes(seeds);
+        writeMeshes(seeds);
+        writeGltf(seeds);
+        writeTexts(seeds);
+    });
 }

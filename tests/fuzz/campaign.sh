@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# campaign.sh FOLDER SECONDS JOBS: runs all fuzz targets built in FOLDER, JOBS at a time, SECONDS in all. What makes one
-# fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built. Corpora grow in FOLDER/corpus. Files
-# that targets write and read are kept in memory, where the system offers such a folder.
+# campaign.sh FOLDER SECONDS JOBS [TARGET...]: runs these fuzz targets, or all that are built in FOLDER, JOBS at a time,
+# SECONDS in all. What makes one fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built.
+# Corpora grow in FOLDER/corpus. Files that targets write and read are kept in memory, where the system offers a folder.
 set -euo pipefail
 folder=$1 seconds=$2 jobs=$3
 [[ -d $folder/targets ]] || { echo "$folder has no fuzz targets: ./build.sh fuzz builds them"; exit 77; }
@@ -33,7 +33,8 @@ place=$PWD
 scratch=$(mktemp -d "$place/rt-fuzz-XXXXXX")
 export scratch
 trap 'rm -rf "$scratch"' EXIT
-bin/rt-fuzz-seeds seeds
-targets=(targets/*)
+for program in bin/rt-fuzz-*seeds; do "$program" seeds; done
+targets=("${@:4}")
+((${#targets[@]})) || targets=(targets/*)
 each=$((seconds * jobs / ${#targets[@]}))
 printf '%s\n' "${targets[@]##*/}" | xargs -P "$jobs" -I{} bash -c "fuzz {} $((each > 0 ? each : 1))" || exit 1

@@ -1,5 +1,6 @@
 // Writes, synchronisations and renames that fail, one after the other, and signals before files are removed
-// (tests/layer/FaultCalls.cpp): nothing is lost that could be kept, and the program ends with one line and the documented exit code.
+// (tests/layer/FaultCalls.cpp): nothing is lost that could be kept, and the program ends with one line and the
+// documented exit code.
 #include "tests/program/Program.h"
 
 #if defined(RT_FAULT_CALLS) && !defined(RT_SANITIZED) // sanitizers want to be loaded first

@@ -84,6 +84,10 @@ TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
     }
 }
 
+TEST(ImageIoHostile, SidesThatAreNoNumbersOfPixelsAreShownAsTheyAre) {
+    EXPECT_NE(errorOf("a.pfm", "PF\n5e87 1.5\n-1\n").find("a.pfm: image of 5e+87x1.5 pixels"), std::string::npos);
+}
+
 TEST(ImageIoHostile, TruncationIsNoticedAtEveryByte) {
     for (const auto& [name, whole] : makeFiles()) {
         // A PNG file is complete without the checksum of its end marker.
