@@ -12,7 +12,7 @@
 #include <tbb/parallel_for_each.h>
 #endif
 
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 #include "RayTracingCPU/CpuEngine.h"
 
 namespace rt::cpu {
@@ -22,14 +22,14 @@ namespace rt::cpu {
 // again when all are done.
 template <class Work>
 void runWorkers(Policy policy, std::uint32_t count, const Work& work) {
-    if (policy == Policy::Seq || count == 1 || !accel::canStartThreads()) {
+    if (policy == Policy::Seq || count == 1 || !canStartThreads()) {
         for (std::uint32_t i = 0; i < count; ++i) work(i);
         return;
     }
-    accel::FirstFailure failure;
+    FirstFailure failure;
     const auto guarded = [&](std::uint32_t i) { failure.guard([&] { work(i); }); };
 #if defined(RT_THREADS_SANITIZED)
-    accel::onThreads(count, [&guarded](std::size_t i) { guarded(static_cast<std::uint32_t>(i)); });
+    onThreads(count, [&guarded](std::size_t i) { guarded(static_cast<std::uint32_t>(i)); });
 #else
     std::vector<std::uint32_t> indices(count);
     std::iota(indices.begin(), indices.end(), 0u);

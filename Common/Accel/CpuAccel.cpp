@@ -6,10 +6,10 @@
 
 #include "Common/Accel/AccelStorage.h"
 #include "Common/Accel/Build/BlockFill.h"
-#include "Common/Accel/Build/Parallel.h"
 #include "Common/Accel/Build/SceneTrees.h"
 #include "Common/Accel/QuantizedBvh.h"
 #include "Common/Accel/WideBvh.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Shared/Base/Features.h"
 
 namespace rt::accel {

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <vector>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Image/Metrics.h"
 
 namespace rt::image {
 namespace {
 
-constexpr std::size_t kReach = 2; // pixels to each side of the one in the middle of a window
+constexpr std::size_t kReach = 2;      // pixels to each side of the one in the middle of a window
+constexpr std::size_t kChunkRows = 16; // that a thread takes at a time
 constexpr double kNormal95 = 1.959964;
 constexpr double kSystematic = 0.05; // of the value
 
@@ -103,20 +105,34 @@ double RelMseEstimate::high() const {
 }
 
 RelMseEstimate estimateRelMse(const Image& mean, const Image& variance) {
-    RowOfWindows row(mean, variance);
-    double sum = 0, squares = 0;
-    for (std::uint32_t y = 0; y < mean.height; ++y) {
-        row.moveTo(y);
-        for (std::uint32_t x = 0; x < mean.width; ++x) {
-            double pixel = 0;
-            for (std::uint32_t c = 0; c < mean.channels; ++c)
-                pixel += relativeError(mean.pixel(x, y)[c], variance.pixel(x, y)[c], row.window(x, c));
-            sum += pixel;
-            squares += pixel * pixel;
+    struct Sums {
+        double errors = 0, squares = 0; // of pixels
+    };
+    const Chunks chunks(mean.height, kChunkRows);
+    std::vector<Sums> parts(chunks.count);
+    parallelFor(0, chunks.count, [&](std::size_t chunk) {
+        RowOfWindows row(mean, variance);
+        Sums sums;
+        for (std::size_t y = chunks.begin(chunk); y < chunks.end(chunk); ++y) {
+            row.moveTo(static_cast<std::uint32_t>(y));
+            for (std::uint32_t x = 0; x < mean.width; ++x) {
+                const std::size_t first = (y * mean.width + x) * mean.channels;
+                double pixel = 0;
+                for (std::uint32_t c = 0; c < mean.channels; ++c)
+                    pixel += relativeError(mean.data[first + c], variance.data[first + c], row.window(x, c));
+                sums.errors += pixel;
+                sums.squares += pixel * pixel;
+            }
         }
+        parts[chunk] = sums;
+    });
+    Sums sums; // in the same order for any number of threads
+    for (const Sums& part : parts) {
+        sums.errors += part.errors;
+        sums.squares += part.squares;
     }
     const auto values = static_cast<double>(mean.data.size());
-    return {sum / values, std::hypot(std::sqrt(squares), kSystematic * sum) / values};
+    return {sums.errors / values, std::hypot(std::sqrt(sums.squares), kSystematic * sums.errors) / values};
 }
 
 } // namespace rt::image

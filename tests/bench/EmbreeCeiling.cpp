@@ -30,7 +30,7 @@ double EmbreeRays::trace(std::size_t) {
 
 #include <embree3/rtcore.h>
 
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 
@@ -168,7 +168,7 @@ std::optional<EmbreeRays> EmbreeRays::make(const scene::CompiledScene& scene) {
 double EmbreeRays::trace(std::size_t threads) {
     const std::vector<Ray>& rays = data_->rays;
     const auto start = std::chrono::steady_clock::now();
-    accel::parallelFor(threads, (rays.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    parallelFor(threads, (rays.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
         const std::size_t end = std::min((chunk + 1) * kChunk, rays.size());
         for (std::size_t i = chunk * kChunk; i < end; ++i)
             data_->distances[i] = bench::trace(data_->scene.get(), rays[i]).ray.tfar;

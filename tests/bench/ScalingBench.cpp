@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/Accel/Build/Parallel.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Stopwatch.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Summary.h"
 #include "RayTracingCPU/CpuEngine.h"
@@ -62,7 +62,7 @@ int run(const std::vector<std::string>& arguments) {
         return arguments.size() > i ? std::max(1, std::atoi(arguments[i].c_str())) : otherwise;
     };
     const int repeats = number(0, 7);
-    const auto threads = static_cast<std::uint32_t>(number(1, static_cast<int>(accel::threadCount(0))));
+    const auto threads = static_cast<std::uint32_t>(number(1, static_cast<int>(threadCount(0))));
     const std::string name = arguments.size() > 2 ? arguments[2] : "cornell-box-lights";
     const auto scene = app::compile(app::loadScene(name), true);
     std::optional<EmbreeRays> embree = EmbreeRays::make(*scene);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "Common/Accel/Build/BinnedSplit.h"
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 
 namespace rt::accel {
 namespace {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 
 namespace rt::accel {
 namespace {

@@ -1,11 +1,11 @@
-#include "Common/Accel/Build/Parallel.h"
+#include "Common/Core/Parallel.h"
 
 #include <chrono>
 #include <condition_variable>
 #include <new>
 #include <system_error>
 
-namespace rt::accel {
+namespace rt {
 
 #ifdef RT_THREADS_SANITIZED
 
@@ -70,4 +70,4 @@ bool canStartThreads() {
 
 #endif
 
-} // namespace rt::accel
+} // namespace rt

@@ -24,7 +24,7 @@
 #endif
 #endif
 
-namespace rt::accel {
+namespace rt {
 
 inline std::size_t threadCount(std::size_t threads) {
     return threads != 0 ? threads : std::max<std::size_t>(1, std::thread::hardware_concurrency());
@@ -120,4 +120,4 @@ struct Chunks {
     std::size_t items_;
 };
 
-} // namespace rt::accel
+} // namespace rt
