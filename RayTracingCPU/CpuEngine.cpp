@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/LargeArray.h"
@@ -160,7 +161,7 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         const Clock::time_point deadline = start + std::chrono::duration_cast<Clock::duration>(budget.time);
         while (!cancelled(budget)) {
-            if (nextTile_ >= tiles_.size() && !beginPass()) break;
+            if (nextTile_ >= tiles_.size() && !beginPass(budget.cancel)) break;
             runPass(deadline, budget.cancel);
             if (Clock::now() >= deadline) break;
         }
@@ -253,12 +254,14 @@ class CpuEngine final : public app::Engine {
     std::uint64_t goal() const { return limit_ ? *limit_ : image::goalOf(film_, settings_.spp); }
 
     // Opens the next pass, which takes every pixel to passEnd_ samples, or to what the plan gives it: one more block of
-    // each replicate, or more where the plan has left few pixels. False: all done.
-    bool beginPass() {
+    // each replicate, or more where the plan has left few pixels. False: all done, or cancelled.
+    bool beginPass(const std::atomic<bool>* cancel) {
         std::uint64_t next = image::nextSample(film_, tiles_, goal());
         if (next == Film::kNoSample) {
             if (limit_ || !film_.isPilot()) return false;
-            film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+            std::vector<std::uint32_t> plan = image::makeSamplePlan(film_, settings_.spp, {threads_, cancel});
+            if (plan.empty()) return false;
+            film_.setPlan(std::move(plan));
             next = image::nextSample(film_, tiles_, goal());
         }
         const std::uint64_t block = std::uint64_t{Film::kBlock} * settings_.replicates;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
@@ -74,13 +75,13 @@ class GpuEngine final : public app::Engine {
     void setFilm(Film film);
     void loadTiles();
     void uploadConstants(const scene::CameraDesc& camera);
-    bool beginPass();
+    bool beginPass(const std::atomic<bool>* cancel);
     void launchNext();
     void beginLaunch(const shared::FilmLaunch& launch);
     void finishPaths();
     void endLaunch();
     void endLaunches();
-    void planSamples();
+    void planSamples(const std::atomic<bool>* cancel);
     bool nextRegion();
     void refresh();
 
@@ -213,7 +214,7 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     const double seconds = budget.time.count();
     try {
         while (budget.cancel == nullptr || !budget.cancel->load(std::memory_order_relaxed)) {
-            if (!pass_ && !beginPass()) {
+            if (!pass_ && !beginPass(budget.cancel)) {
                 finishPaths();
                 break;
             }
@@ -237,8 +238,9 @@ app::RenderStatus GpuEngine::renderSome(const app::Budget& budget) {
     return status;
 }
 
-bool GpuEngine::beginPass() {
-    if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples();
+// False: all is done or launched, or cancelled.
+bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
+    if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples(cancel);
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
     pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest());
@@ -247,11 +249,13 @@ bool GpuEngine::beginPass() {
 }
 
 // Decides on the samples of an adaptive film, whose pilot is done, and goes on with them.
-void GpuEngine::planSamples() {
+void GpuEngine::planSamples(const std::atomic<bool>* cancel) {
     finishPaths();
     endLaunches();
     refresh();
-    film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+    std::vector<std::uint32_t> plan = image::makeSamplePlan(film_, settings_.spp, {.cancel = cancel});
+    if (plan.empty()) return;
+    film_.setPlan(std::move(plan));
     setFilm(std::move(film_));
 }
 

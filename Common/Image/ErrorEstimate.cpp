@@ -5,12 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Image/Metrics.h"
 
 namespace rt::image {
 namespace {
 
-constexpr std::size_t kReach = 2; // pixels to each side of the one in the middle of a window
+constexpr std::size_t kReach = 2;      // pixels to each side of the one in the middle of a window
+constexpr std::size_t kChunkRows = 16; // that a thread takes at a time
 constexpr double kNormal95 = 1.959964;
 constexpr double kSystematic = 0.05; // of the value
 
@@ -48,7 +50,8 @@ struct Span {
 // Those rows of an image that the windows of one row cover, each read once.
 class SlidingRows {
   public:
-    explicit SlidingRows(const ImageRows& image) : image_(image), values_(kRows * image.rowValues()) {}
+    SlidingRows(const ImageRows& image, std::size_t first)
+        : image_(image), values_(kRows * image.rowValues()), next_(first) {}
 
     void readUpTo(std::size_t last) {
         for (; next_ <= last; ++next_) image_.read(static_cast<std::uint32_t>(next_), row(next_));
@@ -62,26 +65,27 @@ class SlidingRows {
 
     const ImageRows& image_;
     std::vector<float> values_;
-    std::size_t next_ = 0; // that has not been read
+    std::size_t next_; // that has not been read
 };
 
 // The windows around the values of one row of pixels. Every row is summed anew: what is added and subtracted again
 // would leave the rounding error of a firefly in all rows below it.
 class RowOfWindows {
   public:
-    RowOfWindows(const ImageRows& mean, const ImageRows& variance)
+    // `row`: the first that it is moved to.
+    RowOfWindows(const ImageRows& mean, const ImageRows& variance, std::size_t row)
         : width_(mean.width),
           height_(mean.height),
           channels_(mean.channels),
-          mean_(mean),
-          variance_(variance),
+          mean_(mean, Span(row, mean.height).first),
+          variance_(variance, Span(row, mean.height).first),
           margin_(kReach * mean.channels),
           means_(mean.rowValues() + 2 * margin_),
           squares_(means_.size()),
           variances_(means_.size()) {}
 
     // From each row to the one below.
-    void moveTo(std::uint32_t row) {
+    void moveTo(std::size_t row) {
         for (std::vector<double>* sums : {&means_, &squares_, &variances_}) std::fill(sums->begin(), sums->end(), 0.0);
         row_ = row;
         rows_ = Span(row, height_);
@@ -133,20 +137,34 @@ double RelMseEstimate::high() const {
     return value + kNormal95 * standardError;
 }
 
+// The rows are read one after the other within a chunk; in the same order for any number of threads.
 RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance) {
-    RowOfWindows row(mean, variance);
-    double sum = 0, squares = 0;
-    for (std::uint32_t y = 0; y < mean.height; ++y) {
-        row.moveTo(y);
-        for (std::uint32_t x = 0; x < mean.width; ++x) {
-            double pixel = 0;
-            for (std::uint32_t c = 0; c < mean.channels; ++c) pixel += row.error(x, c);
-            sum += pixel;
-            squares += pixel * pixel;
+    struct Sums {
+        double errors = 0, squares = 0; // of pixels
+    };
+    const Chunks chunks(mean.height, kChunkRows);
+    std::vector<Sums> parts(chunks.count);
+    parallelFor(0, chunks.count, [&](std::size_t chunk) {
+        RowOfWindows row(mean, variance, chunks.begin(chunk));
+        Sums sums;
+        for (std::size_t y = chunks.begin(chunk); y < chunks.end(chunk); ++y) {
+            row.moveTo(y);
+            for (std::uint32_t x = 0; x < mean.width; ++x) {
+                double pixel = 0;
+                for (std::uint32_t c = 0; c < mean.channels; ++c) pixel += row.error(x, c);
+                sums.errors += pixel;
+                sums.squares += pixel * pixel;
+            }
         }
+        parts[chunk] = sums;
+    });
+    Sums sums;
+    for (const Sums& part : parts) {
+        sums.errors += part.errors;
+        sums.squares += part.squares;
     }
     const double values = static_cast<double>(mean.rowValues()) * mean.height;
-    return {sum / values, std::hypot(std::sqrt(squares), kSystematic * sum) / values};
+    return {sums.errors / values, std::hypot(std::sqrt(sums.squares), kSystematic * sums.errors) / values};
 }
 
 } // namespace rt::image

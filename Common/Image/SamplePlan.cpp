@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numeric>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Image/Metrics.h"
 
 namespace rt::image {
@@ -18,6 +18,55 @@ constexpr double kMost = 16;             // for a pixel, of the mean
 
 constexpr std::uint32_t kTile = Film::kTile;
 constexpr float kLargest = 1e30f; // in place of a variance that is no number, so that sums of it are
+
+struct Cancelled {};
+
+struct Sums {
+    double first = 0;
+    double second = 0;
+};
+
+// Work on the pixels of an image, some rows at a time. What comes of it does not depend on the number of threads.
+class RowLoop {
+  public:
+    RowLoop(const FilmDesc& desc, const PlanWork& work)
+        : width_(desc.width), chunks_(desc.height, kRows), work_(work) {}
+
+    // Calls f(number of the chunk, first row, row behind the last). Throws Cancelled.
+    template <class Function>
+    void forEachChunk(const Function& f) const {
+        parallelFor(work_.threads, chunks_.count, [&](std::size_t chunk) {
+            if (work_.cancel != nullptr && work_.cancel->load(std::memory_order_relaxed)) throw Cancelled{};
+            f(chunk, chunks_.begin(chunk), chunks_.end(chunk));
+        });
+    }
+    // Adds up, in order, what f(first pixel, pixel behind the last) returns of each chunk.
+    template <class Function>
+    Sums sum(const Function& f) const {
+        Sums total;
+        for (const Sums& part : sumsOfChunks(f)) {
+            total.first += part.first;
+            total.second += part.second;
+        }
+        return total;
+    }
+    template <class Function>
+    std::vector<Sums> sumsOfChunks(const Function& f) const {
+        std::vector<Sums> parts(chunks_.count);
+        forEachChunk([&](std::size_t chunk, std::size_t first, std::size_t end) {
+            parts[chunk] = f(first * width_, end * width_);
+        });
+        return parts;
+    }
+    std::size_t width() const { return width_; }
+
+  private:
+    static constexpr std::size_t kRows = 16;
+
+    std::size_t width_;
+    Chunks chunks_;
+    PlanWork work_;
+};
 
 // A half's pilot in a row of pixels, interleaved RGB; empty beyond the image.
 struct PilotRow {
@@ -54,6 +103,7 @@ PilotRow readPilot(const Film& film, std::uint32_t half, std::uint32_t y) {
 struct Noise {
     std::vector<float> absolute; // to MSE
     std::vector<float> relative; // to relMSE
+    Sums total;                  // of either
 };
 
 // Sums over three rows by the weights 1 2 1, between a pixel of zeros at either end.
@@ -66,12 +116,13 @@ std::vector<double> sumOfRows(const std::vector<float>& above, const std::vector
     return sums;
 }
 
-// Of the pixels of a row, between its neighbours.
-void appendNoise(const PilotRow& above, const PilotRow& here, const PilotRow& below, Noise& noise) {
+// Of the pixels of a row, between its neighbours; the first of them is pixel `at` of the image. Returns their sums.
+Sums findNoise(const PilotRow& above, const PilotRow& here, const PilotRow& below, std::size_t at, Noise& noise) {
     const std::vector<double> means = sumOfRows(above.means, here.means, below.means);
     const std::vector<double> variances = sumOfRows(above.variances, here.variances, below.variances);
     const std::size_t width = here.means.size() / 3;
     const double rows = 2.0 + (above.means.empty() ? 0 : 1) + (below.means.empty() ? 0 : 1);
+    Sums sums;
     for (std::size_t x = 0; x < width; ++x) {
         const double scale = 1 / (rows * (2.0 + (x > 0 ? 1 : 0) + (x + 1 < width ? 1 : 0)));
         double absolute = 0, relative = 0;
@@ -81,74 +132,131 @@ void appendNoise(const PilotRow& above, const PilotRow& here, const PilotRow& be
             absolute += variance;
             relative += variance / (mean * mean + kRelativeFloor);
         }
-        noise.absolute.push_back(static_cast<float>(absolute));
-        noise.relative.push_back(static_cast<float>(relative));
+        noise.absolute[at + x] = static_cast<float>(absolute);
+        noise.relative[at + x] = static_cast<float>(relative);
+        sums.first += absolute;
+        sums.second += relative;
     }
+    return sums;
 }
 
-Noise noiseOf(const Film& film, std::uint32_t half) {
-    const std::uint32_t height = film.desc().height;
+Noise noiseOf(const Film& film, std::uint32_t half, const RowLoop& loop) {
+    const std::uint32_t width = film.desc().width, height = film.desc().height;
     Noise noise;
-    noise.absolute.reserve(std::size_t{film.desc().width} * height);
-    noise.relative.reserve(noise.absolute.capacity());
-    PilotRow above, here = readPilot(film, half, 0), below;
-    for (std::uint32_t y = 0; y < height; ++y) {
-        below = y + 1 < height ? readPilot(film, half, y + 1) : PilotRow{};
-        appendNoise(above, here, below, noise);
-        above = std::move(here);
-        here = std::move(below);
-    }
+    noise.absolute.resize(std::size_t{width} * height);
+    noise.relative.resize(noise.absolute.size());
+    noise.total = loop.sum([&](std::size_t firstPixel, std::size_t endPixel) {
+        const auto first = static_cast<std::uint32_t>(firstPixel / width);
+        const auto end = static_cast<std::uint32_t>(endPixel / width);
+        PilotRow above = first > 0 ? readPilot(film, half, first - 1) : PilotRow{};
+        PilotRow here = readPilot(film, half, first);
+        Sums sums;
+        for (std::uint32_t y = first; y < end; ++y) {
+            PilotRow below = y + 1 < height ? readPilot(film, half, y + 1) : PilotRow{};
+            const Sums row = findNoise(above, here, below, std::size_t{y} * width, noise);
+            sums.first += row.first;
+            sums.second += row.second;
+            above = std::move(here);
+            here = std::move(below);
+        }
+        return sums;
+    });
     return noise;
 }
 
 // To which the samples of each pixel should be proportional.
-std::vector<float> importanceOf(const Noise& noise) {
-    const double absolute = std::accumulate(noise.absolute.begin(), noise.absolute.end(), 0.0);
-    const double relative = std::accumulate(noise.relative.begin(), noise.relative.end(), 0.0);
+std::vector<float> importanceOf(const Noise& noise, const RowLoop& loop) {
+    const auto [absolute, relative] = noise.total;
     const std::size_t pixels = noise.absolute.size();
     if (!(absolute > 0)) return std::vector<float>(pixels, 1.0f); // nothing was seen to differ
+    const double toMse = (1 - kRelative) / absolute, toRelMse = kRelative / relative;
     std::vector<float> importance(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const double share = (1 - kRelative) * noise.absolute[i] / absolute + kRelative * noise.relative[i] / relative;
-        importance[i] = static_cast<float>(std::sqrt(share));
-    }
-    const double mean = std::accumulate(importance.begin(), importance.end(), 0.0) / static_cast<double>(pixels);
-    for (float& value : importance) value = static_cast<float>(std::min(value + kAdded * mean, kMost * mean));
+    const Sums sums = loop.sum([&](std::size_t first, std::size_t end) {
+        Sums part;
+        for (std::size_t i = first; i < end; ++i) {
+            const double share = toMse * double{noise.absolute[i]} + toRelMse * double{noise.relative[i]};
+            importance[i] = static_cast<float>(std::sqrt(share));
+            part.first += double{importance[i]};
+        }
+        return part;
+    });
+    const double mean = sums.first / static_cast<double>(pixels);
+    for (float& value : importance) value = static_cast<float>(std::min(double{value} + kAdded * mean, kMost * mean));
     return importance;
 }
 
 // The factor at which max(least, factor * importance) sums up to `total`. The sum is a convex function of it, so that
 // Newton's method comes down to it from where no pixel is at the least.
-double factorFor(const std::vector<float>& importance, double least, double total) {
-    double factor = total / std::accumulate(importance.begin(), importance.end(), 0.0);
+double factorFor(const std::vector<float>& importance, double least, double total, const RowLoop& loop) {
+    const auto sumsAt = [&](double factor, double least) { // of the samples, and their slope
+        return loop.sum([&](std::size_t first, std::size_t end) {
+            Sums part;
+            for (std::size_t i = first; i < end; ++i) {
+                const double samples = factor * double{importance[i]};
+                part.first += std::max(samples, least);
+                part.second += samples > least ? double{importance[i]} : 0.0;
+            }
+            return part;
+        });
+    };
+    double factor = total / sumsAt(1, 0).first;
     for (;;) {
-        double sum = 0, slope = 0;
-        for (const float value : importance) {
-            const double samples = factor * value;
-            sum += std::max(samples, least);
-            if (samples > least) slope += value;
-        }
-        const double next = slope > 0 ? factor - (sum - total) / slope : factor;
+        const Sums at = sumsAt(factor, least);
+        const double next = at.second > 0 ? factor - (at.first - total) / at.second : factor;
         if (!(next < factor * (1 - 1e-9))) return factor;
         factor = next;
     }
 }
 
 // Samples of each pixel, at least `least`, `total` in all. What rounding takes from a pixel its successor gets.
-std::vector<std::uint32_t> allocate(const std::vector<float>& importance, std::uint32_t least, std::uint64_t total) {
-    const double factor = factorFor(importance, least, static_cast<double>(total));
+std::vector<std::uint32_t> allocate(const std::vector<float>& importance, std::uint32_t least, std::uint64_t total,
+                                    const RowLoop& loop) {
+    const double factor = factorFor(importance, least, static_cast<double>(total), loop);
     const std::uint64_t spare = total - least * std::uint64_t{importance.size()};
+    const auto wantedBy = [&](std::size_t pixel) { // beyond the least
+        return std::max(factor * double{importance[pixel]} - least, 0.0);
+    };
+    const auto due = [spare](double wanted) { return std::min(static_cast<std::uint64_t>(wanted + 0.5), spare); };
+    const std::vector<Sums> chunks = loop.sumsOfChunks([&](std::size_t first, std::size_t end) {
+        Sums part;
+        for (std::size_t i = first; i < end; ++i) part.first += wantedBy(i);
+        return part;
+    });
+    std::vector<double> before(chunks.size() + 1); // what the pixels before each chunk want
+    for (std::size_t i = 0; i < chunks.size(); ++i) before[i + 1] = before[i] + chunks[i].first;
     std::vector<std::uint32_t> counts(importance.size());
-    double wanted = 0; // beyond the least, by the pixels so far
-    std::uint64_t given = 0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        wanted += std::max(factor * importance[i] - least, 0.0);
-        const bool isLast = i + 1 == counts.size();
-        const std::uint64_t due = isLast ? spare : std::min(static_cast<std::uint64_t>(wanted + 0.5), spare);
-        counts[i] = least + static_cast<std::uint32_t>(due - given);
-        given = due;
-    }
+    loop.forEachChunk([&](std::size_t chunk, std::size_t firstRow, std::size_t endRow) {
+        const std::size_t end = endRow * loop.width();
+        const bool isLast = chunk + 1 == chunks.size();
+        const std::uint64_t last = isLast ? spare : due(before[chunk + 1]); // given when the chunk is done
+        double wanted = before[chunk];
+        std::uint64_t given = due(wanted);
+        for (std::size_t i = firstRow * loop.width(); i < end; ++i) {
+            wanted += wantedBy(i);
+            const std::uint64_t now = i + 1 == end ? last : std::clamp(due(wanted), given, last);
+            counts[i] = least + static_cast<std::uint32_t>(now - given);
+            given = now;
+        }
+    });
     return counts;
+}
+
+// Into the slots of a half's replicates.
+void putCounts(const std::vector<std::uint32_t>& counts, std::uint32_t half, const Film& film, const RowLoop& loop,
+               std::vector<std::uint32_t>& plan) {
+    const std::uint32_t replicates = film.desc().replicates, shares = replicates / 2;
+    loop.forEachChunk([&](std::size_t, std::size_t firstRow, std::size_t endRow) {
+        for (std::size_t y = firstRow; y < endRow; ++y)
+            for (std::size_t x = 0; x < loop.width(); ++x) {
+                const std::uint32_t count = counts[y * loop.width() + x];
+                const std::size_t tile = y / kTile * film.tilesX() + x / kTile;
+                const std::size_t pixel = y % kTile * kTile + x % kTile;
+                for (std::uint32_t share = 0; share < shares; ++share) {
+                    const std::size_t slot = tile * replicates + 2 * share + half;
+                    plan[slot * Film::kTilePixels + pixel] = (count + shares - 1 - share) / shares;
+                }
+            }
+    });
 }
 
 } // namespace
@@ -159,23 +267,18 @@ std::uint32_t pilotSamples(std::uint32_t spp) {
     return pilot < kLeastPilot || !fits ? 0 : 2 * pilot;
 }
 
-std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp) {
-    const std::uint32_t width = film.desc().width, height = film.desc().height, replicates = film.desc().replicates;
-    const std::uint64_t pixels = std::uint64_t{width} * height;
-    const std::uint32_t shares = replicates / 2; // of a half
-    std::vector<std::uint32_t> plan(std::size_t{film.tileCount()} * replicates * Film::kTilePixels);
-    for (std::uint32_t half = 0; half < 2; ++half) {
-        const std::uint64_t samples = (spp + 1 - half) / 2; // sample s of a pixel is one of half s mod 2
-        const auto counts = allocate(importanceOf(noiseOf(film, 1 - half)), pilotSamples(spp) / 2, samples * pixels);
-        for (std::size_t i = 0; i < counts.size(); ++i) {
-            const auto x = static_cast<std::uint32_t>(i % width), y = static_cast<std::uint32_t>(i / width);
-            const std::size_t tile = std::size_t{y / kTile} * film.tilesX() + x / kTile;
-            const std::size_t pixel = std::size_t{y % kTile} * kTile + x % kTile;
-            for (std::uint32_t share = 0; share < shares; ++share) {
-                const std::size_t slot = tile * replicates + 2 * share + half;
-                plan[slot * Film::kTilePixels + pixel] = (counts[i] + shares - 1 - share) / shares;
-            }
+std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, const PlanWork& work) {
+    const RowLoop loop(film.desc(), work);
+    const std::uint64_t pixels = std::uint64_t{film.desc().width} * film.desc().height;
+    std::vector<std::uint32_t> plan(std::size_t{film.tileCount()} * film.desc().replicates * Film::kTilePixels);
+    try {
+        for (std::uint32_t half = 0; half < 2; ++half) {
+            const std::uint64_t samples = (spp + 1 - half) / 2; // sample s of a pixel is one of half s mod 2
+            const std::vector<float> importance = importanceOf(noiseOf(film, 1 - half, loop), loop);
+            putCounts(allocate(importance, pilotSamples(spp) / 2, samples * pixels, loop), half, film, loop, plan);
         }
+    } catch (const Cancelled&) {
+        return {};
     }
     return plan;
 }

@@ -12,6 +12,8 @@
 // Given its number of samples, each half's mean is that of any independent samples, and the weights of the halves are
 // fixed: what the picture is expected to be is what it is expected to be with uniform samples.
 #pragma once
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -23,15 +25,20 @@ namespace rt::image {
 // each half, so that it is well spread. 0: `spp` is too small for a plan, or vast, and samples are uniform.
 std::uint32_t pilotSamples(std::uint32_t spp);
 
+struct PlanWork {
+    std::size_t threads = 0; // 0: as many as the machine has; the plan does not depend on it
+    const std::atomic<bool>* cancel = nullptr;
+};
+
 // What Film::setPlan() takes, for a film whose pixels have pilotSamples(spp) samples, which is not 0. No pixel gets
-// fewer than it has; all together get spp times the number of pixels.
+// fewer than it has; all together get spp times the number of pixels. Empty: cancelled.
 //
 // A half's samples are spread in proportion to the root of a pixel's part in the error per sample, which minimises the
 // error: of a blend of MSE and relMSE (see Metrics.h), each in units of what it is over the image, since either alone
 // would cost the other. Variances and means are those of the other half's pilot, weighed over 3x3 pixels: a few samples
 // say little of one pixel's rare events. What is added to all, and a limit, keep what a pilot has missed, or taken for
 // more than it is, from costing much.
-std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp);
+std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, const PlanWork& work = {});
 
 // To how many samples per pixel a film that is to have `spp` goes on: to those of its pilot, and from there to the most
 // that the plan gives a pixel; to `spp` if it is not adaptive.

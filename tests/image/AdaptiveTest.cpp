@@ -1,9 +1,12 @@
 // Adaptive sampling by the CPU engine: the same bits for any scheduling and interruption, an exact budget, and the mean
 // of uniform samples.
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <optional>
 #include <sstream>
 
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
@@ -110,6 +113,26 @@ TEST(CpuAdaptive, TheMeanIsThatOfUniformSamples) {
         for (std::size_t i = 0; i < 4; ++i) differences[i].add(adaptive[i] - uniform[i]);
     }
     for (const Mean& difference : differences) EXPECT_TRUE(agrees(difference, 0));
+}
+
+// All uniform samples leave the interval's upper end at 1.9e-4. A tile at a time, so that looks at the error come at the
+// same samples in every run.
+TEST(CpuAdaptive, ReachesATargetErrorThatUniformSamplesMiss) {
+    const std::atomic<bool> goOn{false};
+    const auto scene = scene::compileScene(scene::findBuiltinScene("next-week-simple-light"));
+    const auto engine = cpu::makeCpuEngine({cpu::Policy::Seq, 1});
+    engine->setScene(scene, nullptr);
+    for (const bool adaptive : {false, true}) {
+        app::RenderSettings settings = adaptiveSettings(64, 256, app::kErrorReplicates);
+        settings.height = 36;
+        settings.adaptive = adaptive;
+        app::FilmRun run(*engine, scene->camera, settings);
+        run.limit({.targetError = 1.5e-4});
+        std::optional<app::StopReason> reason;
+        while (!reason) reason = run.slice(0, goOn);
+        EXPECT_EQ(*reason, adaptive ? app::StopReason::TargetError : app::StopReason::Spp);
+        EXPECT_EQ(engine->film().hasPlan(), adaptive);
+    }
 }
 
 } // namespace

@@ -85,18 +85,24 @@ bool isSame(vec3 a, vec3 b) {
 
 void comparePaths(const TracedScene& scene, const app::RenderSettings& settings) {
     const KernelContext context = scene.context(settings);
-    TileTask task;
-    task.x = 11;
-    task.y = 17;
-    task.width = 7;
-    task.height = 6;
-    task.first = 3;
-    task.count = 5; // a batch of camera rays belongs to several pixels
+    TileTask tasks[2];
+    tasks[0].x = 11;
+    tasks[0].y = 17;
+    tasks[0].width = 7;
+    tasks[0].height = 6;
+    tasks[0].first = 3;
+    tasks[0].count = 5; // a batch of camera rays belongs to several pixels, and one to both tiles
+    tasks[1] = tasks[0];
+    tasks[1].x = 2;
+    tasks[1].width = 3;
+    tasks[1].replicate = 1;
     KernelCounters expectedCounters;
-    const std::vector<vec3> expected = traceOneByOne(context, task, expectedCounters);
+    std::vector<vec3> expected = traceOneByOne(context, tasks[0], expectedCounters);
+    const std::vector<vec3> others = traceOneByOne(context, tasks[1], expectedCounters);
+    expected.insert(expected.end(), others.begin(), others.end());
     KernelCounters counters;
     std::vector<vec3> radiances(expected.size(), vec3(-1.0f));
-    ASSERT_TRUE(PathPacket<kFeatureAll>(context, task, radiances.data(), counters).trace());
+    ASSERT_TRUE(PathPacket<kFeatureAll>(context, tasks, nullptr, radiances.data(), counters).trace());
     for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(isSame(radiances[i], expected[i])) << i;
     EXPECT_EQ(counters.scattered, expectedCounters.scattered);
     EXPECT_EQ(counters.shadow, expectedCounters.shadow);
@@ -164,10 +170,9 @@ TEST(PathPacket, CancelledPathsAreNotFinished) {
     const std::atomic<bool> cancel{true};
     TileTask task;
     task.width = task.height = task.count = 2;
-    task.cancel = &cancel;
     KernelCounters counters;
     vec3 radiances[8];
-    EXPECT_FALSE(PathPacket<kFeatureAll>(context, task, radiances, counters).trace());
+    EXPECT_FALSE(PathPacket<kFeatureAll>(context, {&task, 1}, &cancel, radiances, counters).trace());
 }
 
 } // namespace

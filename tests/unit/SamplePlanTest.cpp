@@ -1,6 +1,7 @@
 // Adaptive sampling: unbiased on pictures made to fool it, its budget exact, its variance that of the picture, and the
 // same after an interruption.
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -219,6 +220,29 @@ TEST(SamplePlan, VarianceIsThatOfThePictures) {
         const double error = std::hypot(stated.standardError(), squares.standardError());
         EXPECT_NEAR(stated.mean(), squares.mean(), 4 * error) << replicates;
     }
+}
+
+// A picture of several chunks of rows, one of them cut.
+TEST(SamplePlan, DependsOnNoNumberOfThreads) {
+    for (const std::uint32_t spp : {16u, 75u}) {
+        Renderer renderer(kPictures[3].radiance, 2, spp, 4, 21, 53);
+        renderer.pilot();
+        const std::vector<std::uint32_t> expected = makeSamplePlan(renderer.film, spp, {.threads = 1});
+        for (const std::size_t threads : {2u, 3u, 8u})
+            EXPECT_EQ(makeSamplePlan(renderer.film, spp, {.threads = threads}), expected) << threads;
+        renderer.film.setPlan(expected);
+        renderer.finish();
+        EXPECT_EQ(renderer.film.totalSamples(), std::uint64_t{spp} * 21 * 53);
+    }
+}
+
+TEST(SamplePlan, CanBeCancelled) {
+    Renderer renderer(kPictures[3].radiance, 2, 16);
+    renderer.pilot();
+    std::atomic<bool> cancel{true};
+    EXPECT_TRUE(makeSamplePlan(renderer.film, 16, {.cancel = &cancel}).empty());
+    cancel = false;
+    EXPECT_EQ(makeSamplePlan(renderer.film, 16, {.cancel = &cancel}), makeSamplePlan(renderer.film, 16));
 }
 
 TEST(SamplePlan, GoesOnFromACheckpointInAnyPhase) {

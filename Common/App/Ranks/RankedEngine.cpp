@@ -76,7 +76,7 @@ class RankedEngine final : public Engine {
     void fail(std::size_t rank, const Error& error);
     void lease(std::size_t rank);
     std::uint32_t goal() const { return static_cast<std::uint32_t>(image::goalOf(film_, settings_.spp)); }
-    bool planSamples();
+    bool planSamples(const std::atomic<bool>* cancel);
     RenderStatus status() const;
 
     std::unique_ptr<Engine> local_;
@@ -116,7 +116,7 @@ void RankedEngine::awaitReady() {
 RenderStatus RankedEngine::renderSome(const Budget& budget) {
     if (!pool_) pool_.emplace(film_, plan_, states_.size());
     const Stopwatch watch;
-    while (!pool_->isDone() || planSamples()) {
+    while (!pool_->isDone() || planSamples(budget.cancel)) {
         if (budget.cancel != nullptr && budget.cancel->load(std::memory_order_relaxed)) break;
         const bool isBusy = receiveAll();
         if (failure_) throw *failure_;
@@ -133,10 +133,12 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
     return status();
 }
 
-// Decides on the samples of an adaptive film, whose pilot is done. False: there is nothing to decide.
-bool RankedEngine::planSamples() {
+// Decides on the samples of an adaptive film, whose pilot is done. False: there is nothing to decide, or cancelled.
+bool RankedEngine::planSamples(const std::atomic<bool>* cancel) {
     if (isPart_ || !film_.isPilot()) return false;
-    film_.setPlan(image::makeSamplePlan(film_, settings_.spp));
+    std::vector<std::uint32_t> plan = image::makeSamplePlan(film_, settings_.spp, {.cancel = cancel});
+    if (plan.empty()) return false;
+    film_.setPlan(std::move(plan));
     plan_.spp = goal();
     for (std::size_t rank = 0; rank < states_.size(); ++rank) // who was overdue; others have done its tiles
         if (pool_->isLeased(rank)) send(rank, {MessageKind::Recall, nullptr, {}});
