@@ -188,17 +188,20 @@ RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& 
     }
 }
 
-// Principled materials apart from the others: each of the loops has one formula to evaluate.
+// Principled materials apart from the others: each of the loops has one formula to evaluate, and runs where some path
+// needs it.
 template <uint kFeatures>
 RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) {
-    weighSamples<kFeatures & ~kFeaturePrincipled>(params, lanes.direct, lanes);
-    if (!has(kFeatures, kFeaturePrincipled)) return;
+    uint principled = 0u;
+    if (has(kFeatures, kFeaturePrincipled)) {
+        const UintLanes& kinds = lanesOf<&Bsdf::kind>(lanesOf<&Vertex::bsdf>(lanes.vertices));
+        eachLane(lit, [&](uint i) { principled |= uint(kinds.at[i] == kMaterialPrincipled) << i; });
+    }
+    if (principled != lit) weighSamples<kFeatures & ~kFeaturePrincipled>(params, lanes.direct, lanes);
+    if (!has(kFeatures, kFeaturePrincipled) || principled == 0u) return;
     RecordLanes<DirectLight> direct;
     weighSamples<(kFeatures & ~kOtherSurfaces) | kFeaturePrincipled>(params, direct, lanes);
-    const UintLanes& kinds = lanesOf<&Bsdf::kind>(lanesOf<&Vertex::bsdf>(lanes.vertices));
-    eachLane(lit, [&](uint i) {
-        if (kinds.at[i] == kMaterialPrincipled) set(lanes.direct, i, get(direct, i));
-    });
+    eachLane(principled, [&](uint i) { set(lanes.direct, i, get(direct, i)); });
 }
 
 // sampleDirectLight() for the paths `lit`: lanes.direct.

@@ -19,8 +19,9 @@ struct PathSlot {
 
 // Which of the slots an iteration has to do with, a bit a slot.
 struct ActiveSlots {
-    uint arrived = 0u; // at a vertex
-    uint lit = 0u;     // of these, where a light is chosen
+    uint arrived = 0u;    // at a vertex
+    uint lit = 0u;        // of these, where a light is chosen
+    uint principled = 0u; // of these, where the material is
 };
 
 // Where all vertices would scatter if they were Lambertian.
@@ -33,12 +34,11 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
     }
 }
 
-// Where the principled ones of the vertices `arrived` would scatter: proposals one by one, evaluated in lanes.
+// Where the principled vertices would scatter: proposals one by one, evaluated in lanes.
 template <uint kFeatures>
-RT_CALL void proposeDirections(uint arrived, PathLanes& lanes) {
-    eachLane(arrived, [&](uint i) {
+RT_CALL void proposeDirections(uint principled, PathLanes& lanes) {
+    eachLane(principled, [&](uint i) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
-        if (!isPrincipled(kFeatures, v.bsdf)) return;
         const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
         set(lanes.proposals, i,
             wo.z > 0.0f ? proposePrincipled(kFeatures, v.bsdf, wo, get(lanes.u, i).bsdf) : absorbed());
@@ -98,8 +98,9 @@ class PathPacket {
             if (active.arrived == 0u) return true;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
-            sampleDiffuse(lanes_);
-            if (has(kFeatures, kFeaturePrincipled)) proposeDirections<kFeatures>(active.arrived, lanes_);
+            if (active.principled != active.arrived) sampleDiffuse(lanes_);
+            if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
+                proposeDirections<kFeatures>(active.principled, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
         }
     }
@@ -121,6 +122,7 @@ class PathPacket {
             keepVertex<kFeatures>(lanes_, i, v);
             active.arrived |= 1u << i;
             active.lit |= uint(choosesLight(v)) << i;
+            active.principled |= uint(isPrincipled(kFeatures, v.bsdf)) << i;
         }
         return active;
     }

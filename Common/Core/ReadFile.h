@@ -7,10 +7,9 @@
 
 namespace rt {
 
-// While it exists, readFile() on this thread takes only files below a folder, assets and planet maps (Paths.h), and one file
-// more:
-// for scenes of others. Links are followed first. An empty folder confines nothing. Throws InputError for one that does
-// not exist.
+// While it exists, readFile() on this thread takes only files below a folder, assets and planet maps (Paths.h), and
+// one file more: for scenes of others. Links are followed first. An empty folder confines nothing. Throws InputError
+// for one that does not exist.
 class ReadsBelow {
   public:
     ReadsBelow(const std::filesystem::path& folder, const std::filesystem::path& file);

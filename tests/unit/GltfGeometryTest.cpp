@@ -79,6 +79,24 @@ TEST_F(Gltf, InterleavedAndNormalizedIntegers) {
     EXPECT_EQ(data.triangles, (std::vector<glm::uvec3>{{2, 1, 0}}));
 }
 
+TEST_F(Gltf, QuantizedPositionsAreNumbersOfTheirNode) {
+    gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const int view = gltf.addView(std::vector<std::int16_t>{0, 0, 0, 0, 300, 0, -7, 0, 0, 32767, 1, 0}, 8);
+    const int normalized = gltf.addAccessor(view, 5122, "VEC3", 3);
+    gltf.json["accessors"][normalized]["normalized"] = true;
+    const int bytes = gltf.addView(std::vector<std::int8_t>{0, -5, 127, 0, 1, 2, 3, 0, -128, 0, 0, 0}, 4);
+    gltf.addNode({{"mesh", gltf.addMesh({{"attributes",
+                                          {{"POSITION", gltf.addAccessor(view, 5122, "VEC3", 3)},
+                                           {"TEXCOORD_0", gltf.addAccessor(bytes, 5120, "VEC2", 3)}}}})},
+                  {"scale", {0.5, 2, 1}}});
+    const MeshData whole = loadMesh();
+    EXPECT_EQ(whole.positions, (std::vector<glm::dvec3>{{0, 0, 0}, {300, 0, -7}, {0, 32767, 1}}));
+    EXPECT_EQ(whole.uvs, (std::vector<glm::dvec2>{{0, 6}, {1, -1}, {-128, 1}}));
+    gltf.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = normalized;
+    EXPECT_EQ(loadMesh().positions,
+              (std::vector<glm::dvec3>{{0, 0, 0}, {300 / 32767.0, 0, -7 / 32767.0}, {0, 1, 1 / 32767.0}}));
+}
+
 TEST_F(Gltf, OpaqueMaterialsIgnoreTheOpacityOfVertexColors) {
     json primitive = gltf.triangle();
     primitive["attributes"]["COLOR_0"] = gltf.addAccessor(std::vector<float>(12, 0.5f), "VEC4");

@@ -8,9 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
+#include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
+#include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
 #include "tests/unit/GltfBuilder.h"
 
@@ -208,7 +211,8 @@ TEST(GltfMalformed, DamagedAnywhere) {
     EXPECT_LT(refused, 1000);
 }
 
-// Files nobody here wrote, from Debian's package assimp-testmodels: what is good is read, what is bad refused.
+// Files nobody here wrote, from Debian's package assimp-testmodels: what is good is read, and the same after an export;
+// what is bad is refused.
 TEST(GltfMalformed, ModelsOfOthers) {
     const std::filesystem::path models = "/usr/share/assimp/models/glTF2";
     if (!std::filesystem::exists(models)) GTEST_SKIP() << "assimp-testmodels is not installed";
@@ -222,7 +226,10 @@ TEST(GltfMalformed, ModelsOfOthers) {
         if (extension != ".gltf" && extension != ".glb") continue;
         const std::string name = entry.path().filename().string();
         try {
-            EXPECT_FALSE(loadGltfScene(entry.path()).objects.empty());
+            const SceneDesc scene = loadGltfScene(entry.path());
+            EXPECT_FALSE(scene.objects.empty());
+            const SceneDesc again = parseScene(toJson(scene), "a.json", entry.path().parent_path());
+            EXPECT_EQ(app::compile(again, true)->hash, app::compile(scene, true)->hash) << name;
             EXPECT_EQ(bad.count(name), 0u) << name << " was read";
             ++read;
         } catch (const InputError& error) {

@@ -177,6 +177,21 @@ TEST_F(GltfMaterials, TextureTransform) {
     EXPECT_NEAR(r[3] * u + r[4] * (1 - v) + r[5], 1 - expectedV, 1e-12);
 }
 
+TEST_F(GltfMaterials, OfVariantsTheDefaultCounts) {
+    GltfBuilder gltf;
+    gltf.json["extensionsUsed"] = gltf.json["extensionsRequired"] = {"KHR_materials_variants"};
+    gltf.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "blue"}}};
+    gltf.add("materials", {{"name", "red"}, {"pbrMetallicRoughness", {{"baseColorFactor", {1, 0, 0, 1}}}}});
+    gltf.add("materials", {{"name", "blue"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 1, 1}}}}});
+    json primitive = gltf.triangle();
+    primitive["material"] = 0;
+    primitive["extensions"]["KHR_materials_variants"]["mappings"] = {{{"material", 1}, {"variants", {0}}}};
+    gltf.addNode({{"mesh", gltf.addMesh(primitive)}});
+    scene = loadGltfScene(gltf.save(folder / "a.glb"));
+    ASSERT_EQ(scene.objects.size(), 1u);
+    EXPECT_EQ(std::get<MeshDesc>(scene.objects[0].shape).material, "red");
+}
+
 TEST_F(GltfMaterials, NamesAreUniqueAndPrintable) {
     GltfBuilder gltf;
     for (const char* name : {"a", "a", "", "a (2)", "bell\a"}) {

@@ -27,9 +27,9 @@ MaterialDesc plainMaterial();
 
 // Reads a file: polygons are cut into triangles; normals, texture coordinates and colours of vertices kept where every
 // corner of a part has them, tangents computed where a map of normals needs them. What becomes of materials
-// MtlMaterials.h says; the names of materials and textures start with `prefix`, and are printable. A material file or an
-// image that does not exist, or a material that is in no file, is a notice. Without `withMaterials` the file's materials
-// and colours are ignored and there is one part. Throws InputError with file and line.
+// MtlMaterials.h says; names of materials and textures start with `prefix`, and are printable. A material file or an
+// image that does not exist, or a material that is in no file, is a notice. Without `withMaterials` the materials and
+// colours of the file are ignored and there is one part. Throws InputError with file and line.
 ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const std::string& prefix = {});
 
 // A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.
