@@ -1,0 +1,178 @@
+// Light that reaches a point x from a point y through a sphere of glass, refracted where it enters and where it leaves.
+//
+// Such a path lies in the plane of x, y and the centre C, and passes C at the same distance on both sides. With i and r
+// the angles of incidence and refraction, a and b the angles at x and y between the path and the line to C, it turns by
+//     turn(i) = 2 (i - r) - a - b,   sin r = sin i / eta,  sin a = sin i R / |xC|,  sin b = sin i R / |yC|,
+// more than a straight line through C. It connects x with y where turn = -bend (it passes C on the side of y) or
+// turn = +bend (on the other side), where bend is the angle between xC and Cy. `turn` is convex in i, as each of its
+// terms is where eta > 1, and 0 for i = 0: at most one path turns by +bend and at most two by -bend, on either side of
+// the minimum. Newton's method that begins where the function is positive stays on that side of the root, and needs no
+// bracket. Angles are kept as rotations, so that no arc function is evaluated. Without a branch, for loops over lanes.
+#ifndef RT_SHARED_SPHERE_REFRACTION_H
+#define RT_SHARED_SPHERE_REFRACTION_H
+#include "Common/Shared/Base/Sampling.h"
+#include "Common/Shared/Base/Types.h"
+
+RT_SHARED_BEGIN
+
+// Cosine and sine of an angle.
+RT_FN vec2 turnedBy(vec2 a, vec2 b) {
+    return vec2(a.x * b.x - a.y * b.y, a.y * b.x + a.x * b.y);
+}
+RT_FN vec2 turnedBack(vec2 a, vec2 b) {
+    return vec2(a.x * b.x + a.y * b.y, a.y * b.x - a.x * b.y);
+}
+
+RT_FN vec2 angleOfSine(float sine) {
+    return vec2(sqrt(max((1.0f - sine) * (1.0f + sine), 0.0f)), sine);
+}
+
+// What the paths from x to y depend on.
+struct RefractionPair {
+    float inverseEta; // index outside over inside, < 1
+    float nearX;      // R / |xC|, < 1
+    float nearY;      // R / |yC|, < 1
+    vec2 bend;        // cosine and sine of the angle, in [0, pi]
+};
+
+// One angle of incidence, and how the path turns there.
+struct Refraction {
+    vec2 incident;
+    vec2 refracted;
+    vec2 atX;
+    vec2 atY;
+    vec2 turn;
+    float slope; // of the turn, by the angle of incidence
+};
+
+RT_FN Refraction refractionAt(RT_IN(RefractionPair) p, vec2 incident) {
+    Refraction r;
+    r.incident = incident;
+    r.refracted = angleOfSine(incident.y * p.inverseEta);
+    r.atX = angleOfSine(incident.y * p.nearX);
+    r.atY = angleOfSine(incident.y * p.nearY);
+    vec2 deviation = turnedBack(incident, r.refracted);
+    r.turn = turnedBack(turnedBy(deviation, deviation), turnedBy(r.atX, r.atY));
+    r.slope = 2.0f - incident.x * (2.0f * p.inverseEta / r.refracted.x + p.nearX / max(r.atX.x, 1.0e-6f) +
+                                   p.nearY / max(r.atY.x, 1.0e-6f));
+    return r;
+}
+
+// The angle turned by a small one, to third order.
+RT_FN vec2 turnedBySmall(vec2 a, float angle) {
+    float h = 0.5f * angle;
+    float scale = 1.0f / (1.0f + h * h);
+    return turnedBy(a, vec2((1.0f - h * h) * scale, 2.0f * h * scale));
+}
+
+// Sine of a - b, both in (-pi, pi), or +-1 where the difference is beyond a right angle.
+RT_FN float clampedSineOfDifference(vec2 a, vec2 b) {
+    // 1 - cos with the sign of the sine rises with the angle; it differs by less than 2 within a right angle, by at
+    // least 3 beyond three of them.
+    float riseA = a.y < 0.0f ? a.x - 1.0f : 1.0f - a.x;
+    float riseB = b.y < 0.0f ? b.x - 1.0f : 1.0f - b.x;
+    float rise = riseA - riseB;
+    vec2 d = turnedBack(a, b);
+    float beyond = rise < 0.0f ? -1.0f : 1.0f;
+    return abs(rise) < 2.0f ? (d.x > 0.0f ? d.y : beyond) : beyond;
+}
+
+const uint kLeastSteps = 10u;
+const uint kRootSteps = 8u;
+
+// The angle whose half has this tangent, in [0, 1].
+RT_FN vec2 angleOfHalfTangent(float t) {
+    float scale = 1.0f / (1.0f + t * t);
+    return vec2((1.0f - t) * (1.0f + t) * scale, 2.0f * t * scale);
+}
+
+// The angle of incidence of least turn; 0 where the turn rises throughout. The turn is level there, so that halving the
+// interval a few times gives its least value to a part in a million.
+RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {
+    float low = 0.0f;
+    float high = 1.0f;
+    for (uint k = 0u; k < kLeastSteps; k++) {
+        float t = 0.5f * (low + high);
+        bool falls = refractionAt(p, angleOfHalfTangent(t)).slope < 0.0f;
+        low = falls ? t : low;
+        high = falls ? high : t;
+    }
+    bool rises = 2.0f - 2.0f * p.inverseEta - p.nearX - p.nearY >= 0.0f;
+    return angleOfHalfTangent(rises ? 0.0f : 0.5f * (low + high));
+}
+
+// How many paths there are: beyond the minimum that turn by +bend and by -bend, and before it that turn by -bend.
+struct RefractionRoots {
+    uint count;
+    uint opposite; // 1: +bend
+    uint beyond;   // 1: -bend beyond the minimum
+    uint before;   // 1: -bend before the minimum
+};
+
+RT_FN RefractionRoots refractionRoots(RT_IN(RefractionPair) p, vec2 least) {
+    vec2 grazing = refractionAt(p, vec2(0.0f, 1.0f)).turn;
+    vec2 lowest = refractionAt(p, least).turn;
+    vec2 back = vec2(p.bend.x, -p.bend.y);
+    RefractionRoots n;
+    n.opposite = clampedSineOfDifference(grazing, p.bend) > 0.0f ? 1u : 0u;
+    uint reached = clampedSineOfDifference(lowest, back) < 0.0f ? 1u : 0u;
+    n.before = reached;
+    n.beyond = clampedSineOfDifference(grazing, back) > 0.0f ? reached : 0u;
+    n.count = n.opposite + n.beyond + n.before;
+    return n;
+}
+
+// Density of solid angle at x over area at y across the path, for R = 1.
+RT_FN float refractionDensity(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
+    float sine = max(abs(r.turn.y), 1.0e-12f);
+    return square(p.nearX * p.nearY) * r.incident.x * max(r.incident.y, 1.0e-12f) /
+           max(r.atX.x * r.atY.x * sine * abs(r.slope), 1.0e-30f);
+}
+
+const uint kRefractedPaths = 3u; // kinds of them
+const uint kOppositePath = 0u;   // turns by +bend
+const uint kBeyondPath = 1u;     // by -bend, beyond the minimum
+const uint kBeforePath = 2u;     // by -bend, before it
+
+RT_FN bool hasPath(RT_IN(RefractionRoots) n, uint kind) {
+    return kind == kOppositePath ? n.opposite != 0u : kind == kBeyondPath ? n.beyond != 0u : n.before != 0u;
+}
+
+// Where a path of this kind, which there is, is refracted.
+RT_FN Refraction refractedPath(RT_IN(RefractionPair) p, uint kind) {
+    bool isBefore = kind == kBeforePath;
+    vec2 target = vec2(p.bend.x, kind == kOppositePath ? p.bend.y : -p.bend.y);
+    vec2 angle = vec2(isBefore ? 1.0f : 0.0f, isBefore ? 0.0f : 1.0f);
+    for (uint k = 0u; k < kRootSteps; k++) {
+        Refraction r = refractionAt(p, angle);
+        float f = clampedSineOfDifference(r.turn, target);
+        float slope = isBefore ? min(r.slope, -1.0e-3f) : max(r.slope, 1.0e-3f);
+        vec2 next = turnedBySmall(angle, clamp(-f / slope, -1.0f, 1.0f));
+        angle = vec2(max(next.x, 0.0f), clamp(next.y, 0.0f, 1.0f));
+    }
+    return refractionAt(p, angle);
+}
+
+// Where a path runs: its direction at x, and the outward normals where it enters and leaves. `along` is the unit
+// direction from x to C, `aside` the one across it towards y.
+struct RefractedPlaces {
+    vec3 atX;
+    vec3 entry;
+    vec3 leave;
+};
+
+RT_FN RefractedPlaces refractedPlaces(RT_IN(Refraction) r, uint kind, vec3 along, vec3 aside) {
+    vec3 e = aside * (kind == kOppositePath ? -1.0f : 1.0f);
+    // Angles about C from the direction to x: i - a, and then pi - 2 r more.
+    vec2 entry = turnedBack(r.incident, r.atX);
+    vec2 leave = turnedBack(vec2(-entry.x, -entry.y), turnedBy(r.refracted, r.refracted));
+    RefractedPlaces places;
+    places.atX = along * r.atX.x + e * r.atX.y;
+    places.entry = e * entry.y - along * entry.x;
+    places.leave = e * leave.y - along * leave.x;
+    return places;
+}
+
+RT_SHARED_END
+
+#endif
