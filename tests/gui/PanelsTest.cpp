@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -241,8 +242,16 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
     act("mousemove 600 450");
     pause(1000);
     act("mousemove 375 40"); // beside the picture
-    pause(1500);
-    const Screenshot without = screenshot();
+    Screenshot without;
+    const auto pictureOf = [](const Screenshot& shot) {
+        return std::vector<std::uint32_t>(shot.pixels.begin() + 70 * shot.width,
+                                          shot.pixels.begin() + 834 * shot.width);
+    };
+    EXPECT_TRUE(eventually([&] { // the render has ended
+        without = screenshot();
+        pause(3000);
+        return pictureOf(screenshot()) == pictureOf(without);
+    }));
     const auto boxAt = [&](int x, int y) {
         act("mousemove " + std::to_string(x) + " " + std::to_string(y));
         Box box;

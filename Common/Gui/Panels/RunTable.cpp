@@ -15,6 +15,8 @@ namespace {
 
 using app::RunRow;
 
+constexpr float kComparedShare = 0.22f; // of the accent's colour, in rows that are compared
+
 void cell(const std::string& text) {
     ImGui::TableNextColumn();
     ImGui::TextUnformatted(text.c_str());
@@ -98,7 +100,7 @@ void drawRow(Gui& gui, const RunRow& row) {
     ImGui::TableNextRow();
     const app::EnginePair& pair = gui.runs.pair();
     if (row.record == pair.cpu || row.record == pair.gpu)
-        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_Header));
+        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg0, ImGui::GetColorU32(ImGuiCol_CheckMark, kComparedShare));
     if (gui.runs.isHovered(r))
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_HeaderHovered));
     drawEngineCell(gui, row);
