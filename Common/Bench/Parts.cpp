@@ -29,8 +29,9 @@ scene::SceneDesc withDiffuseSurfaces(scene::SceneDesc scene) {
     return scene;
 }
 
+// Of whole pictures, as far as `ladder` goes: a part of one would have rays of its own.
 PartRow measurePart(Engines& engines, const PartsRequest& request, const Part& part, const Scene& scene,
-                    const std::atomic<bool>& stop) {
+                    const Ladder& ladder, const std::atomic<bool>& stop) {
     Config config;
     config.scene = request.scene;
     config.engine = request.engine;
@@ -43,7 +44,7 @@ PartRow measurePart(Engines& engines, const PartsRequest& request, const Part& p
     row.part = part.name;
     app::Engine* const engine = engines.prepare(config, scene, stop);
     if (engine == nullptr) return row;
-    const Run run = measure(*engine, *scene, config.settings, {{}, {request.seconds}}, 0, stop);
+    const Run run = measure(*engine, *scene, config.settings, ladder, 0, stop);
     if (run.snapshots.empty()) return row;
     const Snapshot& done = run.snapshots.back();
     row.seconds = run.report.threads == 0 ? done.deviceSeconds : done.seconds;
@@ -128,9 +129,13 @@ std::vector<PartRow> measureParts(Engines& engines, const PartsRequest& request,
     const scene::SceneDesc desc = app::loadScene(request.scene);
     const Scene scene = app::compile(desc, true, true);
     const Scene diffuse = app::compile(withDiffuseSurfaces(desc), true, true);
+    // As many samples a pixel as take so long when nothing is left out.
+    const PartRow first = measurePart(engines, request, parts().front(), scene, {{}, {request.seconds}}, stop);
+    const double pixels = request.width * std::max(1.0, std::round(request.width / scene->defaults.aspect));
+    const auto spp = static_cast<std::uint32_t>(std::max(1.0, static_cast<double>(first.samples) / pixels));
     std::vector<PartRow> rows;
     for (const Part& part : parts()) {
-        PartRow row = measurePart(engines, request, part, part.isMaterials ? diffuse : scene, stop);
+        PartRow row = measurePart(engines, request, part, part.isMaterials ? diffuse : scene, {{spp}, {}}, stop);
         if (stop || row.samples == 0) break;
         if (report) report(row);
         rows.push_back(std::move(row));

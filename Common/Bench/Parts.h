@@ -26,7 +26,7 @@ struct PartsRequest {
     std::string scene = "cornell-box-lights"; // id or file
     std::string engine = "compute";
     std::uint32_t width = 600;
-    double seconds = 0.3; // of sampling, each
+    double seconds = 0.3; // of sampling, where nothing is left out; all others take as many samples
 };
 
 struct PartRow {
