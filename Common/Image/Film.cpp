@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/FilmTiles.h"
 
@@ -35,6 +36,20 @@ void checkSide(const char* what, std::uint32_t side) {
     if (side < 1 || side > kMaxImageSide)
         throw UsageError("image " + std::string(what) + " " + std::to_string(side) + " is not in 1 to " +
                          std::to_string(kMaxImageSide));
+}
+
+// All rows of a film, on all threads.
+Image allRows(const ImageRows& rows) {
+    constexpr std::size_t kRows = 16; // that a thread takes at a time
+    Image image(rows.width, rows.height, rows.channels);
+    const Chunks chunks(rows.height, kRows);
+    parallelFor(0, chunks.count, [&](std::size_t chunk) {
+        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+            const auto y = static_cast<std::uint32_t>(i);
+            rows.read(y, {image.pixel(0, y), rows.rowValues()});
+        }
+    });
+    return image;
 }
 
 } // namespace
@@ -191,15 +206,15 @@ void Film::assign(std::uint32_t tile, std::uint32_t replicate, const TileState& 
 }
 
 Image Film::resolve() const {
-    return toImage(meanRows(*this));
+    return allRows(meanRows(*this));
 }
 
 Image Film::varianceOfMean() const {
-    return toImage(varianceRows(*this));
+    return allRows(varianceRows(*this));
 }
 
 Image Film::sampleCounts() const {
-    return toImage(sampleCountRows(*this));
+    return allRows(sampleCountRows(*this));
 }
 
 std::uint64_t Film::bytes() const {
