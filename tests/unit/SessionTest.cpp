@@ -364,6 +364,7 @@ TEST_F(SessionTest, FilesThatWouldOverwriteOthersAreFoundBeforeRendering) {
     fs::create_directory(folder_ / "sub");
     fs::create_directory_symlink(folder_ / "sub", folder_ / "alias");
     fs::create_symlink("scene.json", path("link.rtc"));
+    fs::create_symlink("later.png", path("soon.png")); // to nothing yet
     const std::vector<std::vector<std::string>> wrong = {
         {"--scene", path("scene.json"), "--checkpoint", path("scene.json")},
         {"--scene", path("scene.json"), "--stats", path("sub/../scene.json")},
@@ -373,6 +374,7 @@ TEST_F(SessionTest, FilesThatWouldOverwriteOthersAreFoundBeforeRendering) {
         {"-o", path("a.png"), "-o", path("a.png")},
         {"-o", path("sub/a.png"), "-o", path("alias/a.png")},
         {"-o", path("a.png"), "-o", path("a.albedo.png"), "--aov", "albedo"},
+        {"-o", path("later.png"), "-o", path("soon.png")},
         {"--checkpoint", path("a"), "--stats", path("a")},
     };
     for (const auto& arguments : wrong) {

@@ -38,13 +38,21 @@ std::vector<NamedFile> readFiles(const Options& options) {
     return files;
 }
 
+// What a link that leads to no file yet stands for; it is made where the link says.
+fs::path followed(fs::path path) {
+    constexpr int kMostLinks = 40; // as systems follow
+    std::error_code ignored;
+    for (int links = 0; links < kMostLinks && fs::is_symlink(path, ignored); ++links)
+        path = path.parent_path() / fs::read_symlink(path, ignored);
+    return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
+}
+
 bool isSame(const fs::path& a, const fs::path& b) {
     std::error_code ignored;
     const bool aExists = fs::exists(a, ignored), bExists = fs::exists(b, ignored);
     if (aExists != bExists) return false;
     if (aExists) return fs::is_regular_file(a, ignored) && fs::equivalent(a, b, ignored);
-    return fs::weakly_canonical(fs::absolute(a, ignored), ignored) ==
-           fs::weakly_canonical(fs::absolute(b, ignored), ignored);
+    return followed(a) == followed(b);
 }
 
 } // namespace
