@@ -24,9 +24,9 @@ struct Style {
     bool operator==(const Style&) const = default;
 };
 
-// Between two frames. A popup that has been opened but not drawn yet, as a table's menu is a frame later, has no window;
-// where Escape is to close it, ImGui (1.86 to 1.92 at least) reads the window all the same and ends the program.
-// `pressed`: as for ImGuiLayer::beginFrame.
+// Between two frames. A popup that has been opened but not drawn yet, as a table's menu is a frame later, has no
+// window; where Escape is to close it, ImGui (1.86 to 1.92 at least) reads the window all the same and ends the
+// program. `pressed`: as for ImGuiLayer::beginFrame.
 void closeUndrawnPopups(std::span<const int> pressed);
 
 class ImGuiLayer {

@@ -195,17 +195,6 @@ TEST(BenchReport, MarkdownAndHtmlShowTheRows) {
     const std::string html = toHtml(document, "t");
     EXPECT_NE(html.find("The &lt;first&gt;"), std::string::npos);
     EXPECT_NE(html.find("<svg"), std::string::npos);
-    EXPECT_NE(html.find(">a: relMSE against samples per pixel</text>"), std::string::npos); // of a plot
-    // Wide tables scroll by themselves.
-    EXPECT_NE(html.find(".wide{overflow-x:auto}"), std::string::npos);
-    const std::string wide = "<div class=\"wide\"><table";
-    const auto count = [&html](const std::string& part) {
-        std::size_t n = 0;
-        for (std::size_t at = html.find(part); at != std::string::npos; at = html.find(part, at + 1)) ++n;
-        return n;
-    };
-    EXPECT_GT(count("<table"), 0u);
-    EXPECT_EQ(count(wide), count("<table"));
     for (const char* loading : {"src=\"http", "href=", "url(", "<script", "@import"}) // nothing comes from elsewhere
         EXPECT_EQ(html.find(loading), std::string::npos) << loading;
 }
