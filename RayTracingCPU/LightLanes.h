@@ -131,8 +131,7 @@ RT_CALL void sampleQuads(PathLanes& lanes) {
         const Vertex v = get(lanes.vertices, i);
         const QuadView view = viewQuad(0u, kShapeAuto, light, v.origin, v.shading);
         LightSample s = sampleQuadApart(view, light, v.origin, get(lanes.position, i));
-        s.error = flatLightError(light);
-        s = completeSample(light, v.shading, s);
+        s = completeSample(0u, light, v.shading, s);
         s.pdf = isLit(light, v.origin) ? s.pdf : 0.0f;
         set(lanes.lightSamples, i, s);
         lanes.isSampled.at[i] = view.strategy != kStrategySolidAngle ? isQuad : 0u;
@@ -163,8 +162,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
         const uint strategy = sphereLightStrategy(0u, kShapeAuto, light, center - v.origin, v.shading);
         LightSample s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, v.origin, v.shading, u);
-        s.error = sphereLightError(light);
-        s = completeSample(light, v.shading, s);
+        s = completeSample(0u, light, v.shading, s);
         set(lanes.lightSamples, i, selectSample(isSphere, s, get(lanes.lightSamples, i)));
         const uint outside = strategy != kStrategyInside ? 1u : 0u;
         const uint before = lanes.isSampled.at[i];

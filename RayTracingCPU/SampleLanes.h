@@ -10,8 +10,7 @@ using namespace rt::shared;
 
 // Draws dimension `dimensions` of each sample. The samplers are of one kind.
 RT_CALL void drawDimension(const RecordLanes<Sampler>& samplers, const UintLanes& dimensions, Vec2Lanes& u) {
-    const uint kind = lanesOf<&Sampler::kind>(samplers).at[0];
-    if (kind != kSamplerSobol && kind != kSamplerSobolBlue) {
+    if (lanesOf<&Sampler::kind>(samplers).at[0] != kSamplerSobol) {
         for (uint i = 0u; i < kLanes; ++i) set(u, i, sample2D(get(samplers, i), dimensions.at[i]));
         return;
     }

@@ -11,7 +11,7 @@ RT_SHARED_BEGIN
 RT_FN void prefetchLights(SceneRef scene, uint child) {
     const bool isNode = (child & kLightLeaf) == 0u;
     const char* record = isNode ? reinterpret_cast<const char*>(scene.lightNodes + child)
-                                : reinterpret_cast<const char*>(scene.lights + (child & kLightIndex));
+                                : reinterpret_cast<const char*>(scene.lights + (child & ~kLightLeaf));
     const std::size_t bytes = isNode ? sizeof(LightNode) : sizeof(Light);
     for (std::size_t i = 0; i < bytes; i += 64) accel::prefetch(record + i);
     accel::prefetch(record + bytes - 1);

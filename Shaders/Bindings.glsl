@@ -8,7 +8,6 @@
 #include "Records.h"
 #include "SpecializationIds.h"
 #include "Common/Shared/Base/Features.h"
-#include "Common/Shared/Sampler/Samplers.h"
 
 layout(constant_id = kFeaturesId) const uint kFeatures = kFeatureAll;
 layout(constant_id = kLightSamplingId) const uint kLightSampling = kSampleMis;

@@ -17,17 +17,20 @@ Ray previewRay(vec2 place) {
 // factor of a disk of the light's area that is seen from its axis (Howell, "A Catalog of Radiation Heat Transfer
 // Configuration Factors", B-13), times the cosines. A point in a medium, whose normal is zero, gets a quarter of what a
 // surface gets that faces the light.
-vec3 unshadowedLight(Light light, LightBound bound, vec3 position, vec3 normal) {
+vec3 unshadowedLight(Light light, vec3 position, vec3 normal) {
     if (isPunctual(kFeatures, light)) {
         LightSample s = samplePunctualLight(light, position, normal);
         float cosine = isSurface(normal) ? dot(normal, s.wi) : 0.25f;
         return s.pdf > 0.0f ? s.radiance * (cosine * kInvPi) : vec3(0.0f);
     }
-    vec3 toLight = bound.center - position;
+    vec3 middle = light.position;
+    if (light.kind == kLightQuad) middle += 0.5f * (light.edgeU + light.edgeV);
+    if (light.kind == kLightTriangle) middle += (light.edgeU + light.edgeV) / 3.0f;
+    vec3 toLight = middle - position;
     float squared = max(dot(toLight, toLight), 1.0e-30f);
     vec3 direction = toLight * inversesqrt(squared);
     float facing = isSurface(normal) ? max(dot(normal, direction), 0.0f) : 0.25f;
-    bool isRound = dot(bound.axis, bound.axis) == 0.0f;
+    bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
     if (isRound) return light.emission * (facing * min(light.radius * light.radius / squared, 1.0f));
     float leaving = -dot(light.normal, direction);
     float seen = light.area * (light.sides == kSidesBoth ? abs(leaving) : max(leaving, 0.0f));
@@ -49,8 +52,7 @@ vec3 skyLight(SceneRef scene, vec3 normal) {
 vec3 incidentLight(SceneRef scene, vec3 position, vec3 normal, vec3 wo) {
     vec3 sum = (launch.ambient + skyLight(scene, normal)) * (0.5f + 0.5f * dot(normal, wo));
     for (uint i = 0u; i < launch.lightCount; i++) {
-        uint light = launch.indices.at[i];
-        sum += unshadowedLight(loadLight(scene, light), loadLightBound(scene, light), position, normal);
+        sum += unshadowedLight(loadLight(scene, launch.indices.at[i]), position, normal);
     }
     return sum;
 }

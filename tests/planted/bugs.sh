@@ -3,8 +3,8 @@
 
 # ---- random numbers and samplers -------------------------------------------------------------------------------------
 bug 'a uniform number of 1' Random.h 's/return float\(x >> 8u\) \* 5\.9604644775390625e-8f/return float(x >> 8u) * 5.9604652e-8f/' unit.Uniform
-bug 'second Sobol coordinate' Sobol.h 's/(0xf0f0f0f0u\) >> )4u/\13u/' unit.Sobol
-bug 'Owen scrambling that is not nested' Sobol.h 's/0x05526c56u/0x05526c57u/' unit.Sobol
+bug 'second Sobol coordinate' Random.h 's/(0xf0f0f0f0u\) >> )4u/\13u/' unit.Sobol
+bug 'Owen scrambling that is not nested' Random.h 's/0x05526c56u/0x05526c57u/' unit.Sobol
 bug 'cosine hemisphere' Sampling.h 's/sqrt\(\(1\.0f - d\.z\) \* \(1\.0f \+ d\.z\)\)/1.0f - d.z/' unit.Sampling
 bug 'points on a sphere' Sampling.h 's/float z = 1\.0f - 2\.0f \* u\.x/float z = 1.0f - 1.98f * u.x/' unit.Sampling
 

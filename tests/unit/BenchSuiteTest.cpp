@@ -58,9 +58,8 @@ TEST(BenchSuite, ThePublishedSchemaAgrees) {
     app::RenderSettings settings;
     app::forEachMethod(
         [&](const char* key, const char*, const char*, const auto& table, auto&) {
-            std::string names; // "a, b, c"
-            for (const auto& row : table) names += (names.empty() ? "" : ", ") + std::string(row.name);
-            EXPECT_EQ(json["definitions"]["experiment"]["properties"][key]["description"], names) << key;
+            EXPECT_EQ(json["definitions"]["experiment"]["properties"][key]["description"], app::joinedNames(table))
+                << key;
         },
         settings);
 }

@@ -12,7 +12,7 @@
 #include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "Common/Shared/Light/LightContribution.h"
-#include "Common/Shared/Light/Lights.h"
+#include "Common/Shared/Light/LightDensity.h"
 #include "tests/unit/LightDraws.h"
 #include "tests/unit/LightShapes.h"
 #include "tests/unit/Statistics.h"
@@ -291,7 +291,7 @@ TEST(Ellipsoids, TwelveDecadesOfSizeDistanceAndShapeLeaveNothingThatIsNotFinite)
             ASSERT_TRUE(isFinite(again) && again >= 0) << i;
             const float along = lightPdfAlong(kFeatureAll, withMethod(method), light, vec3(position), normal, 0, s.wi);
             ASSERT_TRUE(isFinite(along) && along >= 0) << i;
-            ASSERT_TRUE(isFinite(ellipsoidError(ellipsoidOf(light), light.position))) << i;
+            ASSERT_TRUE(isFinite(lightPointError(kFeatureAll, light))) << i;
         }
     }
     EXPECT_GT(drawn, 200000u);

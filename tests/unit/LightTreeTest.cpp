@@ -74,7 +74,7 @@ TEST_P(LightTree, HasEachLightOnceInsideTheBoundsOfAllItsNodes) {
             const LightNode& n = s.lightNodes[node];
             if (n.omnidirectionalIntensity[i] == 0 && n.planarIntensity[i] == 0) continue;
             if (n.child[i] & kLightLeaf) {
-                const std::uint32_t light = n.child[i] & kLightIndex;
+                const std::uint32_t light = n.child[i] & ~kLightLeaf;
                 ++seen[light];
                 EXPECT_EQ(s.lightToLeaf[light], node * kLightNodeChildren + i);
             } else {

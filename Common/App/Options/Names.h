@@ -56,10 +56,10 @@ inline constexpr Named<ShapeSampling> kFlatLights[] = {
     {"projected", ShapeSampling::Projected, "Projected solid angle", "in that, weighed by the cosine at the surface"},
     {"area", ShapeSampling::Area, "Area", "on its area"}};
 inline constexpr Named<SamplerKind> kSamplers[] = {
-#define RT_SAMPLER(Name, number, begin, words, name, title, help) {name, SamplerKind::Name, title, help},
-    RT_SAMPLERS(RT_SAMPLER)
-#undef RT_SAMPLER
-};
+    {"sobol", SamplerKind::Sobol, "Sobol (Owen-scrambled)", "well spread in many dimensions"},
+    {"sobol-blue", SamplerKind::SobolBlue, "Sobol, blue noise", "one sequence for all pixels, so that noise is finer"},
+    {"stratified", SamplerKind::Stratified, "Stratified", "one in each cell of a grid"},
+    {"independent", SamplerKind::Independent, "Independent (random)", "each on its own"}};
 inline constexpr Named<Policy> kPolicies[] = {{"par", Policy::Par, "Multi core: par"},
                                               {"seq", Policy::Seq, "Single core: seq"},
                                               {"par_unseq", Policy::ParUnseq, "Multi core: par_unseq"}};
@@ -118,6 +118,14 @@ std::string titleOf(const Named<E> (&table)[N], E value) {
     for (const auto& row : table)
         if (row.value == value) return row.title ? row.title : std::string(row.name);
     return {};
+}
+
+// "a, b, c".
+template <class E, std::size_t N>
+std::string joinedNames(const Named<E> (&table)[N]) {
+    std::string text;
+    for (const auto& row : table) text += (text.empty() ? "" : ", ") + std::string(row.name);
+    return text;
 }
 
 } // namespace rt::app

@@ -36,10 +36,11 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"motion", kFeatureMotion},
     {"lights", kFeatureLights},
     {"many-lights", kFeatureManyLights},
-#define RT_SHAPE(Name, kind, bit, feature, isPlanar) {feature, kFeature##Name##Lights},
-    RT_LIGHT_SHAPES(RT_SHAPE)
-#undef RT_SHAPE
-        {"punctual-lights", kFeaturePunctualLights},
+    {"sphere-lights", kFeatureSphereLights},
+    {"quad-lights", kFeatureQuadLights},
+    {"triangle-lights", kFeatureTriangleLights},
+    {"ellipsoid-lights", kFeatureEllipsoidLights},
+    {"punctual-lights", kFeaturePunctualLights},
     {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},

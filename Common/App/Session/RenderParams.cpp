@@ -36,13 +36,10 @@ bool scattersWidely(const scene::CompiledScene& scene) {
         return shared::scattersWidely(shared::makeBsdf(material, material.albedo));
     });
 }
-constexpr std::uint32_t kLightSampling = shared::kFeatureLights | shared::kFeatureManyLights |
-                                         shared::kFeaturePunctualLights | shared::kFeatureTargets |
-                                         shared::kFeatureMixture |
-                                         shared::kFeatureProjected
-#define RT_SHAPE(Name, kind, bit, feature, isPlanar) | shared::kFeature##Name##Lights
-                                             RT_LIGHT_SHAPES(RT_SHAPE);
-#undef RT_SHAPE
+constexpr std::uint32_t kLightSampling =
+    shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
+    shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
+    shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {

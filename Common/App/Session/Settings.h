@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "Common/Shared/Base/Types.h"
-#include "Common/Shared/Sampler/Samplers.h"
 
 namespace rt::app {
 
@@ -27,9 +26,10 @@ enum class ShapeSampling : std::uint32_t {
     Area = shared::kShapeArea
 };
 enum class SamplerKind : std::uint32_t {
-#define RT_SAMPLER(Name, number, begin, words, name, title, help) Name = number,
-    RT_SAMPLERS(RT_SAMPLER)
-#undef RT_SAMPLER
+    Independent = shared::kSamplerIndependent,
+    Stratified = shared::kSamplerStratified,
+    Sobol = shared::kSamplerSobol,
+    SobolBlue = shared::kSamplerSobolBlue
 };
 
 inline constexpr std::uint32_t kErrorReplicates = 4; // at least, where a render ends by its estimated error

@@ -40,11 +40,14 @@ std::uint32_t ofTexture(const shared::Texture& texture) {
 
 std::uint32_t ofLight(const shared::Light& light) {
     switch (light.kind) {
-#define RT_OF_SHAPE(Name, kind, bit, feature, isPlanar) \
-    case shared::kLight##Name:                          \
-        return shared::kFeature##Name##Lights;
-        RT_LIGHT_SHAPES(RT_OF_SHAPE)
-#undef RT_OF_SHAPE
+        case shared::kLightSphere:
+            return shared::kFeatureSphereLights;
+        case shared::kLightQuad:
+            return shared::kFeatureQuadLights;
+        case shared::kLightTriangle:
+            return shared::kFeatureTriangleLights;
+        case shared::kLightEllipsoid:
+            return shared::kFeatureEllipsoidLights;
         case shared::kLightPoint:
         case shared::kLightSpot:
         case shared::kLightDirectional:

@@ -24,10 +24,8 @@ shared::Light emptyLight(std::uint32_t kind) {
     return light;
 }
 
-bool isPlanar(const shared::Light& light) {
-#define RT_OR_IS_PLANAR(Name, kind_, bit, feature, isPlanar) || (isPlanar && light.kind == kind_)
-    return false RT_LIGHT_SHAPES(RT_OR_IS_PLANAR);
-#undef RT_OR_IS_PLANAR
+bool isFlat(const shared::Light& light) {
+    return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
 }
 
 // Flux in the surrounding space.
@@ -75,53 +73,34 @@ shared::LightBound punctualBound(const shared::Light& light) {
     return bound;
 }
 
-shared::LightBound boundSphere(const shared::Light& light) {
+shared::LightBound boundOf(const shared::Light& light) {
+    if (shared::isPunctual(shared::kFeatureAll, light)) return punctualBound(light);
     shared::LightBound bound{};
-    bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
-    bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
-    bound.intensity = static_cast<float>(luminance(light.emission) * kPi * light.radius * light.radius);
-    return bound;
-}
-
-shared::LightBound boundEllipsoid(const shared::Light& light) {
-    shared::LightBound bound{};
-    bound.center = light.position;
-    bound.radius = static_cast<float>(longestHalfAxis(light)) * (1 + 4 * shared::kEpsilon);
-    // By Cauchy's formula the mean of the areas under which a convex body is seen is a quarter of its surface.
-    bound.intensity = static_cast<float>(luminance(light.emission) * 0.25 * light.area);
-    return bound;
-}
-
-// `middle`: relative to the first corner.
-shared::LightBound boundFlat(const shared::Light& light, const glm::dvec3& middle) {
+    const double luminous = luminance(light.emission);
+    if (light.kind == shared::kLightEllipsoid) {
+        bound.center = light.position;
+        bound.radius = static_cast<float>(longestHalfAxis(light)) * (1 + 4 * shared::kEpsilon);
+        // By Cauchy's formula the mean of the areas under which a convex body is seen is a quarter of its surface.
+        bound.intensity = static_cast<float>(luminous * 0.25 * light.area);
+        return bound;
+    }
+    if (!isFlat(light)) {
+        bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
+        bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
+        bound.intensity = static_cast<float>(luminous * kPi * light.radius * light.radius);
+        return bound;
+    }
+    const glm::dvec3 u(light.edgeU), v(light.edgeV);
+    const glm::dvec3 middle = light.kind == shared::kLightQuad ? 0.5 * (u + v) : enclosingCenter(u, v);
     double radius = 0;
-    for (const glm::dvec3& vertex : {glm::dvec3(0), glm::dvec3(light.edgeU), glm::dvec3(light.edgeV)})
-        radius = std::max(radius, glm::length(vertex - middle));
-    shared::LightBound bound{};
+    for (const glm::dvec3& vertex : {glm::dvec3(0), u, v}) radius = std::max(radius, glm::length(vertex - middle));
     bound.center = light.position + shared::vec3(middle);
     bound.radius = static_cast<float>(radius);
     bound.radius *= 1 + 4 * shared::kEpsilon;
     bound.axis = light.normal;
     bound.twoSided = light.sides == shared::kSidesBoth ? 1.0f : 0.0f;
-    bound.intensity = static_cast<float>(luminance(light.emission) * light.area);
+    bound.intensity = static_cast<float>(luminous * light.area);
     return bound;
-}
-
-shared::LightBound boundQuad(const shared::Light& light) {
-    return boundFlat(light, 0.5 * (glm::dvec3(light.edgeU) + glm::dvec3(light.edgeV)));
-}
-
-shared::LightBound boundTriangle(const shared::Light& light) {
-    return boundFlat(light, enclosingCenter(light.edgeU, light.edgeV));
-}
-
-shared::LightBound boundOf(const shared::Light& light) {
-#define RT_BOUND(Name, kind_, bit, feature, isPlanar) \
-    if (light.kind == kind_) return bound##Name(light);
-    RT_LIGHT_SHAPES(RT_BOUND)
-#undef RT_BOUND
-    // The tree gives the sky a place of its own.
-    return light.kind == shared::kLightSky ? boundSphere(light) : punctualBound(light);
 }
 
 } // namespace
@@ -131,7 +110,7 @@ double luminance(const glm::dvec3& color) {
 }
 
 double emittingArea(const shared::Light& light) {
-    const double sides = isPlanar(light) && light.sides == shared::kSidesBoth ? 2 : 1;
+    const double sides = isFlat(light) && light.sides == shared::kSidesBoth ? 2 : 1;
     return light.area * sides;
 }
 

@@ -255,13 +255,12 @@ class Builder {
     void placeLight(std::uint32_t node, std::uint32_t slot, std::uint32_t light) {
         const shared::LightBound& bound = out_.lightBounds[light];
         shared::LightNode& n = out_.lightNodes[node];
-        placeSphere(n, slot, bound.center, bound.radius);
+        placeSphere(n, slot, bound.center, -bound.radius);
         placeCone(n, slot, bound.axis, 1.0f, 0.0);
         const bool isFlat = bound.axis != shared::vec3(0.0f);
-        n.planarIntensity[slot] = isFlat ? bound.intensity : 0.0f;
+        n.planarIntensity[slot] = !isFlat ? 0.0f : bound.twoSided > 0.0f ? -bound.intensity : bound.intensity;
         n.omnidirectionalIntensity[slot] = isFlat ? 0.0f : bound.intensity;
-        const bool isTwoSided = isFlat && bound.twoSided > 0.0f;
-        n.child[slot] = light | shared::kLightLeaf | (isTwoSided ? shared::kLightTwoSided : 0u);
+        n.child[slot] = light | shared::kLightLeaf;
         out_.lightToLeaf[light] = node * kLightNodeChildren + slot;
     }
 

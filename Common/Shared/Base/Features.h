@@ -4,7 +4,6 @@
 #ifndef RT_SHARED_FEATURES_H
 #define RT_SHARED_FEATURES_H
 #include "Common/Shared/Base/Shim.h"
-#include "Common/Shared/Light/LightShapes.h"
 
 RT_SHARED_BEGIN
 
@@ -24,13 +23,16 @@ const uint kFeatureSkyImage = 1u << 14u;
 const uint kFeatureThinLens = 1u << 15u;
 const uint kFeatureLights = 1u << 16u;     // the light table is not empty
 const uint kFeatureManyLights = 1u << 17u; // more lights than kContributionLights
-// Bits of light shapes: see their table, LightShapes.h. 18, 19, 20 and 27 are taken.
+const uint kFeatureSphereLights = 1u << 18u;
+const uint kFeatureQuadLights = 1u << 19u;
+const uint kFeatureTriangleLights = 1u << 20u;
 const uint kFeatureSmoothNormals = 1u << 21u;
 const uint kFeatureFuzz = 1u << 22u;      // metal with fuzz above kMirrorFuzz
 const uint kFeatureTargets = 1u << 23u;   // importance targets, used by `mixture` only
 const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
 const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
 const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
+const uint kFeatureEllipsoidLights = 1u << 27u;
 const uint kFeatureDetail = 1u << 28u;         // tangents, vertex colours, second uvs: the bit of principled materials
 const uint kFeatureCoatNormal = 1u << 29u;     // clear coats over or under a map of normals
 const uint kFeaturePunctualLights = 1u << 30u; // point, spot and directional lights

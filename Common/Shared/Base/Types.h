@@ -146,9 +146,19 @@ struct Medium {
 
 // ---- lights --------------------------------------------------------------------------------------------------------
 
+const uint kLightSphere = 0u;
+const uint kLightQuad = 1u;
+const uint kLightTriangle = 2u;
+const uint kLightSky = 3u;       // the sky image
+const uint kLightEllipsoid = 4u; // the unit sphere under an affine map
+// Punctual lights, which no ray can hit: kinds from here on.
+const uint kLightPoint = 5u;
+const uint kLightSpot = 6u;
+const uint kLightDirectional = 7u;
+
 // An emitter with its geometry in world space, or an importance target (emission zero).
 struct Light {
-    uint kind;     // Common/Shared/Light/LightShapes.h: kLight...
+    uint kind;
     uint material; // kNone for the sky, punctual lights and importance targets
     vec3 position; // sphere: centre at time 0; quad: corner; triangle: vertex 0; ellipsoid: centre; directional light:
                    // centre of the scene
@@ -195,10 +205,7 @@ struct LightPick {
 // Over more lights `contribution` descends a tree. Node 0 is the root.
 
 const uint kLightNodeChildren = 8u;
-// Flags in LightNode::child; the rest is an index.
-const uint kLightLeaf = 0x80000000u;     // of a light, not of a node
-const uint kLightTwoSided = 0x40000000u; // of a planar light that emits to both sides
-const uint kLightIndex = 0x3fffffffu;
+const uint kLightLeaf = 0x80000000u; // in LightNode::child: the rest is a light, not a node
 
 // Bounds of up to eight children, each a light or a node, field by field so that they are weighed side by side. A child
 // that does not exist has no intensity. Six cache lines.
@@ -206,13 +213,13 @@ struct LightNode {
     float centerX[8]; // of a sphere around the child's lights
     float centerY[8];
     float centerZ[8];
-    float radius[8];
+    float radius[8]; // negative: the child is a single light
     float axisX[8];  // unit axis of a cone that holds the normals of the lights counted in `planarIntensity`
     float axisY[8];
     float axisZ[8];
     float meanResultantLength[8];      // of those normals, weighed by intensity
     float spreadCosine[8];             // of the cone's half angle
-    float planarIntensity[8];          // of planar lights along their normals
+    float planarIntensity[8];          // of planar lights along their normals; negative: a single light with two sides
     float omnidirectionalIntensity[8]; // mean intensity of the lights that emit in all directions
     uint child[8];
 };
@@ -279,6 +286,11 @@ const uint kShapeSolidAngle = 1u;
 const uint kShapeProjected = 2u;
 const uint kShapeArea = 3u;
 
+const uint kSamplerIndependent = 0u;
+const uint kSamplerStratified = 1u;
+const uint kSamplerSobol = 2u;
+const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
+
 struct RenderParams {
     uint width; // pixels
     uint height;
@@ -289,9 +301,9 @@ struct RenderParams {
     uint sphereLight;
     uint quadLight;
     uint triangleLight;
-    uint samplerKind; // Common/Shared/Sampler/Samplers.h: kSampler...
-    uint strataX;     // stratified: cells per round, strataX * strataY >= samples per pixel; Sobol, blue noise: binary
-                      // logarithm of the samples of a pixel that are next to each other in the sequence
+    uint samplerKind;
+    uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
+                  // logarithm of the samples of a pixel that are next to each other in the sequence
     uint strataY;
     uint russianRoulette; // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
 };

@@ -17,11 +17,11 @@ RT_FN uint ellipsoidLightStrategy(RT_IN(RenderParams) params, vec3 center) {
     return params.sphereLight == kShapeArea ? kStrategyArea : kStrategySolidAngle;
 }
 
-RT_CALL LightSample sampleEllipsoidLight(uint, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
-                                         vec3 normal, float, vec2 u) {
+// As sampleLight and lightPdf (Lights.h), whose parameters these are.
+RT_CALL LightSample sampleEllipsoidLight(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                                         vec2 u) {
     LightSample s = noLightSample();
     Ellipsoid e = ellipsoidOf(light);
-    s.error = ellipsoidError(e, light.position);
     vec3 toCenter = light.position - position;
     vec3 center = toSphere(e, toCenter);
     uint strategy = ellipsoidLightStrategy(params, center);
@@ -52,8 +52,8 @@ RT_CALL LightSample sampleEllipsoidLight(uint, RT_IN(RenderParams) params, RT_IN
     return s;
 }
 
-RT_CALL float pdfEllipsoidLight(uint, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal, float,
-                                vec3 wi, float distance, vec3 lightNormal) {
+RT_CALL float ellipsoidLightPdf(RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal, vec3 wi,
+                                float distance, vec3 lightNormal) {
     Ellipsoid e = ellipsoidOf(light);
     vec3 center = toSphere(e, light.position - position);
     uint strategy = ellipsoidLightStrategy(params, center);
@@ -62,15 +62,6 @@ RT_CALL float pdfEllipsoidLight(uint, RT_IN(RenderParams) params, RT_IN(Light) l
     if (strategy == kStrategyInside) return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
     if (strategy == kStrategyArea) return ellipsoidAreaPdf(e, lightNormal, wi, distance);
     return ellipsoidConePdf(e, makeEllipsoidCone(e, center), wi);
-}
-
-RT_FN LightIntersection intersectEllipsoidLight(RT_IN(Light) light, vec3 position, float, vec3 wi) {
-    Ellipsoid e = ellipsoidOf(light);
-    EllipsoidHit hit = intersectEllipsoid(e, toSphere(e, light.position - position), wi);
-    LightIntersection c;
-    c.distance = max(hit.distance, 0.0f);
-    c.normal = ellipsoidNormal(e, hit.onSphere);
-    return c;
 }
 
 RT_SHARED_END

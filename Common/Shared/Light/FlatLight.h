@@ -25,12 +25,6 @@ RT_FN bool isFar(vec3 toCenter, vec3 edgeU, vec3 edgeV) {
     return dot(edgeU, edgeU) + dot(edgeV, edgeV) < 0.01f * dot(toCenter, toCenter);
 }
 
-// LightSample::error of its points.
-RT_FN vec3 flatLightError(RT_IN(Light) light) {
-    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
-           extentError(light.edgeU, light.edgeV);
-}
-
 // Fills in what follows from s.uv.
 RT_FN void placeOnLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 position) {
     s.point = light.position + light.edgeU * s.uv.x + light.edgeV * s.uv.y;
@@ -54,22 +48,6 @@ RT_FN void projectToLight(RT_INOUT(LightSample) s, RT_IN(Light) light, vec3 corn
     s.uv = edgeCoordinates(light, s.wi * s.distance - corner);
 }
 
-// A quad, or the triangle that is half of it.
-RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, vec3 wi, bool isTriangle) {
-    LightIntersection c;
-    c.distance = 0.0f;
-    c.normal = light.normal;
-    float cosine = dot(light.normal, wi);
-    if (cosine == 0.0f) return c;
-    float t = dot(light.normal, light.position - position) / cosine;
-    if (!(t > 0.0f && t < kInfinity)) return c;
-    vec2 at = edgeCoordinates(light, position + wi * t - light.position);
-    float most = isTriangle ? at.x + at.y : max(at.x, at.y);
-    bool inside = at.x >= 0.0f && at.y >= 0.0f && most <= 1.0f;
-    if (inside) c.distance = t;
-    return c;
-}
-
 RT_FN LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 position, vec3 normal, vec2 u) {
     LightSample s = noLightSample();
     vec3 drawn = sampleProjectedFlat(light, corner, normal, u);
@@ -77,7 +55,6 @@ RT_FN LightSample sampleFlatProjected(RT_IN(Light) light, vec3 corner, vec3 posi
     s.uv = vec2(drawn.x, drawn.y);
     placeOnLight(s, light, position);
     s.pdf = drawn.z * max(dot(normal, s.wi), 0.0f);
-    s.error = flatLightError(light);
     return s;
 }
 

@@ -13,10 +13,9 @@ struct LightSample {
     float pdf;      // per steradian, given this light; 0: the light cannot contribute, nothing else is defined
     vec3 radiance;  // emitted towards the shading point, without the emission's texture
     vec3 point;     // on the light
-    vec3 error; // bound of the error of `point` per axis, for offsetOrigin at the light's end of a shadow ray: several
-                // times its rounding error, since the device that traces the ray also rounds when it tests the shape
+    vec3 error;     // bound of the rounding error of `point`, per axis
     vec3 normal;    // unit geometric normal at `point`, front side of a flat light, outward of a round one
-    vec2 uv;        // planar shapes: along edgeU and edgeV (triangle: weights of vertices 1 and 2)
+    vec2 uv;        // quad: along edgeU and edgeV; triangle: weights of vertices 1 and 2
 };
 
 RT_FN LightSample noLightSample() {
@@ -31,12 +30,6 @@ RT_FN LightSample noLightSample() {
     s.uv = vec2(0.0f);
     return s;
 }
-
-// Where a ray meets a light: distance (0: nowhere) and the front normal there.
-struct LightIntersection {
-    float distance;
-    vec3 normal;
-};
 
 // Strategies by which a light's shape is sampled from a shading point.
 const uint kStrategySolidAngle = 0u; // uniform in solid angle, or a quad: weighted by the cosines at its corners

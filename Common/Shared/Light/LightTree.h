@@ -106,7 +106,7 @@ RT_FN void descend(SceneRef scene, vec3 position, vec3 normal, RT_INOUT(TreeDesc
 
 RT_FN TreeChoice endDescent(RT_IN(TreeDescent) d) {
     TreeChoice choice;
-    choice.light = d.child == kNone ? kNone : d.child & kLightIndex;
+    choice.light = d.child == kNone ? kNone : d.child & ~kLightLeaf;
     choice.probability = d.probability;
     choice.total = d.total;
     return choice;

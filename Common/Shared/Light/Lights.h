@@ -3,36 +3,37 @@
 #ifndef RT_SHARED_LIGHTS_H
 #define RT_SHARED_LIGHTS_H
 #include "Common/Shared/Light/EllipsoidLight.h"
-#include "Common/Shared/Light/LightShapes.h"
 #include "Common/Shared/Light/QuadLight.h"
 #include "Common/Shared/Light/SphereLight.h"
 #include "Common/Shared/Light/TriangleLight.h"
 
 RT_SHARED_BEGIN
 
-// isSphereLight(features, light), and so on. Shapes that the scene lacks are false by `features` alone, which keeps them
-// out of the code.
-#define RT_IS_SHAPE(Name, kind_, bit, feature, isPlanar)            \
-    RT_FN bool is##Name##Light(uint features, RT_IN(Light) light) { \
-        return has(features, 1u << bit) && light.kind == kind_;     \
-    }
-RT_LIGHT_SHAPES(RT_IS_SHAPE)
-
-// Whether a point lies on the side that a planar light illuminates.
+// Whether a point lies on the side that a flat light illuminates.
 RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
     return light.sides == kSidesBoth || dot(light.normal, position - light.position) > 0.0f;
 }
 
-// Whether the light is planar, and the point on its dark side.
-RT_FN bool isBehind(uint features, RT_IN(Light) light, vec3 position) {
-#define RT_OR_IS_PLANAR(Name, kind_, bit, feature, isPlanar) || (isPlanar && is##Name##Light(features, light))
-    return (false RT_LIGHT_SHAPES(RT_OR_IS_PLANAR)) && !isLit(light, position);
+// Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray:
+// several times that of the point itself, since the device that traces the ray also rounds when it tests the light's
+// shape.
+RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        return ellipsoidError(ellipsoidOf(light), light.position);
+    }
+    if (light.kind == kLightSphere) {
+        float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
+        return vec3(32.0f * kEpsilon * reach);
+    }
+    return 32.0f * kEpsilon * (abs(light.position) + abs(light.edgeU) + abs(light.edgeV)) +
+           extentError(light.edgeU, light.edgeV);
 }
 
 // A sample of `light` as its shape gave it, with what all shapes have in common, and the density 0 where it is useless.
-RT_FN LightSample completeSample(RT_IN(Light) light, vec3 normal, RT_IN(LightSample) drawn) {
+RT_FN LightSample completeSample(uint features, RT_IN(Light) light, vec3 normal, RT_IN(LightSample) drawn) {
     LightSample s = drawn;
     s.radiance = light.emission;
+    s.error = lightPointError(features, light);
     // Rounding may let the point coincide with the shading point, and the direction run within the light's plane, which
     // is then infinitely far, or behind.
     bool isAhead = s.distance > 0.0f && s.distance < kInfinity;
@@ -46,52 +47,43 @@ RT_FN LightSample completeSample(RT_IN(Light) light, vec3 normal, RT_IN(LightSam
 RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                               float time, vec2 u) {
     LightSample s = noLightSample();
-    if (isBehind(features, light, position)) return s;
-    vec3 corner = light.position - position;
-    if (isFlatProjected(features, params, light, corner, normal)) {
-        s = sampleFlatProjected(light, corner, position, normal, u);
+    if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
+        s = sampleSphereLight(features, params, light, position, normal, time, u);
+    } else if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        s = sampleEllipsoidLight(params, light, position, normal, u);
+    } else if (light.kind != kLightSky && isLit(light, position)) {
+        vec3 corner = light.position - position;
+        if (isFlatProjected(features, params, light, corner, normal)) {
+            s = sampleFlatProjected(light, corner, position, normal, u);
+        } else if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
+            s = sampleQuadLight(features, params, light, position, normal, u);
+        } else if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
+            s = sampleTriangleLight(features, params, light, position, normal, u);
+        }
     }
-#define RT_SAMPLE(Name, kind_, bit, feature, isPlanar)                               \
-    else if (is##Name##Light(features, light)) {                                     \
-        s = sample##Name##Light(features, params, light, position, normal, time, u); \
-    }
-    RT_LIGHT_SHAPES(RT_SAMPLE)
-    return completeSample(light, normal, s);
+    return completeSample(features, light, normal, s);
 }
 
 // Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal
 // `lightNormal`.
 RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                      float time, vec3 wi, float distance, vec3 lightNormal) {
+    if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
+        return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);
+    }
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
+        return ellipsoidLightPdf(params, light, position, normal, wi, distance, lightNormal);
+    }
     vec3 corner = light.position - position;
     if (isFlatProjected(features, params, light, corner, normal)) return flatProjectedPdf(light, corner, normal, wi);
-#define RT_PDF(Name, kind_, bit, feature, isPlanar)                                                          \
-    if (is##Name##Light(features, light)) {                                                                  \
-        return pdf##Name##Light(features, params, light, position, normal, time, wi, distance, lightNormal); \
+    if (has(features, kFeatureQuadLights) && light.kind == kLightQuad) {
+        return quadLightPdf(features, params, light, position, normal, wi, distance);
     }
-    RT_LIGHT_SHAPES(RT_PDF)
+    if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
+        return triangleLightPdf(features, params, light, position, normal, wi, distance);
+    }
     return 0.0f;
 }
-
-// Density over solid angle of wi under sampleLight, whatever stands in between: what a mixture sums over lights; 0 where
-// wi misses the light.
-RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                          float time, vec3 wi) {
-    if (isBehind(features, light, position)) return 0.0f;
-    LightIntersection at;
-    at.distance = 0.0f;
-#define RT_INTERSECT(Name, kind_, bit, feature, isPlanar) \
-    if (is##Name##Light(features, light)) at = intersect##Name##Light(light, position, time, wi);
-    RT_LIGHT_SHAPES(RT_INTERSECT)
-    if (!(at.distance > 0.0f)) return 0.0f;
-    return lightPdf(features, params, light, position, normal, time, wi, at.distance, at.normal);
-}
-
-#undef RT_IS_SHAPE
-#undef RT_OR_IS_PLANAR
-#undef RT_SAMPLE
-#undef RT_PDF
-#undef RT_INTERSECT
 
 RT_SHARED_END
 

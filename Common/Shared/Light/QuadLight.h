@@ -188,21 +188,19 @@ RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3
 }
 
 RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
-                                  vec3 normal, float, vec2 u) {
+                                  vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
-    LightSample s = noLightSample();
     if (view.strategy == kStrategySolidAngle) {
         QuadPart part = partAboveHorizon(light, view.corner, normal);
-        s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
+        LightSample s = sampleQuadSolidAngle(partOfQuad(light, part), position, normal, view.weighting, u);
         s.uv = part.from + s.uv * part.size;
+        if (s.pdf > 0.0f) return s;
     }
-    if (!(s.pdf > 0.0f)) s = sampleQuadApart(view, light, position, u);
-    s.error = flatLightError(light);
-    return s;
+    return sampleQuadApart(view, light, position, u);
 }
 
-RT_FN float pdfQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                         float, vec3 wi, float distance, vec3) {
+RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                         vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.strategy == kStrategySolidAngle) {
         Light quad = partOfQuad(light, partAboveHorizon(light, view.corner, normal));
@@ -215,10 +213,6 @@ RT_FN float pdfQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light)
         density = stripPdf(view.strip, along * distance * view.strip.inverse);
     }
     return density * areaPdf(light.area, distance, dot(light.normal, wi));
-}
-
-RT_FN LightIntersection intersectQuadLight(RT_IN(Light) light, vec3 position, float, vec3 wi) {
-    return intersectFlatLight(light, position, wi, false);
 }
 
 RT_SHARED_END

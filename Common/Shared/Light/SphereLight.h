@@ -70,11 +70,6 @@ RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, 
     return s;
 }
 
-RT_FN vec3 sphereLightError(RT_IN(Light) light) {
-    float reach = maxComponent(abs(light.position) + abs(light.edgeU)) + light.radius;
-    return vec3(32.0f * kEpsilon * reach);
-}
-
 RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                     vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
@@ -105,11 +100,10 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
         // The far half is hidden by the near one, and a mixture's density counts the direction once.
         s.pdf = cosine > 0.0f ? areaPdf(light.area, s.distance, cosine) : 0.0f;
     }
-    s.error = sphereLightError(light);
     return s;
 }
 
-RT_FN float pdfSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                            float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
@@ -122,24 +116,6 @@ RT_FN float pdfSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Ligh
     if (strategy == kStrategyVisibleCap) return visibleCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);
     if (strategy == kStrategyArea) return areaPdf(light.area, distance, dot(lightNormal, wi));
     return isSurface(normal) ? max(dot(normal, wi), 0.0f) * kInvPi : 0.25f * kInvPi;
-}
-
-RT_FN LightIntersection intersectSphereLight(RT_IN(Light) light, vec3 position, float time, vec3 wi) {
-    LightIntersection c;
-    c.distance = 0.0f;
-    c.normal = -wi;
-    vec3 f = position - (light.position + light.edgeU * time);
-    float along = -dot(f, wi);
-    vec3 foot = f + wi * along;
-    float squared = light.radius * light.radius - dot(foot, foot);
-    if (!(squared >= 0.0f)) return c;
-    float halfChord = sqrt(squared);
-    float sign = along > halfChord ? -1.0f : 1.0f; // from inside, the far side
-    float t = along + sign * halfChord;
-    if (!(t > 0.0f)) return c;
-    c.distance = t;
-    c.normal = normalize(foot + wi * (sign * halfChord));
-    return c;
 }
 
 RT_SHARED_END

@@ -19,9 +19,8 @@ RT_FN SphericalTriangle triangleShape(RT_IN(Light) light, vec3 corner) {
 }
 
 RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
-                                      vec3 normal, float, vec2 u) {
+                                      vec3 normal, vec2 u) {
     LightSample s = noLightSample();
-    s.error = flatLightError(light);
     vec3 corner = light.position - position;
     uint strategy = triangleLightStrategy(features, params.triangleLight, light, corner, normal);
     if (strategy == kStrategySolidAngle) {
@@ -39,8 +38,8 @@ RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params,
     return s;
 }
 
-RT_FN float pdfTriangleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                             float, vec3 wi, float distance, vec3) {
+RT_FN float triangleLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+                             vec3 wi, float distance) {
     vec3 corner = light.position - position;
     uint strategy = triangleLightStrategy(features, params.triangleLight, light, corner, normal);
     if (strategy == kStrategySolidAngle) {
@@ -48,10 +47,6 @@ RT_FN float pdfTriangleLight(uint features, RT_IN(RenderParams) params, RT_IN(Li
         if (solidAngle >= kTinySolidAngle) return 1.0f / solidAngle;
     }
     return areaPdf(light.area, distance, dot(light.normal, wi));
-}
-
-RT_FN LightIntersection intersectTriangleLight(RT_IN(Light) light, vec3 position, float, vec3 wi) {
-    return intersectFlatLight(light, position, wi, true);
 }
 
 RT_SHARED_END

@@ -49,13 +49,13 @@ RT_FN vec2 positionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(Ligh
 // Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
 RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
     if (!has(features, kTexturedFeatures) || light.material == kNone) return;
-    if (isSphereLight(features, light)) sampled.uv = sphereUv(sampled.normal);
-    if (isEllipsoidLight(features, light)) {
+    if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
+    if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
     }
     vec2 uv = sampled.uv;
     vec2 uv2 = uv;
-    if (isTriangleLight(features, light)) {
+    if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
         uvec3 index = loadTriangle(scene, light.triangle);
         RT_IN(Mesh) mesh = loadMesh(scene, loadTriangleMesh(scene, light.triangle));
         if (mesh.firstUv != kNone) uv = meshUv(scene, mesh, mesh.firstUv, index, sampled.uv);

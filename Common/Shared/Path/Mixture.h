@@ -1,7 +1,7 @@
 // Shirley's mixture of directions towards lights and targets with those of the bsdf.
 #ifndef RT_SHARED_MIXTURE_H
 #define RT_SHARED_MIXTURE_H
-#include "Common/Shared/Light/Lights.h"
+#include "Common/Shared/Light/LightDensity.h"
 #include "Common/Shared/Path/DirectLight.h"
 
 RT_SHARED_BEGIN

@@ -1,8 +1,8 @@
 // Surfaces of which only a part is there: a ray goes on through what it hits with the probability that is left.
 #ifndef RT_SHARED_OPACITY_H
 #define RT_SHARED_OPACITY_H
+#include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Material/PrincipledSurface.h"
-#include "Common/Shared/Sampler/PixelSampler.h"
 
 RT_SHARED_BEGIN
 

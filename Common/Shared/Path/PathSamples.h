@@ -3,7 +3,7 @@
 #ifndef RT_SHARED_PATH_SAMPLES_H
 #define RT_SHARED_PATH_SAMPLES_H
 #include "Common/Shared/Base/Features.h"
-#include "Common/Shared/Sampler/Samplers.h"
+#include "Common/Shared/Base/Random.h"
 
 RT_SHARED_BEGIN
 

@@ -2,13 +2,13 @@
 // and a test compares what comes out. Arguments are made of hashes, so they are the same words on both sides.
 #ifndef RT_SHADERS_FORMULA_PROBE_H
 #define RT_SHADERS_FORMULA_PROBE_H
+#include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Light/LightClusters.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Light/Lights.h"
 #include "Common/Shared/Material/Bsdf.h"
 #include "Common/Shared/Medium/Media.h"
-#include "Common/Shared/Sampler/Samplers.h"
 #include "Common/Shared/Shape/Shapes.h"
 #include "Common/Shared/Texture/Color.h"
 #include "Common/Shared/Tonemap.h"

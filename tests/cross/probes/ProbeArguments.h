@@ -2,8 +2,8 @@
 // device, and results as words.
 #ifndef RT_SHADERS_PROBE_ARGUMENTS_H
 #define RT_SHADERS_PROBE_ARGUMENTS_H
+#include "Common/Shared/Base/Random.h"
 #include "Common/Shared/Base/Types.h"
-#include "Common/Shared/Sampler/Samplers.h"
 
 RT_SHARED_BEGIN
 

@@ -6,7 +6,6 @@
 // Densities are on the unit disk of the receiver's tangent plane; per steradian that is times the cosine.
 #ifndef RT_SHARED_PROJECTED_LIGHTS_H
 #define RT_SHARED_PROJECTED_LIGHTS_H
-#include "Common/Shared/Light/LightShapes.h"
 #include "Common/Shared/Light/Projected/ProjectedCap.h"
 #include "Common/Shared/Light/Projected/VisibleCap.h"
 #ifdef RT_FULL
