@@ -1,6 +1,6 @@
 // Where a primitive of an acceleration structure stands in the scene.
 #include "Bindings.glsl"
-#include "Common/Shared/Base/Transform.h"
+#include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 // Of an instance with this custom index. They are numbered from 1 in the acceleration structure; the world's own
@@ -19,16 +19,24 @@ Geometry geometryOf(uint instance) {
     return constants.arrays.geometries.at[instance == kNone ? 0u : constants.arrays.instances.at[instance].geometry];
 }
 
-// Where a ray of the world meets a sphere of an instance before tMax; not positive: nowhere. By the map that Surface.h
-// brings hits back with: a device may invert an instance's map, and round, in ways of its own, by which a ray from an
-// ellipsoid would meet it again.
+// A ray of the world in the coordinates of an instance, by the map that Surface.h brings hits back with: a device may
+// invert an instance's map, and round, in ways of its own, by which a ray from an ellipsoid would meet it again.
+Ray objectRay(Ray ray, uint index) {
+    if (index == kNone) return ray;
+    Instance instance = constants.arrays.instances.at[index];
+    Ray local = ray;
+    local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
+    local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+    return local;
+}
+
+// Where a ray of the world meets a sphere of an instance before tMax; not positive: nowhere.
 float sphereHit(Ray ray, uint instance, uint index, float tMax) {
     Sphere sphere = constants.arrays.spheres.at[index];
     if (has(kFeatures, kFeatureMovingSpheres)) {
         sphere.center = sphereCenter(sphere.center, constants.arrays.sphereMotions.at[index], ray.time);
     }
-    if (instance != kNone) ray = rayInObject(constants.arrays.instances.at[instance], ray);
-    return intersectSphere(ray, sphere.center, sphere.radius, tMax);
+    return intersectSphere(objectRay(ray, instance), sphere.center, sphere.radius, tMax);
 }
 
 // (u, v) of a hit of one of the two triangles that a quad is in the acceleration structure; `weights` of the vertices 1

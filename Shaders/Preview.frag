@@ -12,7 +12,11 @@ layout(location = 0) out vec4 color; // radiance, distance
 // The ray's parameter where it meets the sphere; negative: nowhere.
 float sphereDistance(SceneRef scene, Ray ray) {
     Ray local = ray;
-    if (has(kFeatures, kFeatureInstances) && place.y != kNone) local = rayInObject(loadInstance(scene, place.y), ray);
+    if (has(kFeatures, kFeatureInstances) && place.y != kNone) {
+        Instance instance = loadInstance(scene, place.y);
+        local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
+        local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+    }
     Sphere sphere = loadSphere(scene, place.x);
     return intersectSphere(local, sphere.center, sphere.radius, kInfinity);
 }

@@ -1,7 +1,6 @@
 // Traverses what Common/Accel/GpuBvh builds. One routine answers both questions, what a ray hits first and whether it
 // hits anything, because lanes of a group ask both at a time.
 #include "Bindings.glsl"
-#include "Common/Shared/Base/Transform.h"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
 
@@ -223,6 +222,16 @@ uint primitiveAt(uint kind, uint place) {
     return constants.tree.sphereIndices.at[place];
 }
 
+Ray toObject(uint index, Ray ray) {
+    vec4 row0 = constants.arrays.instances.at[index].toObject[0];
+    vec4 row1 = constants.arrays.instances.at[index].toObject[1];
+    vec4 row2 = constants.arrays.instances.at[index].toObject[2];
+    Ray local = ray;
+    local.origin = transformPoint(row0, row1, row2, ray.origin);
+    local.direction = transformVector(row0, row1, row2, ray.direction);
+    return local;
+}
+
 // The nearer child first; the other waits on the stack. Instances are followed one level down: what lies on the stack
 // above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
@@ -254,7 +263,7 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
         } else if (has(kFeatures, kFeatureInstances) && treeLeafKind(current) == kInstanceLeaf) {
             instance = treeLeafFirst(current);
             stack[size++] = kTreeReturn;
-            r = makeTracedRay(rayInObject(constants.arrays.instances.at[instance], ray), false);
+            r = makeTracedRay(toObject(instance, ray), false);
             inverse = slabInverse(r.ray.direction);
             current = constants.tree.instanceRoots.at[instance];
             continue;

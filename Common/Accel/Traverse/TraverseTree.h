@@ -1,13 +1,18 @@
 // Trees: the world's, those of instances below it, and that of many small things far apart.
 #pragma once
 #include "Common/Accel/Traverse/TraverseNodes.h"
-#include "Common/Shared/Base/Transform.h"
 
 namespace rt::accel {
 namespace {
 
 RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
-    return shared::transformRay(placed.toObject[0], placed.toObject[1], placed.toObject[2], ray);
+    shared::Ray r = ray;
+    for (int row = 0; row < 3; ++row) {
+        const shared::vec4 m = placed.toObject[row];
+        r.origin[row] = m.x * ray.origin.x + m.y * ray.origin.y + m.z * ray.origin.z + m.w;
+        r.direction[row] = m.x * ray.direction.x + m.y * ray.direction.y + m.z * ray.direction.z;
+    }
+    return r;
 }
 
 template <bool World, bool Ahead>

@@ -7,8 +7,8 @@
 #include <glm/common.hpp>
 
 #include "Common/Scene/Json/CameraRecord.h"
-#include "Common/Shared/Base/Transform.h"
 #include "Common/Shared/Camera.h"
+#include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"
 
 namespace rt::app {
@@ -41,7 +41,7 @@ class Search {
                 if (!isWorthIt(geometry)) return std::nullopt;
                 box = boxOf(geometry);
             }
-            const shared::Ray ray = shared::rayInObject(instance, ray_);
+            const shared::Ray ray = inObject(instance);
             if (!mayMeet(ray, *box)) continue;
             if (!isWorthIt(geometry)) return std::nullopt;
             meet(geometry, ray, instance.material);
@@ -106,6 +106,15 @@ class Search {
             for (int corner = 0; corner < 3; ++corner) box.add(scene_.positions[scene_.triangles[i][corner]]);
         });
         return box;
+    }
+
+    // The parameter t stays what it is.
+    shared::Ray inObject(const shared::Instance& instance) const {
+        shared::Ray ray = ray_;
+        const auto& rows = instance.toObject;
+        ray.origin = shared::transformPoint(rows[0], rows[1], rows[2], ray_.origin);
+        ray.direction = shared::transformVector(rows[0], rows[1], rows[2], ray_.direction);
+        return ray;
     }
 
     bool mayMeet(const shared::Ray& ray, const Box& box) const {

@@ -2,9 +2,15 @@
 #ifndef RT_SHARED_MEDIA_H
 #define RT_SHARED_MEDIA_H
 #include "Common/Shared/Base/Sampling.h"
-#include "Common/Shared/Base/Transform.h"
 
 RT_SHARED_BEGIN
+
+RT_FN vec3 transformPoint(vec4 row0, vec4 row1, vec4 row2, vec3 p) {
+    return vec3(dot(vec3(row0), p) + row0.w, dot(vec3(row1), p) + row1.w, dot(vec3(row2), p) + row2.w);
+}
+RT_FN vec3 transformVector(vec4 row0, vec4 row1, vec4 row2, vec3 v) {
+    return vec3(dot(vec3(row0), v), dot(vec3(row1), v), dot(vec3(row2), v));
+}
 
 // Parameters (near, far) of the line o + t d in the unit sphere, near >= far if it misses; d of any length.
 RT_FN vec2 unitSphereInterval(vec3 o, vec3 d) {

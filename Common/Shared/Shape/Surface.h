@@ -4,8 +4,8 @@
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Base/SceneAccess.h"
-#include "Common/Shared/Base/Transform.h"
 #include "Common/Shared/Base/Types.h"
+#include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
 #include "Common/Shared/Shape/Shapes.h"
 #include "Common/Shared/Texture/Textures.h"
@@ -153,7 +153,10 @@ RT_FN Surface primitiveSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT
 RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (!has(features, kFeatureInstances) || hit.instance == kNone) return primitiveSurface(features, scene, ray, hit);
     RT_IN(Instance) instance = loadInstance(scene, hit.instance);
-    Surface s = primitiveSurface(features, scene, rayInObject(instance, ray), hit);
+    Ray local = ray;
+    local.origin = transformPoint(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.origin);
+    local.direction = transformVector(instance.toObject[0], instance.toObject[1], instance.toObject[2], ray.direction);
+    Surface s = primitiveSurface(features, scene, local, hit);
     vec3 p = abs(s.position);
     vec4 r0 = abs(instance.toWorld[0]);
     vec4 r1 = abs(instance.toWorld[1]);
