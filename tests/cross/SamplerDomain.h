@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 
 #include "Common/Shared/Base/Types.h"
-#include "Common/Shared/Light/LightShapes.h"
 
 namespace rt::test {
 
