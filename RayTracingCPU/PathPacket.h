@@ -5,6 +5,8 @@
 #pragma once
 #include "RayTracingCPU/LightLanes.h"
 #include "RayTracingCPU/TileSamples.h"
+#include "Common/Shared/Path/Connection.h"
+extern long gSolved, gTraced, gArrived;
 
 namespace rt::cpu {
 namespace {
@@ -97,6 +99,7 @@ class PathPacket {
             if (active.arrived == 0u) return true;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
+            if (gAimCount > 0 && active.lit != 0u) connect(active.lit);
             sampleDiffuse(lanes_);
             if (has(kFeatures, kFeaturePrincipled)) proposeDirections<kFeatures>(active.arrived, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
@@ -177,6 +180,99 @@ class PathPacket {
             traceShadow(i, direct, path);
             end(slot);
         }
+    }
+
+    [[gnu::noinline]] void findReaches(int k, float time0, FloatLanes* totals, UintLanes& masks) {
+        const uint count = scene_.globals.lightCount;
+        Vec3Lanes along; FloatLanes cx, sx, total{}; UintLanes mask{};
+        for (uint i = 0u; i < kLanes; ++i) {
+            const vec3 origin = get(lanesOf<&Vertex::origin>(lanes_.vertices), i);
+            const vec3 toC = gAim[k].center + gAim[k].motion * lanes_.time.at[i] - origin;
+            const float inverse = 1.0f / std::sqrt(dot(toC, toC));
+            set(along, i, toC * inverse);
+            const float s = std::min(gAim[k].radius * inverse, 1.0f);
+            cx.at[i] = std::sqrt(1.0f - s * s); sx.at[i] = s;
+        }
+        for (uint l = 0u; l < count; ++l) {
+            const Reach reach = gReach[k][l];
+            for (uint i = 0u; i < kLanes; ++i) {
+                const bool may = mayReach(reach, get(along, i), vec2(cx.at[i], sx.at[i]));
+                total.at[i] += may ? reach.power : 0.0f;
+                mask.at[i] |= may ? 1u << l : 0u;
+            }
+        }
+        *totals = total; masks = mask; (void)time0;
+    }
+    void connect(uint lit) {
+        for (int k = 0; k < gAimCount; ++k) {
+            FloatLanes totals; UintLanes masks;
+            findReaches(k, 0, &totals, masks);
+            eachLane(lit, [&](uint i) { if (masks.at[i] != 0u) connectOne(i, k, masks.at[i], totals.at[i]); });
+        }
+    }
+    void connectOne(uint i, int k, uint mask, float total) {
+        const Vertex v = vertexIn<kFeatures>(lanes_, i);
+        if (isPrincipled(kFeatures, v.bsdf) || isMetal(kFeatures, v.bsdf)) return;
+        PathState& path = slots_[i].path;
+        const Sampler smp = get(lanes_.samplers, i);
+        const SmoothSphere& sphere = gAim[k];
+        const vec3 center = sphere.center + sphere.motion * path.ray.time;
+        if (v.inMedium == 0u && dot(center - v.origin, v.shading) <= -sphere.radius) return;
+        const vec2 start = sample2D(smp, vertexDimension(v.index, 5u + 8u * 512u * uint(k)));
+        const vec2 second = sample2D(smp, vertexDimension(v.index, 6u + 8u * 512u * uint(k)));
+        for (int j = 0; j < int(gPre); ++j) {
+            ++gSolved;
+            const auto wrap = [](float x) { return x - std::floor(x); };
+            const vec2 u1(wrap(start.x + 0.7548777f * float(j)), wrap(start.y + 0.5698403f * float(j)));
+            float target = wrap(second.y + 0.6180340f * float(j)) * total;
+            uint l = 0u; float power = 0.0f;
+            for (uint m = 0u; m < scene_.globals.lightCount; ++m) if ((mask >> m & 1u) != 0u) { l = m; power = gReach[k][m].power; target -= power; if (target < 0.0f) break; }
+            const Light& light = scene_.lights[l];
+            float q = 1.0f;
+            if (gTau > 0.0f) { q = std::min(1.0f, maxComponent(path.throughput * v.bsdf.albedo) * maxComponent(light.emission) / gTau); const float r = second.x * 64.0f; if (r - std::floor(r) >= q) continue; }
+            ++gArrived;
+            LightSample y = sampleLight(kFeatures, params_, light, center, vec3(0.0f), path.ray.time, u1);
+            if (!(y.pdf > 0.0f)) continue;
+            applyEmissionTexture(kFeatures, scene_, light, y);
+            const float pA = gPre * power / total * y.pdf * std::abs(dot(y.normal, y.wi)) / square(y.distance);
+            const ConnectionPair pair = connectionPair(sphere, center, v.origin, y.point);
+            if (!isConnectable(pair.angles)) continue;
+            const RefractionRoots n = refractionRoots(pair.angles, leastTurn(pair.angles));
+            for (uint kind = 0u; kind < 3u; ++kind) if (hasPath(n, kind)) connectAlong(i, v, path, sphere, center, pair, kind, y, pA, q, second.x);
+        }
+    }
+    void connectAlong(uint i, const Vertex& v, PathState& path, const SmoothSphere& sphere, vec3 center, const ConnectionPair& pair, uint kind, const LightSample& y, float pA, float q0, float u2) {
+        (void)i;
+        const Refraction r = refractedPath(pair.angles, kind);
+        const vec3 e = pair.aside * (kind == kOppositePath ? -1.0f : 1.0f);
+        const vec3 u = pair.along;
+        const vec3 wx = u * r.atX.x + e * r.atX.y;
+        const vec2 a1 = turnedBack(r.incident, r.atX);
+        const vec2 a2 = turnedBack(vec2(-a1.x, -a1.y), turnedBy(r.refracted, r.refracted));
+        const vec3 n1 = e * a1.y - u * a1.x;
+        const vec3 n2 = e * a2.y - u * a2.x;
+        const vec3 p1 = center + n1 * sphere.radius, p2 = center + n2 * sphere.radius;
+        const vec3 wy = normalize(y.point - p2);
+        if (dot(wy, n2) <= 0.0f || dot(wx, n1) >= 0.0f) return;
+        const float cosY = -dot(y.normal, wy);
+        if (!(cosY > 0.0f)) return;
+        const vec4 f = evalScattering(kFeatures, v, wx);
+        if (!(f.w > 0.0f)) return;
+        const float trans = transmittedTwice(pair.angles, r);
+        const float dens = refractionDensity(pair.angles, r) / square(sphere.radius) * cosY;
+        const float pc = pA / dens;
+        const float w = connectionWeight(pc, f.w * trans);
+        vec3 c = path.throughput * vec3(f) * sphere.tint * sphere.tint * y.radiance * (trans * w / pc / q0);
+        const float m = maxComponent(c);
+        if (!(m > 0.0f)) return;
+        if (m < 0.02f) { const float q = m / 0.02f; if (u2 >= q) return; c = c / q; }
+        ++gTraced;
+        const float eps = 1e-4f * sphere.radius;
+        const auto blocked = [&](vec3 a, vec3 b) { Ray ray; vec3 d = b - a; float l = length(d); ray.origin = a; ray.direction = d / l; ray.time = path.ray.time; return isOccluded(scene_, ray, l * (1 - 1e-5f)); };
+        if (blocked(p2 + n2 * eps, offsetOrigin(y.point, y.error, y.normal, -wy))) return;
+        if (blocked(v.origin, p1 + n1 * eps)) return;
+        if (blocked(p1 - n1 * eps, p2 - n2 * eps)) return;
+        path.radiance += c;
     }
 
     // Adds what the shadow ray of a path that has ended lets through.

@@ -350,6 +350,9 @@ struct PathState {
     vec3 radiance;
     float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
     uint vertex;       // surfaces and collisions met so far
+    uint chain;
+    vec3 from;
+    float fromPdf;
     LightContext last; // where ray starts, for the weights of multiple importance sampling
 };
 

@@ -8,6 +8,7 @@
 #include "Common/Shared/Texture/Textures.h"
 
 RT_SHARED_BEGIN
+RT_FN float refractedEmissionWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, vec3 from, float pdf, uint light, RT_IN(Ray) ray, vec3 y, vec3 normal);
 
 RT_FN bool usesMis(RT_IN(RenderParams) params) {
     return params.lightSampling >= kSampleMis;
@@ -53,6 +54,8 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
                                  s.ray.time, s.ray.direction, distance, surface.normal);
         weight = emissionWeight(params, s.pdf, probability * density);
     }
+    if (s.chain == 3u && surface.light != kNone)
+        weight = refractedEmissionWeight(features, scene, params, s.from, s.fromPdf, surface.light, s.ray, surface.position, surface.normal);
     s.radiance += s.throughput * emitted * weight;
 }
 

@@ -38,6 +38,7 @@ RT_FN PathState startPath(RT_IN(Ray) ray) {
     s.radiance = vec3(0.0f, 0.0f, 0.0f);
     s.pdf = 0.0f;
     s.vertex = 0u;
+    s.chain = 0u;
     s.last.position = ray.origin;
     s.last.normal = vec3(0.0f, 0.0f, 0.0f);
     s.last.total = 0.0f;
@@ -106,6 +107,10 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
 RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
                 RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
+    if (b.delta == 0u) { s.chain = b.transmitted == 0u ? 1u : 0u; s.from = v.origin; s.fromPdf = b.pdf; }
+    else if (s.chain == 1u && b.transmitted != 0u && v.front != 0u) s.chain = 2u;
+    else if (s.chain == 2u && b.transmitted != 0u && v.front == 0u) s.chain = 3u;
+    else s.chain = 0u;
     float strongest = maxComponent(s.throughput);
     if (!(strongest > 0.0f)) return false;
     if (v.inMedium == 0u) {
