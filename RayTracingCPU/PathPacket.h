@@ -191,7 +191,7 @@ class PathPacket {
             const float inverse = 1.0f / std::sqrt(dot(toC, toC));
             set(along, i, toC * inverse);
             const float s = std::min(gAim[k].radius * inverse, 1.0f);
-            cx.at[i] = std::sqrt(1.0f - s * s); sx.at[i] = s;
+            const vec2 most = gMost[k][std::min(uint(s * 16.0f), 15u)]; cx.at[i] = most.x; sx.at[i] = most.y;
         }
         for (uint l = 0u; l < count; ++l) {
             const Reach reach = gReach[k][l];

@@ -77,8 +77,8 @@ RT_FN float clampedSineOfDifference(vec2 a, vec2 b) {
     return abs(rise) < 2.0f ? (d.x > 0.0f ? d.y : beyond) : beyond;
 }
 
-const uint kLeastSteps = 10u;
-const uint kRootSteps = 8u;
+const uint kLeastSteps = 6u;
+const uint kRootSteps = 6u;
 
 // The angle whose half has this tangent, in [0, 1].
 RT_FN vec2 angleOfHalfTangent(float t) {

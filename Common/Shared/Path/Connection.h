@@ -7,8 +7,8 @@
 namespace rt::shared { struct SmoothSphere { vec3 center; float radius; vec3 motion; float ior; vec3 tint; }; }
 extern int gAimCount; extern float gTau, gPre;
 extern rt::shared::SmoothSphere gAim[8];
-namespace rt::shared { struct Reach { vec3 axis; float power; float cosine[16]; }; }
-extern rt::shared::Reach gReach[8][32];
+namespace rt::shared { struct Reach { vec3 axis; float power; vec2 half; }; }
+extern rt::shared::Reach gReach[8][32]; extern rt::shared::vec2 gMost[8][16];
 
 RT_SHARED_BEGIN
 
@@ -48,8 +48,8 @@ RT_FN float transmittedTwice(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
 }
 
 // Whether light may go from light `l` through the sphere to x: along = unit direction from x to the centre.
-RT_FN bool mayReach(RT_IN(Reach) reach, vec3 along, vec2 atX) {
-    return dot(reach.axis, along) > reach.cosine[min(uint(atX.y * 16.0f), 15u)];
+RT_FN bool mayReach(RT_IN(Reach) reach, vec3 along, vec2 most) {
+    return dot(reach.axis, along) > most.x * reach.half.x - most.y * reach.half.y;
 }
 
 // Weight of connections against scattering, both as densities of solid angle at x.
@@ -77,9 +77,9 @@ RT_FN float refractedEmissionWeight(uint features, SceneRef scene, RT_IN(RenderP
         ConnectionPair c = connectionPair(sphere, center, from, y);
         if (!isConnectable(c.angles)) return 1.0f;
         float total = 0.0f, share = 0.0f;
-        vec2 atX = angleOfSine(c.angles.nearX);
+        vec2 most = gMost[i][min(uint(c.angles.nearX * 16.0f), 15u)];
         for (uint l = 0u; l < loadGlobals(scene).lightCount; l++) {
-            float w = mayReach(gReach[i][l], c.along, atX) ? gReach[i][l].power : 0.0f;
+            float w = mayReach(gReach[i][l], c.along, most) ? gReach[i][l].power : 0.0f;
             total += w; if (l == light) share = w;
         }
         if (!(share > 0.0f)) return 1.0f;

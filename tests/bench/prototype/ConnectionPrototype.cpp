@@ -12,7 +12,7 @@
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Texture/Color.h"
 #include "RayTracingCPU/PathPacket.h"
-int gAimCount=0; float gTau=0, gPre=0; rt::shared::SmoothSphere gAim[8]; rt::shared::Reach gReach[8][32];
+int gAimCount=0; float gTau=0, gPre=0; rt::shared::SmoothSphere gAim[8]; rt::shared::Reach gReach[8][32]; rt::shared::vec2 gMost[8][16];
 long gSolved=0,gTraced=0,gArrived=0;
 namespace rt::cpu { namespace {
 constexpr uint kF = kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeatureCoatNormal | kFeaturePunctualLights);
@@ -60,18 +60,19 @@ void measure(const TracedScene& scene, const char* name, float boost, float most
 } }
 
 namespace rt::cpu { namespace { void reaches(const TracedScene& s, bool across) {
-  for (int k=0;k<gAimCount;++k) for (uint l=0;l<s.compiled->globals.lightCount && l<32;++l) {
+  for (int k=0;k<gAimCount;++k) { double kyMost=0,hMost=0; for (uint l=0;l<s.compiled->globals.lightCount && l<32;++l) {
     const LightBound& b=s.compiled->lightBounds[l]; Reach& r=gReach[k][l]; const SmoothSphere& g=gAim[k];
     vec3 v=b.center-(g.center+g.motion*0.5f); float D=length(v), h = D>b.radius? std::asin(b.radius/D):1.5f; r.axis=v/D;
-    double ky=std::min(1.f,g.radius/std::max(D-b.radius,1e-6f));
-    for (int n=0;n<16;++n) { const double kx=std::min((n+1)/16.0,0.9999); double m=0; for(int q=1;q<=2000;++q){ const double i=M_PI/2*q/2000, sn=std::sin(i); m=std::max(m,-(2*(i-std::asin(sn/g.ior))-std::asin(kx*sn)-std::asin(ky*sn))); } r.cosine[n]= m>0 ? float(std::cos(std::min(M_PI,m+h))) : 2.0f; if (!across) {} }
+    r.half=vec2(std::cos(h),std::sin(h)); kyMost=std::max(kyMost, std::min(1.0, g.radius/double(std::max(D-b.radius,1e-6f)))); hMost=std::max(hMost,double(h)); (void)across;
     const Light& L=s.compiled->lights[l]; r.power = L.kind>=kLightSky && L.kind!=kLightEllipsoid ? 0.0f : luminance(L.emission)*L.area/(D*D);
-  } } } }
+  }
+    for (int n=0;n<16;++n) { const double kx=std::min((n+1)/16.0,0.9999); double m=0; for(int q=1;q<=2000;++q){ const double i=M_PI/2*q/2000, sn=std::sin(i); m=std::max(m,-(2*(i-std::asin(sn/gAim[k].ior))-std::asin(kx*sn)-std::asin(kyMost*sn))); } m=std::min(m,M_PI-hMost); gMost[k][n]= m>0 ? vec2(std::cos(m),std::sin(m)) : vec2(1e3f,0.0f); }
+    } } } }
 int main(int argc,char**argv){ using namespace rt::cpu;
     for (int a=1;a<argc;++a){ std::printf("== %s\n",argv[a]); TracedScene s(argv[a]);
         measure(s,"off",0,0);
         for (size_t i=0;i<s.compiled->spheres.size() && gAimCount<8;++i){ const auto& sp=s.compiled->spheres[i]; const auto& m=s.compiled->materials[sp.material]; if (m.kind==kMaterialDielectric && sp.light==kNone) gAim[gAimCount++]={sp.center,sp.radius,s.compiled->sphereMotions.empty()?vec3(0):s.compiled->sphereMotions[i],m.parameter[0],m.albedo}; }
         std::printf("spheres %d lights %u\n",gAimCount,s.compiled->globals.lightCount);
-        for (int ac : {1}) for (float pre : {1.0f}) for (float tau : {0.0f,1.0f,4.0f,16.0f,64.0f}) { reaches(s,ac); char n[64]; std::snprintf(n,64,"across %d n %g tau %g",ac,pre,tau); measure(s,n,tau,pre);} gAimCount=0;
+        for (int ac : {1}) for (float pre : {1.0f,2.0f}) for (float tau : {0.0f,8.0f}) { reaches(s,ac); char n[64]; std::snprintf(n,64,"across %d n %g tau %g",ac,pre,tau); measure(s,n,tau,pre);} gAimCount=0;
         measure(s,"off",0,0);
     } }
