@@ -6,6 +6,7 @@
 //   RT_CALL          the same for a function that is worth a call: never inlined in C++.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
+//   RT_UNROLL        before a loop that shaders are to unroll, so that arrays which it indexes stay in registers.
 //   RT_FULL          not defined where the code of few scenes and settings is left out: in shaders but those variants
 //                    that are chosen for such (RayTracingGPU/Kernels.cpp). Drivers take long over code that a
 //                    specialization constant leaves unused (docs/gpu-engine.md); C++ compilers drop it.
@@ -43,6 +44,7 @@
 #define RT_IN(T) const T&
 #define RT_INOUT(T) T&
 #define RT_OUT(T) T&
+#define RT_UNROLL
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
 #define RT_FULL
@@ -123,6 +125,8 @@ RT_SHARED_END
 #define RT_IN(T) T
 #define RT_INOUT(T) inout T
 #define RT_OUT(T) out T
+#extension GL_EXT_control_flow_attributes : require
+#define RT_UNROLL [[unroll]]
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
 

@@ -50,14 +50,14 @@ struct GroupWeights {
 // Element k: the sum of `before` and the weights 0 to k of a group, by chains of few additions.
 RT_FN GroupWeights runningSums(RT_IN(GroupWeights) weights, float before) {
     GroupWeights sums;
-    for (uint k = 0u; k < kSumGroup; k += 4u) {
+    RT_UNROLL for (uint k = 0u; k < kSumGroup; k += 4u) {
         sums.at[k] = weights.at[k];
         sums.at[k + 1u] = weights.at[k + 1u] + weights.at[k];
         sums.at[k + 2u] = (weights.at[k + 2u] + weights.at[k + 1u]) + weights.at[k];
         sums.at[k + 3u] = (weights.at[k + 3u] + weights.at[k + 2u]) + sums.at[k + 1u];
     }
     float lowerHalf = sums.at[3];
-    for (uint k = 0u; k < 4u; k++) {
+    RT_UNROLL for (uint k = 0u; k < 4u; k++) {
         sums.at[k] = sums.at[k] + before;
         sums.at[k + 4u] = (sums.at[k + 4u] + lowerHalf) + before;
     }
@@ -70,9 +70,9 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
     LightWeights sums;
     LightPick pick;
     pick.total = 0.0f;
-    for (uint first = 0u; first < count; first += kSumGroup) {
+    RT_UNROLL for (uint first = 0u; first < count; first += kSumGroup) {
         GroupWeights group;
-        for (uint k = 0u; k < kSumGroup; k++) {
+        RT_UNROLL for (uint k = 0u; k < kSumGroup; k++) {
             group.at[k] = 0.0f;
             if (first + k < count) {
                 group.at[k] = lightContribution(loadLightBound(scene, first + k), position, normal);
@@ -80,15 +80,22 @@ RT_FN LightPick pickContribution(SceneRef scene, uint count, vec3 position, vec3
             weights.weight[first + k] = group.at[k];
         }
         group = runningSums(group, pick.total);
-        for (uint k = 0u; k < kSumGroup; k++) sums.weight[first + k] = group.at[k];
+        RT_UNROLL for (uint k = 0u; k < kSumGroup; k++) sums.weight[first + k] = group.at[k];
         pick.total = group.at[kSumGroup - 1u];
     }
-    // The first light whose sum is beyond the target.
+    // The first light whose sum is beyond the target. By selects alone: an index that is found at run time would keep
+    // the weights in memory.
     float target = u * pick.total;
     pick.light = count - 1u;
-    for (uint i = count - 1u; i > 0u; i--) pick.light = target < sums.weight[i - 1u] ? i - 1u : pick.light;
-    pick.weight = weights.weight[pick.light];
-    pick.beyond = sums.weight[pick.light] - target;
+    pick.weight = weights.weight[count - 1u];
+    float sum = sums.weight[count - 1u];
+    RT_UNROLL for (uint i = count - 1u; i > 0u; i--) {
+        bool isBeyond = target < sums.weight[i - 1u];
+        pick.light = isBeyond ? i - 1u : pick.light;
+        pick.weight = isBeyond ? weights.weight[i - 1u] : pick.weight;
+        sum = isBeyond ? sums.weight[i - 1u] : sum;
+    }
+    pick.beyond = sum - target;
     return pick;
 }
 
