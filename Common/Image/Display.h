@@ -6,7 +6,8 @@
 namespace rt::image {
 
 // Exposure (in stops) and tone curve (shared::kTonemap...) applied to every pixel: linear display intensities in [0,1],
-// as writeImage expects for .png. An image of one channel is shown in grey.
+// as writeImage expects for .png. An image of one channel is shown in grey. Its
+// rows share a buffer: one thread at a time may ask for them.
 ImageRows toDisplay(const ImageRows& radiance, float exposure, std::uint32_t curve);
 
 // Stops that bring the mean logarithm of the luminance to middle grey (Reinhard et al. 2002, "Photographic Tone

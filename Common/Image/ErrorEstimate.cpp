@@ -47,7 +47,7 @@ struct Span {
     double count() const { return static_cast<double>(last - first + 1); }
 };
 
-// Those rows of an image that the windows of one row cover, each read once.
+// The rows of an image that the windows of one row cover, each read once.
 class SlidingRows {
   public:
     SlidingRows(const ImageRows& image, std::size_t first)

@@ -13,7 +13,8 @@ struct ImageRows {
     std::uint32_t width = 0;
     std::uint32_t height = 0;
     std::uint32_t channels = 3;
-    // Fills row y, counted from the top, with width * channels values. Any row may be asked for at any time, and again.
+    // Fills row y, counted from the top, with width * channels values. Any row may be asked for at any time, and again,
+    // and by several threads at a time but where its maker says otherwise.
     std::function<void(std::uint32_t y, std::span<float> row)> read;
 
     ImageRows() = default;

@@ -13,8 +13,8 @@ namespace rt::app {
 
 inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that waits for messages: nearly idle
 
-// The same for a thread beside others that render: the longer no message came, the longer it sleeps, since every look
-// takes MPI some microseconds of a processor that has better things to do.
+// How a thread waits for messages beside others that render: the longer none came, the longer it sleeps, since every
+// look takes MPI some microseconds of a processor that has better things to do.
 class IdleWait {
   public:
     void rest() {

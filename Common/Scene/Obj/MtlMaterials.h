@@ -14,7 +14,7 @@ namespace rt::scene {
 
 // Whether the colours of vertices multiply the colour of a material: not those of mirrors and glass.
 bool takesVertexColors(const MaterialDesc& material);
-// The same surface as one that they multiply.
+// `material` as one that the colours of vertices multiply.
 MaterialDesc withVertexColors(MaterialDesc material);
 
 // Adds them to a model, which must outlive this; the names of materials and textures begin with `prefix`.
