@@ -58,6 +58,8 @@ rt_require(stb libstb-dev stb HEADER stb_image.h)
 # The header only, as with stb: Common/Scene/Gltf/TinyGltf.cpp compiles it.
 rt_require(tinygltf libtinygltf-dev tinygltf HEADER tiny_gltf.h)
 rt_require(png libpng-dev libpng PACKAGE PNG TARGETS PNG::PNG png_shared png_static PKGCONFIG libpng)
+find_package(JPEG QUIET) # CMake's own module, as libjpeg-turbo has a CMake config in few packages
+rt_require(jpeg libjpeg-dev libjpeg-turbo PACKAGE libjpeg-turbo TARGETS JPEG::JPEG PKGCONFIG libjpeg)
 rt_require(openexr libopenexr-dev openexr PACKAGE OpenEXR TARGETS OpenEXR::OpenEXR PKGCONFIG OpenEXR)
 
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.

@@ -24,6 +24,9 @@ void checkDimensions(const std::string& name, double width, double height, doubl
 // What readImage does with the bytes of a file of that name.
 Image decodeImage(std::span<const std::byte> bytes, const std::filesystem::path& path);
 
+// What readDescription finds in a PNG or EXR of that name.
+std::optional<std::string> findDescription(std::span<const std::byte> bytes, const std::filesystem::path& path);
+
 Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
 void encodePfm(const ImageRows& rows, std::ostream& out);
 
@@ -34,8 +37,15 @@ std::optional<std::string> findExrText(std::span<const std::byte> bytes, const s
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name);
 void encodeHdr(const ImageRows& rows, std::ostream& out);
 
-Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, JPEG, BMP, TGA: sRGB
-void checkJpeg(std::span<const std::byte> bytes, const std::string& name);   // before decoding one by stb
+// The pixels that a header claims; 0 where there is none.
+bool isJpeg(std::span<const std::byte> bytes); // by its first bytes
+double jpegPixels(std::span<const std::byte> bytes);
+double stbPixels(std::span<const std::byte> bytes);
+
+// sRGB. A JPEG has no opacity; one of four inks without a profile is taken for light through all of them.
+Texels decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
+Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, BMP, TGA
+
 void encodePng(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 
 } // namespace rt::image

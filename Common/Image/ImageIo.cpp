@@ -99,6 +99,15 @@ void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::st
     }
 }
 
+// Which the decoders of sRGB count in integers.
+constexpr std::size_t kMostSrgbBytes = std::numeric_limits<int>::max();
+
+// PNG, JPEG, BMP or TGA, as the bytes say, whatever the file is called.
+Texels decodeSrgb(std::span<const std::byte> bytes, const std::string& name) {
+    if (bytes.size() > kMostSrgbBytes) throw InputError(name + ": file is larger than 2 GiB");
+    return isJpeg(bytes) ? decodeJpeg(bytes, name) : decodeStb(bytes, name);
+}
+
 } // namespace
 
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes) {
@@ -126,7 +135,7 @@ Image decodeImage(std::span<const std::byte> bytes, const fs::path& path) {
         case Codec::Hdr:
             return decodeHdr(bytes, path.string());
         default:
-            return toLinear(decodeStb(bytes, path.string()));
+            return toLinear(decodeSrgb(bytes, path.string()));
     }
 }
 
@@ -146,7 +155,7 @@ std::vector<std::byte> readTexels(const fs::path& path) {
 
 Texels decodeTexels(std::span<const std::byte> bytes, const fs::path& path) {
     const Codec codec = codecOf<InputError>(path, false);
-    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeStb(bytes, path.string());
+    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeSrgb(bytes, path.string());
     const Image image = decodeImage(bytes, path);
     if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
     Texels texels = toTexels(image);
@@ -155,7 +164,13 @@ Texels decodeTexels(std::span<const std::byte> bytes, const fs::path& path) {
 }
 
 Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name) {
-    return decodeStb(bytes, name);
+    return decodeSrgb(bytes, name);
+}
+
+std::size_t texelCount(std::span<const std::byte> bytes) {
+    if (bytes.size() > kMostSrgbBytes) return 0;
+    const double pixels = isJpeg(bytes) ? jpegPixels(bytes) : stbPixels(bytes);
+    return static_cast<std::size_t>(std::clamp(pixels, 0.0, kDensest * double(bytes.size())));
 }
 
 void writeImage(const fs::path& path, const ImageRows& image, const std::string& description) try {
@@ -169,11 +184,15 @@ void writeImage(const fs::path& path, const ImageRows& image, const std::string&
     throw RenderError("cannot write " + path.string() + ": " + messageOf(error));
 }
 
+std::optional<std::string> findDescription(std::span<const std::byte> bytes, const fs::path& path) {
+    const bool isPng = codecOf<InputError>(path, false) == Codec::Png;
+    return isPng ? findPngText(bytes, kDescriptionKey) : findExrText(bytes, path.string());
+}
+
 std::optional<std::string> readDescription(const fs::path& path) {
     const Codec codec = codecOf<InputError>(path, false);
     if (codec != Codec::Png && codec != Codec::Exr) return std::nullopt;
-    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
-    return codec == Codec::Png ? findPngText(bytes, kDescriptionKey) : findExrText(bytes, path.string());
+    return findDescription(readFile(path, kMaxFileBytes), path);
 }
 
 void checkWritable(const fs::path& path) {

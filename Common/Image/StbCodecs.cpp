@@ -1,4 +1,4 @@
-// PNG, JPEG, BMP and TGA, read by stb, whose implementation is compiled here and nowhere else.
+// PNG, BMP and TGA, read by stb, whose implementation is compiled here and nowhere else.
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -10,7 +10,6 @@
 
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_LINEAR
@@ -25,12 +24,6 @@ namespace {
 struct FreePixels {
     void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
-
-// As stb takes a file for one: any number of fill bytes may precede the first marker's second.
-bool isJpeg(std::span<const std::byte> bytes) {
-    const auto second = std::find_if(bytes.begin(), bytes.end(), [](std::byte b) { return b != std::byte{0xff}; });
-    return second != bytes.begin() && second != bytes.end() && *second == std::byte{0xd8};
-}
 
 // stb takes a PNG that is too large for it for no image at all.
 void checkPng(std::span<const std::byte> bytes, const std::string& name) {
@@ -73,24 +66,19 @@ void split(const T* pixels, std::size_t count, bool hasAlpha, std::vector<T>& co
 
 } // namespace
 
-std::size_t texelCount(std::span<const std::byte> bytes) {
-    if (bytes.size() > std::size_t(std::numeric_limits<int>::max())) return 0;
+double stbPixels(std::span<const std::byte> bytes) {
     int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), static_cast<int>(bytes.size()), &width,
-                               &height, &channels))
-        return 0;
-    const double most = kDensest * double(bytes.size());
-    return static_cast<std::size_t>(std::clamp(double(width) * height, 0.0, most));
+    const bool known = stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
+                                             static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
+    return known ? double(width) * height : 0;
 }
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const auto fail = [&name](const std::string& what) { throw InputError(name + ": " + what); };
-    if (bytes.size() > std::size_t(std::numeric_limits<int>::max())) fail("file is larger than 2 GiB");
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
-    if (isJpeg(bytes)) checkJpeg(bytes, name);
     checkPng(bytes, name);
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());

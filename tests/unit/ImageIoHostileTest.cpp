@@ -70,7 +70,7 @@ TEST(ImageIoHostile, APngThatIsTooLargeSaysSo) {
     EXPECT_NE(errorOf("a.png", pngHeader(30000, 30000)).find("a.png: image of 30000x30000 pixels"), std::string::npos);
 }
 
-// stb would write beyond its tables. Fill bytes may precede any marker, that of the file's begin, too.
+// Fill bytes may precede any marker, that of the file's begin, too.
 TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
     const std::string whole = dataFile("gradient.jpg");
     const std::size_t table = whole.find("\xff\xc4");
@@ -80,7 +80,7 @@ TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
     for (const std::size_t fill : {0, 1, 3}) {
         const std::string begin(fill, '\xff');
         EXPECT_EQ(errorOf("a.jpg", begin + whole), "") << fill;
-        EXPECT_EQ(errorOf("a.jpg", begin + damaged), "a.jpg: damaged JPEG file") << fill;
+        EXPECT_EQ(errorOf("a.jpg", begin + damaged), "a.jpg: cannot be read as a JPEG image: Bogus Huffman table definition") << fill;
     }
 }
 
