@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Parallel.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Json/SceneReader.h"
@@ -274,13 +275,16 @@ std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences&
 
 std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references, const LongJson& text) {
     if (text.elementCount() == 0) return readObjects(node, references);
-    std::vector<ObjectDesc> objects;
-    objects.reserve(text.elementCount());
-    for (std::size_t i = 0; i < text.elementCount(); ++i) {
-        interruptionPoint();
-        const LargeJson element = text.element(i);
-        objects.push_back(readObject(JsonNode(*element, node, i), references));
-    }
+    constexpr std::size_t kElementsPerChunk = 256;
+    const Chunks chunks(text.elementCount(), kElementsPerChunk);
+    std::vector<ObjectDesc> objects(text.elementCount());
+    parallelFor(0, chunks.count, [&](std::size_t chunk) {
+        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+            interruptionPoint();
+            const LargeJson element = text.element(i);
+            objects[i] = readObject(JsonNode(*element, node, i), references);
+        }
+    });
     return objects;
 }
 
