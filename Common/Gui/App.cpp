@@ -37,7 +37,8 @@ constexpr double kSoftBusySeconds = 0.05;      // likewise where software draws;
 constexpr double kSoftFrameSeconds = 1.0 / 30; // between quick frames where software draws
 constexpr double kSoftNewsSeconds = 0.1; // between frames of what is new where software draws and nobody does anything
 constexpr double kAwakeSeconds = 0.4, kSoftAwakeSeconds = 0.15; // of quick frames after the last input, likewise
-constexpr double kLongestStep = 0.1;                            // seconds of flight in one frame
+constexpr int kSettlingFrames = 6;   // after the last input, likewise: windows and tables find their sizes in them
+constexpr double kLongestStep = 0.1; // seconds of flight in one frame
 constexpr double kPresentingSeconds = 0.002; // between two looks whether a frame under way has been presented
 
 app::InteractiveSession::Setup sessionSetup(const app::Options& options, const WindowProgram& program,
@@ -59,7 +60,7 @@ app::InteractiveSession::Setup sessionSetup(const app::Options& options, const W
     setup.sliceSeconds = options.program != app::kGpuProgram ? 0.1 : 0.03;
     setup.drawnBySoftware = device.isSoftware();
     setup.history = &history;
-    setup.references = app::ReferenceCache::ofUser();
+    setup.references = referenceCache(options);
     setup.onChange = [&isNews] { isNews = true; };
     return setup;
 }
@@ -122,8 +123,15 @@ class App {
 
     std::vector<std::string> dropped_;
     std::optional<app::Stopwatch> sinceInput_; // none yet
+    int framesSinceInput_ = 0;
     app::Stopwatch sinceFrame_;
-    std::uint64_t historySerial_ = 0; // shown
+    struct Sizes { // of what is shown and may have become larger
+        std::uint64_t historySerial = 0;
+        double messageTime = 0;
+        std::size_t errors = 0;
+        bool operator==(const Sizes&) const = default;
+    };
+    Sizes sizes_;
     TurnMeter meter_;
     bool flying_ = false;
     PresentThread presenting_{presenter_};             // behind all that a frame draws
@@ -146,13 +154,17 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
 // Whether something may move by itself.
 bool App::isAwake() const {
     const double seconds = device_.isSoftware() ? kSoftAwakeSeconds : kAwakeSeconds;
-    return flying_ || ImGui::IsAnyMouseDown() || (sinceInput_ && sinceInput_->seconds() < seconds);
+    return flying_ || ImGui::IsAnyMouseDown() || framesSinceInput_ < kSettlingFrames ||
+           (sinceInput_ && sinceInput_->seconds() < seconds);
 }
 
 // Whether the next frame is to come at once: input does not wait, all else does where software draws.
 bool App::isFrameDue() {
     const bool isInput = window_.takeInput();
-    if (isInput) sinceInput_.emplace();
+    if (isInput) {
+        sinceInput_.emplace();
+        framesSinceInput_ = 0;
+    }
     if (window_.takeChange()) isNews_ = true;
     const double least = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
     return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= least);
@@ -197,9 +209,9 @@ void App::turn() {
     presenter_.renew();
     gui_.followOther();
     drawFrame(std::min(sinceFrame_.seconds(), kLongestStep));
-    // A table with new rows finds the width of its columns in the frame after.
-    if (std::exchange(historySerial_, gui_.state.historySerial) != gui_.state.historySerial) isNews_ = true;
-    if (gui_.browser.isSettling()) isNews_ = true;
+    // A table with new rows, and what is said, find their sizes in the frame after.
+    const Sizes sizes{gui_.state.historySerial, gui_.messageTime, gui_.errors.unreadCount()};
+    if (std::exchange(sizes_, sizes) != sizes || gui_.browser.isSettling()) isNews_ = true;
     link_.send();
     if (gui_.saveRequested || !gui_.saveAs.empty()) save();
     const auto drawInterface = [this](VkCommandBuffer commands) {
@@ -248,6 +260,7 @@ void App::saveChart(const std::function<void(VkCommandBuffer)>& drawInterface) {
 
 void App::drawFrame(double seconds) {
     sinceFrame_ = {};
+    framesSinceInput_ = std::min(framesSinceInput_ + 1, kSettlingFrames);
     imgui_.setStyle(
         {settings_.colorMode, settings_.uiScale * window_.monitorScale(), window_.pixelDensity(), settings_.font});
     const std::vector<Window::KeyPress> presses = window_.takeKeys();

@@ -46,6 +46,24 @@ bool drawItem(Icon icon, const std::string& name, bool isSelected) {
     return pressed;
 }
 
+// "*.json *.obj"
+std::string kinds(const std::vector<std::string>& extensions) {
+    std::string text;
+    for (const std::string& extension : extensions) text += (text.empty() ? "*" : " *") + extension;
+    return text;
+}
+
+// The folder at the left, what is listed of it at the right.
+void drawHeading(const std::string& folder, const std::string& listed) {
+    const float left = ImGui::GetCursorPosX(), room = ImGui::GetContentRegionAvail().x;
+    const float right = ImGui::CalcTextSize(listed.c_str()).x, gap = ImGui::GetFontSize();
+    ImGui::TextUnformatted(elided(folder, room - right - gap).c_str());
+    tooltip(folder.c_str());
+    ImGui::SameLine(left + room - right);
+    ImGui::TextDisabled("%s", listed.c_str());
+    tooltip("Only folders and such files are listed");
+}
+
 } // namespace
 
 void FileBrowser::open(Request request) {
@@ -192,7 +210,7 @@ std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string
             enter(folder_.parent_path());
         ImGui::SameLine(0, gap);
         ImGui::AlignTextToFramePadding();
-        ImGui::TextDisabled("%s", printable(folder_.string()).c_str());
+        drawHeading(printable(folder_.string()), kinds(request_.extensions));
         // The field; what is typed there narrows the list, unless it is a name to be.
         const float action = buttonWidth("Replace"), cancel = buttonWidth("Cancel");
         ImGui::SetNextItemWidth(-(action + cancel + 2 * gap));

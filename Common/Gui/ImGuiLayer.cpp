@@ -148,6 +148,62 @@ void ImGuiLayer::applyStyle() {
     startRenderer();
 }
 
+// ---- docking ---------------------------------------------------------------------------------------------------------
+
+#ifdef IMGUI_HAS_DOCK
+
+namespace {
+
+void divide(ImGuiID space, const Rect& area, const DockShares& shares, std::span<const DockedWindow> windows) {
+    constexpr int kFlags = static_cast<int>(ImGuiDockNodeFlags_DockSpace) | ImGuiDockNodeFlags_PassthruCentralNode;
+    ImGui::DockBuilderAddNode(space, kFlags);
+    ImGui::DockBuilderSetNodeSize(space, {area.width, area.height});
+    ImGuiID center = space;
+    ImGuiID side = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, shares.side, nullptr, &center);
+    const ImGuiID header = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, shares.header, nullptr, &side);
+    const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, shares.bottom, nullptr, &center);
+    for (const DockedWindow& window : windows) {
+        const ImGuiID node = window.place == DockedWindow::Place::Header ? header
+                             : window.place == DockedWindow::Place::Side ? side
+                                                                         : bottom;
+        ImGui::DockBuilderDockWindow(window.title, node);
+    }
+    ImGui::DockBuilderFinish(space);
+}
+
+} // namespace
+
+const ImGuiWindowFlags kNeverDocks = ImGuiWindowFlags_NoDocking;
+
+std::optional<Rect> showDockSpace(const Rect& area, const DockShares& shares, std::span<const DockedWindow> windows) {
+    const ImVec2 origin = ImGui::GetMainViewport()->Pos;
+    const ImGuiID space = ImGui::GetID("space");
+    if (ImGui::DockBuilderGetNode(space) == nullptr) divide(space, area, shares, windows);
+    ImGui::SetNextWindowPos({origin.x + area.x, origin.y + area.y});
+    ImGui::SetNextWindowSize({area.width, area.height});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+    ImGui::Begin("##space", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDocking |
+                     ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNavFocus | ImGuiWindowFlags_NoMove);
+    ImGui::PopStyleVar(2);
+    ImGui::DockSpace(space, {0, 0}, ImGuiDockNodeFlags_PassthruCentralNode);
+    ImGui::End();
+    const ImGuiDockNode* center = ImGui::DockBuilderGetCentralNode(space);
+    if (center == nullptr) return area;
+    return Rect{center->Pos.x - origin.x, center->Pos.y - origin.y, center->Size.x, center->Size.y};
+}
+
+#else
+
+const ImGuiWindowFlags kNeverDocks = ImGuiWindowFlags_None;
+
+std::optional<Rect> showDockSpace(const Rect&, const DockShares&, std::span<const DockedWindow>) {
+    return std::nullopt;
+}
+
+#endif
+
 // ---- frames --------------------------------------------------------------------------------------------------------
 
 void closeUndrawnPopups(std::span<const int> pressed) {

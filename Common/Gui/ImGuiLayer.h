@@ -1,8 +1,8 @@
-// Dear ImGui in a window. What differs between its versions is in the sources of this file and of Layout.h, and nowhere
-// else.
+// Dear ImGui in a window. What differs between its versions is in the source of this file and nowhere else.
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +12,7 @@
 
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/Gui/GraphicsDevice.h"
+#include "Common/Gui/Layout.h"
 #include "Common/Gui/Window.h"
 
 namespace rt::gui {
@@ -28,6 +29,24 @@ struct Style {
 // window; where Escape is to close it, ImGui (1.86 to 1.92 at least) reads the window all the same and ends the
 // program. `pressed`: as for ImGuiLayer::beginFrame.
 void closeUndrawnPopups(std::span<const int> pressed);
+
+// A window that can be docked, by its title, and where it is until the user moves it.
+struct DockedWindow {
+    enum class Place { Header, Side, Bottom };
+    const char* title;
+    Place place;
+};
+
+// Of the space that windows dock in, until the user divides it otherwise.
+struct DockShares {
+    float side, header, bottom; // header: of the side
+};
+
+extern const ImGuiWindowFlags kNeverDocks; // of windows with a place of their own
+
+// Shows the space of docked windows in `area`, before those; returns the part that none of them takes. None where
+// ImGui does not dock.
+std::optional<Rect> showDockSpace(const Rect& area, const DockShares& shares, std::span<const DockedWindow> windows);
 
 class ImGuiLayer {
   public:

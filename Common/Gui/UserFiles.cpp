@@ -24,6 +24,10 @@ std::filesystem::path historyFile(const app::Options& options) {
     return options.keepsUserFiles ? app::RunHistory::userFile() : std::filesystem::path();
 }
 
+app::ReferenceCache referenceCache(const app::Options& options) {
+    return options.keepsUserFiles ? app::ReferenceCache::ofUser() : app::ReferenceCache({});
+}
+
 WindowPlace placeOf(const app::GuiSettings& settings) {
     return {settings.windowX,      settings.windowY,      settings.windowWidth,
             settings.windowHeight, settings.windowPlaced, settings.windowMaximised};

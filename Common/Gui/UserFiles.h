@@ -1,10 +1,11 @@
-// The settings and the layout of a window between two runs of its program, in the user's place for such files.
+// What a window keeps between two runs of its program, in the user's place for such files.
 #pragma once
 #include <filesystem>
 #include <string>
 
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Options/Options.h"
+#include "Common/App/Session/ReferenceCache.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Window.h"
 
@@ -13,6 +14,8 @@ namespace rt::gui {
 // Empty where there is no such place, and with --no-config.
 std::filesystem::path layoutFile(const app::Options& options);
 std::filesystem::path historyFile(const app::Options& options);
+// Keeps nothing with --no-config.
+app::ReferenceCache referenceCache(const app::Options& options);
 
 WindowPlace placeOf(const app::GuiSettings& settings);
 

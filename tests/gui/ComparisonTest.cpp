@@ -1,6 +1,7 @@
 // The comparison in both windows, by the mouse, and what there is to see of it.
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -74,6 +75,16 @@ class ComparisonTest : public WindowTest {
         act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
             " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
     }
+    // Again where the machine was too busy to see it: each time only while the condition does not hold.
+    bool clickUntil(int x, int y, const std::function<bool()>& condition) {
+        return eventually([&] {
+            if (condition()) return true;
+            click(x, y);
+            act("mousemove 1000 300"); // nothing is pointed at
+            for (int i = 0; i < 15 && !condition(); ++i) pause(100);
+            return condition();
+        });
+    }
     void clickRow(int row) {
         click(640, kFirstRow + row * kRow);
         act("mousemove 1000 300"); // nothing is pointed at
@@ -89,6 +100,11 @@ class ComparisonTest : public WindowTest {
         return colors.size() > 1; // letters
     }
     bool isAt(int x, int y, const ImVec4& color) const { return screenshot().at(x, y) == bytesOf(color); }
+    static ImVec4 popupColor() {
+        ImGuiStyle style;
+        gui::applyTheme(style, app::ColorMode::Dark);
+        return style.Colors[ImGuiCol_PopupBg];
+    }
 };
 INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
 
@@ -120,22 +136,19 @@ TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
         });
     };
     EXPECT_TRUE(select());
-    click(541, 638); // Hide
-    EXPECT_TRUE(eventually([&] { return !isRowThere(2); }));
+    EXPECT_TRUE(clickUntil(541, 638, [&] { return !isRowThere(2); })); // Hide
     EXPECT_TRUE(isRowThere(1));
-    click(602, 638); // Unhide
-    EXPECT_TRUE(eventually([&] { return isRowThere(2); }));
+    EXPECT_TRUE(clickUntil(602, 638, [&] { return isRowThere(2); })); // Unhide
     EXPECT_EQ(estimatorsInHistory(), (std::multiset<std::string>{"bsdf", "mis", "mis"}));
     EXPECT_TRUE(select());
-    click(671, 638); // Delete: it asks
-    pause(500);
+    const auto isAsked = [this] { return isAt(900, 680, popupColor()); };
+    EXPECT_TRUE(clickUntil(671, 638, isAsked)); // Delete
     EXPECT_EQ(estimatorsInHistory().size(), 3u);
-    click(707, 682); // Delete
-    EXPECT_TRUE(eventually([&] { return estimatorsInHistory() == std::multiset<std::string>{"mis", "mis"}; }));
-    click(734, 638); // Clear
-    pause(500);
-    click(770, 682); // Delete
-    EXPECT_TRUE(eventually([&] { return estimatorsInHistory().empty(); }));
+    EXPECT_TRUE(clickUntil(707, 682, [&] { // yes
+        return estimatorsInHistory() == std::multiset<std::string>{"mis", "mis"};
+    }));
+    EXPECT_TRUE(clickUntil(734, 638, isAsked));                                       // Clear
+    EXPECT_TRUE(clickUntil(770, 682, [&] { return estimatorsInHistory().empty(); })); // yes
     EXPECT_TRUE(eventually([&] { return !isRowThere(0); }));
     expectCleanEnd();
 }
@@ -195,7 +208,6 @@ TEST_P(ComparisonTest, TableAndChartAreLinked) {
 // By a right click on their titles; the last of the menu's rows stands at the window's lower end.
 TEST_P(ComparisonTest, ColumnsCanBeChosen) {
     constexpr int kColumns = 9, kTime = 1, kLastItem = 840, kItem = 21;
-    constexpr std::uint32_t kPopupColor = 0x25272c; // of the dark theme
     keep(
         {run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z"), run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z")});
     start({"--spp", "1000000"}); // no run is added
@@ -209,7 +221,7 @@ TEST_P(ComparisonTest, ColumnsCanBeChosen) {
             for (int x = 536; x < 940; ++x) colors.push_back(shot.at(x, y));
         return colors;
     };
-    const auto isMenuThere = [this] { return screenshot().at(690, 852) == kPopupColor; };
+    const auto isMenuThere = [this] { return isAt(690, 852, popupColor()); };
     const auto toggleTime = [&] { // again where the machine was too busy to see it
         act("mousemove 600 686 sleep 0.5 mousedown 3 sleep 0.2 mouseup 3");
         pause(700);
@@ -243,18 +255,19 @@ TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
         pause(500);
         return !fs::is_empty(folder_ / "pictures");
     })) << log();
-    pause(1500); // what the other one is to do takes as long
-    click(kRun, kLine);
-    pause(300);
-    click(kCancel, kLine); // it has waited for this render to end
-    click(175, 16);        // Stop
-    pause(1000);
+    pause(1500);                                                            // what the other one is to do takes as long
+    const auto colorOfRun = [this] { return screenshot().at(851, kLine); }; // left of its text
+    const std::uint32_t ready = colorOfRun();
+    const auto isReady = [&] { return colorOfRun() == ready; };
+    EXPECT_TRUE(clickUntil(kRun, kLine, [&] { return !isReady(); }));
+    EXPECT_TRUE(clickUntil(kCancel, kLine, isReady));                     // it has waited for this render to end
+    const auto colorOfStop = [this] { return screenshot().at(176, 16); }; // of its icon, which fades
+    const std::uint32_t rendering = colorOfStop();
+    EXPECT_TRUE(clickUntil(176, 16, [&] { return colorOfStop() != rendering; }));
     EXPECT_FALSE(hasChild());
     if (std::string(GetParam()) == "ray-tracing-cpu") { // where software traces for the GPU, the CPU ends at once
-        click(kRun, kLine);
-        EXPECT_TRUE(eventually([&] { return hasChild(); })) << log();
-        click(kCancel, kLine);
-        EXPECT_TRUE(eventually([&] { return !hasChild(); }));
+        EXPECT_TRUE(clickUntil(kRun, kLine, [&] { return hasChild(); })) << log();
+        EXPECT_TRUE(clickUntil(kCancel, kLine, [&] { return !hasChild(); }));
     }
     EXPECT_EQ(runsOfOther(), 0u);
     const std::uint32_t before = screenshot().at(826, 300);

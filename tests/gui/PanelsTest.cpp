@@ -221,6 +221,7 @@ TEST_P(PanelsTest, TheToolbarDoesWhatItShows) {
     EXPECT_TRUE(eventually([&] { return line() == radiance; }));
     click(1229, 16); // Help
     EXPECT_TRUE(eventually([&] { return screenshot().at(700, 215) != kWindowColor && line() != radiance; }));
+    EXPECT_TRUE(eventually([&] { return screenshot().at(960, 620) == kWindowColor; })); // the second column
     click(1229, 16);
     EXPECT_TRUE(eventually([&] { return line() == radiance; }));
     click(1171, 16); // Statistics

@@ -38,6 +38,13 @@ TEST(RunTexts, EachEstimatorHasAMarkOfItsOwn) {
     EXPECT_EQ(marks.count(Mark::Line), 0u);
 }
 
+TEST(RunTexts, TimesAreReadable) {
+    app::RunRecord run;
+    EXPECT_EQ(whenText(run), "");
+    run.time = "2026-11-25T04:40:04Z";
+    EXPECT_EQ(whenText(run), "2026-11-25 04:40:04");
+}
+
 TEST(RunTexts, OldRecordsSayWhatTheyLack) {
     app::RunRecord run;
     EXPECT_NE(runDetails(run).find("the record lacks"), std::string::npos);

@@ -1,4 +1,7 @@
-// What the lines of progress and status say, and what gives way where they have less room.
+// What the lines of progress and status and the picture's chips say, and what gives way where they have less room.
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "Common/Gui/Panels/StatusTexts.h"
@@ -64,6 +67,22 @@ TEST(ProgressTexts, APreviewHasNoTimeLeft) {
     app::SessionState state = rendering(16);
     state.picture.isPreview = true;
     EXPECT_EQ(progressOf(state, 0).line, "preview: ray tracing is off");
+}
+
+TEST(ChipTexts, SayWhatThePictureIs) {
+    using Texts = std::vector<std::string>;
+    app::SessionState state = rendering(20);
+    state.report.engine = "multi";
+    EXPECT_EQ(chipTexts(state, false, true), (Texts{"CPU multi", "draft", "8.00 s"}));
+    state.picture.spp = 16; // the render is four samples further
+    EXPECT_EQ(chipTexts(state, false, true), (Texts{"CPU multi", "16 spp", "8.00 s"}));
+    EXPECT_EQ(chipTexts(state, false, false), (Texts{"CPU multi", "16 / 64 spp", "8.00 s"}));
+    state.relmse = 0.05;
+    EXPECT_EQ(chipTexts(state, true, true).back(), "relMSE 5.00e-02, estimated");
+    state.curve.push_back({});
+    EXPECT_EQ(chipTexts(state, true, true).back(), "relMSE 5.00e-02, measured");
+    state.picture.isPreview = true;
+    EXPECT_EQ(chipTexts(state, true, true), Texts{"GPU preview"});
 }
 
 TEST(StatusTexts, SayWhatIsRendered) {

@@ -32,7 +32,7 @@ FlagSet::FlagSet(const std::string& program, const std::string& description)
         ->type_name("F")
         ->configurable(false);
     addSwitch("--no-config", noConfig_,
-              "ignore the user's configuration file; a window keeps no settings, layout and history")
+              "ignore the user's configuration file; a window keeps no settings, layout, history and references")
         ->configurable(false);
     app_.set_help_flag("--help,-h", "print this and exit");
     app_.set_version_flag("--version", program + " " RT_VERSION, "print the version and exit");

@@ -69,7 +69,7 @@ struct Options {
     std::string device;      // of ray-tracing-gpu: index or part of a name; empty: the best
     bool validation = false; // check every Vulkan call: of ray-tracing-gpu, or of a window
 
-    bool keepsUserFiles = true; // a window's settings, layout and history; false: none is read or written
+    bool keepsUserFiles = true; // a window's settings, layout, history, references; false: none is read or written
     bool quiet = false;
     std::optional<double> progressEvery; // seconds between two lines of it, where they are no terminal's; none: 10
     bool verbose = false;

@@ -1,11 +1,11 @@
 // Over the picture: what it is.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/Panels/StatusTexts.h"
 #include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 
@@ -38,23 +38,6 @@ void drawChip(ImVec2 corner, const std::string& text, const ImVec4* dot) {
                  text.c_str());
 }
 
-std::vector<std::string> chipTexts(const Gui& gui) {
-    const app::SessionState& state = gui.state;
-    std::vector<std::string> texts{gui.isGpu ? "GPU " : "CPU "};
-    texts.front() += state.picture.isPreview ? "preview" : state.report.engine;
-    if (state.picture.isPreview) return texts;
-    texts.push_back(state.picture.spp > 0
-                        ? std::to_string(state.picture.spp) + " / " + std::to_string(state.settings.spp) + " spp"
-                        : "draft");
-    if (state.renderSeconds > 0) texts.push_back(shortDuration(state.renderSeconds));
-    if (state.relmse) {
-        char text[64];
-        std::snprintf(text, sizeof text, "relMSE %.3g%s", *state.relmse, state.curve.empty() ? " estimated" : "");
-        texts.emplace_back(text);
-    }
-    return texts;
-}
-
 struct Chip {
     std::string text;
     ImVec2 corner;
@@ -70,7 +53,7 @@ ChipLayout placeChips(const Gui& gui, const Rect& area, float scale) {
     const float left = area.x + border, right = area.x + area.width - border;
     ChipLayout layout;
     ImVec2 at{left, area.y + border};
-    for (std::string& text : chipTexts(gui)) {
+    for (std::string& text : chipTexts(gui.state, gui.isGpu, gui.settings.showPanels)) {
         const float width = chipWidth(text, layout.chips.empty());
         if (left + width > right) continue;
         if (at.x + width > right) at = {left, at.y + kHeight * em + gap};

@@ -59,6 +59,8 @@ void drawReferenceMenu(Gui& gui) {
         gui.referenceSpp = static_cast<std::uint32_t>(std::clamp(spp, 16, 1 << 24));
     tooltip("Samples per pixel of the reference");
     ImGui::SameLine(0, gap);
+    ImGui::TextUnformatted("spp");
+    ImGui::SameLine(0, gap);
     if (button("Render reference",
                "With these samples per pixel, the present scene, camera and size; those that there are of an earlier "
                "render, by whichever program, count. Stop gives it up.",

@@ -3,9 +3,25 @@
 
 #include "Common/Gui/Panels/Panels.h"
 #include "Common/Gui/Panels/StatusTexts.h"
+#include "Common/Gui/Theme.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
+namespace {
+
+// A dot in the colour of the engine, as in chips and in the chart; the rest of the line follows it.
+void drawEngineDot(const Gui& gui) {
+    const float em = ImGui::GetFontSize(), radius = 0.3f * em;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec4 color = engineColor(gui.isGpu, gui.settings.colorMode);
+    ImGui::GetWindowDrawList()->AddCircleFilled({corner.x + radius, corner.y + 0.5f * ImGui::GetTextLineHeight()},
+                                                radius, ImGui::ColorConvertFloat4ToU32(color));
+    ImGui::Dummy({2 * radius, ImGui::GetTextLineHeight()});
+    ImGui::SameLine(0, 0.4f * em);
+}
+
+} // namespace
+
 void drawProgress(Gui& gui) {
     const app::SessionState& state = gui.state;
     const ProgressTexts texts = progressOf(state, gui.settings.request.timeLimit.value_or(0));
@@ -42,6 +58,7 @@ void drawStatusLine(Gui& gui) {
     const StatusParts parts = statusOf(gui.state);
     StatusParts leastParts = parts;
     leastParts.device.clear();
+    drawEngineDot(gui);
     const float all = ImGui::GetContentRegionAvail().x;
     const float left = all - textWidth(fps) - 2 * ImGui::GetFontSize();
     const auto wholeOf = [](const StatusParts& some) { return fitStatus(some, 1e9f, textWidth); };

@@ -115,7 +115,7 @@ void drawRow(Gui& gui, const RunRow& row) {
     numberCell(withPrefix(r.samplesPerSecond));
     numberCell(withPrefix(r.raysPerSecond));
     cell(r.device);
-    cell(r.time);
+    cell(whenText(r));
 }
 
 // What all runs have in common, but for what is not meant to be read.

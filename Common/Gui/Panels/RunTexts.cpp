@@ -1,5 +1,6 @@
 #include "Common/Gui/Panels/RunTexts.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "Common/App/Interactive/RunGroups.h"
@@ -9,6 +10,12 @@ namespace rt::gui {
 std::string engineText(const app::RunRecord& run) {
     std::string text = (isGpuRun(run) ? "GPU " : "CPU ") + run.engine;
     if (run.threads > 1) text += ", " + std::to_string(run.threads) + " threads";
+    return text;
+}
+
+std::string whenText(const app::RunRecord& run) {
+    std::string text = run.time.substr(0, run.time.find('Z'));
+    std::replace(text.begin(), text.end(), 'T', ' ');
     return text;
 }
 
@@ -37,7 +44,7 @@ std::string whatErrorKindMeans(const app::RunRecord& run) {
 
 std::string runDetails(const app::RunRecord& run) {
     const std::string lacking = lackingIn(run);
-    return run.time + ", " + run.device +
+    return whenText(run) + " UTC, " + run.device +
            (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
 }
 

@@ -14,6 +14,7 @@ inline bool isGpuRun(const app::RunRecord& run) {
     return run.app == app::kGpuProgram;
 }
 std::string engineText(const app::RunRecord& run);         // "CPU multi, 8 threads"
+std::string whenText(const app::RunRecord& run);           // "2026-11-25 04:40:04", UTC
 std::string errorText(double value);                       // "1.23e-04"; "-": not known
 std::string errorKind(const app::RunRecord& run);          // "measured", "estimated"; empty: there is none
 std::string whatErrorKindMeans(const app::RunRecord& run); // a sentence

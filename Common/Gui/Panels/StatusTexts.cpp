@@ -4,6 +4,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "Common/Gui/Panels/RunTexts.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
@@ -78,6 +79,18 @@ ProgressTexts progressOf(const app::SessionState& state, double timeLimit) {
     texts.bar =
         std::to_string(spp) + " / " + std::to_string(state.settings.spp) + " spp   " + std::to_string(percent) + " %";
     if (!isPreview) texts.line += timeLeft(state, timeLimit);
+    return texts;
+}
+
+std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, bool isBarShown) {
+    const std::string program = isGpu ? "GPU " : "CPU ";
+    if (state.picture.isPreview) return {program + "preview"};
+    std::vector<std::string> texts{program + state.report.engine};
+    const std::string wanted = isBarShown ? "" : " / " + std::to_string(state.settings.spp);
+    texts.push_back(state.picture.spp > 0 ? std::to_string(state.picture.spp) + wanted + " spp" : "draft");
+    if (state.renderSeconds > 0) texts.push_back(shortDuration(state.renderSeconds));
+    if (state.relmse)
+        texts.push_back("relMSE " + errorText(*state.relmse) + (state.curve.empty() ? ", estimated" : ", measured"));
     return texts;
 }
 

@@ -1,6 +1,7 @@
-// What the lines of progress and status say, apart from how it is drawn.
+// What the lines of progress and status and the picture's chips say, apart from how it is drawn.
 #pragma once
 #include <string>
+#include <vector>
 
 #include "Common/App/Interactive/InteractiveState.h"
 #include "Common/Gui/TextFit.h"
@@ -15,6 +16,10 @@ struct ProgressTexts {
 // What is being prepared has made no progress yet, whatever the picture that is still shown had. `timeLimit`: the
 // budget of the render in seconds; 0: none.
 ProgressTexts progressOf(const app::SessionState& state, double timeLimit);
+
+// What the picture is: its engine, samples, time and error. It may have fewer samples than the render has by now: how
+// far that is tells the bar, or the chip where no bar is shown.
+std::vector<std::string> chipTexts(const app::SessionState& state, bool isGpu, bool isBarShown);
 
 // From what matters most to what matters least: title, size, samples per second, engine, device.
 struct StatusParts {
