@@ -157,11 +157,19 @@ RT_FN void set(ArrayLanes<T, kCount>& lanes, uint i, const T (&field)[kCount]) {
     for (std::size_t k = 0u; k < kCount; ++k) set(lanes.at[k], i, field[k]);
 }
 
+// Reads the fields that are kept, one by one: a copy of a whole record inside another keeps compilers from making
+// vectors of lanes.
+template <auto... kFields, class Omitted>
+RT_FN void read(const ListedLanes<FieldList<kFields...>, Omitted>& lanes, uint i,
+                typename ListedLanes<FieldList<kFields...>, Omitted>::Record& record) {
+    (read(lanesOf<kFields>(lanes), i, record.*kFields), ...);
+}
+
 // The record in a lane, zero where a field is omitted; compilers read no more of it than is used.
 template <auto... kFields, class Omitted>
 RT_FN auto get(const ListedLanes<FieldList<kFields...>, Omitted>& lanes, uint i) {
     typename ListedLanes<FieldList<kFields...>, Omitted>::Record record{};
-    (read(lanesOf<kFields>(lanes), i, record.*kFields), ...);
+    read(lanes, i, record);
     return record;
 }
 

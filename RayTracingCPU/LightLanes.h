@@ -174,31 +174,43 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
 
 const uint kOtherSurfaces = kFeatureLambertian | kFeatureMetal | kFeatureDielectric;
 
-template <uint kFeatures>
+// kOthers: lobes of principled materials that are not left out.
+template <uint kFeatures, uint kOthers>
 RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& direct, const PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
         const LightSample sampled = get(lanes.lightSamples, i);
-        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        Vertex v = vertexIn<kFeatures>(lanes, i);
+        v.bsdf.lobes.others = kOthers;
         const bool isPunctualSample = isPunctual(kFeatures, get(lanes.lights, i));
         set(direct, i,
             weighSample(kFeatures, params, probability, isPunctualSample, sampled, v, get(lanes.throughput, i)));
     }
 }
 
-// Principled materials apart from the others: each of the loops has one formula to evaluate, and runs where some path
-// needs it.
+// Principled materials apart from the others, and those of few lobes apart from those of all: each of the loops has one
+// formula to evaluate, and runs where some path needs it.
 template <uint kFeatures>
 RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) {
     uint principled = 0u;
+    uint others = 0u;
     if (has(kFeatures, kFeaturePrincipled)) {
         const UintLanes& kinds = lanesOf<&Bsdf::kind>(lanesOf<&Vertex::bsdf>(lanes.vertices));
-        eachLane(lit, [&](uint i) { principled |= uint(kinds.at[i] == kMaterialPrincipled) << i; });
+        eachLane(lit, [&](uint i) {
+            if (kinds.at[i] != kMaterialPrincipled) return;
+            principled |= 1u << i;
+            others |= lanesOf<&PrincipledLobes::others>(lanes.lobes).at[i];
+        });
     }
-    if (principled != lit) weighSamples<kFeatures & ~kFeaturePrincipled>(params, lanes.direct, lanes);
+    if (principled != lit) weighSamples<kFeatures & ~kFeaturePrincipled, 0u>(params, lanes.direct, lanes);
     if (!has(kFeatures, kFeaturePrincipled) || principled == 0u) return;
+    constexpr uint kPrincipled = (kFeatures & ~kOtherSurfaces) | kFeaturePrincipled;
     RecordLanes<DirectLight> direct;
-    weighSamples<(kFeatures & ~kOtherSurfaces) | kFeaturePrincipled>(params, direct, lanes);
+    if (others == 0u) {
+        weighSamples<kPrincipled, 0u>(params, direct, lanes);
+    } else {
+        weighSamples<kPrincipled, kLobesAll>(params, direct, lanes);
+    }
     eachLane(principled, [&](uint i) { set(lanes.direct, i, get(direct, i)); });
 }
 

@@ -30,21 +30,30 @@ struct FieldsOf<Hit> : Fields<FieldList<&Hit::t, &Hit::kind, &Hit::primitive, &H
 // Omitted: what only kernels with kFeatureCoatNormal keep, in PathLanes::coatNormals.
 template <>
 struct FieldsOf<PrincipledLobes>
-    : Fields<FieldList<&PrincipledLobes::diffuse, &PrincipledLobes::f0, &PrincipledLobes::f90, &PrincipledLobes::sheen,
-                       &PrincipledLobes::sheenExponent, &PrincipledLobes::alpha, &PrincipledLobes::glass,
-                       &PrincipledLobes::eta, &PrincipledLobes::thin, &PrincipledLobes::coat,
+    : Fields<FieldList<&PrincipledLobes::others, &PrincipledLobes::diffuse, &PrincipledLobes::f0, &PrincipledLobes::f90,
+                       &PrincipledLobes::sheen, &PrincipledLobes::sheenExponent, &PrincipledLobes::alpha,
+                       &PrincipledLobes::glass, &PrincipledLobes::eta, &PrincipledLobes::thin, &PrincipledLobes::coat,
                        &PrincipledLobes::coatAlpha, &PrincipledLobes::diffuseShare, &PrincipledLobes::specularShare,
                        &PrincipledLobes::coatShare, &PrincipledLobes::glassShare>,
              FieldList<&PrincipledLobes::coatNormal>> {};
 
-// Omitted: what only kernels with principled materials keep, in PathLanes::lobes.
+template <>
+struct FieldsOf<PrincipledValues>
+    : Fields<FieldList<&PrincipledValues::others, &PrincipledValues::metallic, &PrincipledValues::roughness,
+                       &PrincipledValues::specular, &PrincipledValues::transmission, &PrincipledValues::clearcoat,
+                       &PrincipledValues::clearcoatRoughness, &PrincipledValues::sheenRoughness,
+                       &PrincipledValues::specularColor, &PrincipledValues::sheenColor, &PrincipledValues::ior,
+                       &PrincipledValues::thin, &PrincipledValues::glass>> {};
+
+// Omitted: what only kernels with principled materials keep, in PathLanes::lobes; of Vertex in PathLanes::values.
 template <>
 struct FieldsOf<Bsdf> : Fields<FieldList<&Bsdf::kind, &Bsdf::albedo, &Bsdf::parameter>, FieldList<&Bsdf::lobes>> {};
 
 template <>
 struct FieldsOf<Vertex>
     : Fields<FieldList<&Vertex::index, &Vertex::inMedium, &Vertex::front, &Vertex::bsdf, &Vertex::normal,
-                       &Vertex::shading, &Vertex::wo, &Vertex::position, &Vertex::error, &Vertex::origin>> {};
+                       &Vertex::shading, &Vertex::wo, &Vertex::position, &Vertex::error, &Vertex::origin>,
+             FieldList<&Vertex::values>> {};
 
 template <>
 struct FieldsOf<LightChoice> : Fields<FieldList<&LightChoice::light, &LightChoice::probability, &LightChoice::u>> {};
@@ -74,6 +83,7 @@ struct PathLanes {
     RecordLanes<Sampler> samplers;
     RecordLanes<Hit> hits; // of the paths' rays
     RecordLanes<Vertex> vertices;
+    RecordLanes<PrincipledValues> values;
     RecordLanes<PrincipledLobes> lobes; // of their bsdfs
     Vec3Lanes coatNormals;              // of these
     RecordLanes<VertexSamples> u;
@@ -89,24 +99,24 @@ struct PathLanes {
     RecordLanes<DirectLight> direct;
     Vec3Lanes diffuse; // directions of sampleLambertian(), and their densities
     FloatLanes diffusePdf;
-    RecordLanes<BsdfSample> proposals; // of principled materials, in the frame of the normal
-    Vec3Lanes proposedValues;          // f cos and density of those that reflect
-    FloatLanes proposedPdfs;
+    RecordLanes<BsdfSample> principled; // samples of principled materials
 };
 
 // The vertex in a lane, with all of its bsdf.
 template <uint kFeatures>
 RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
     Vertex v = get(lanes.vertices, i);
-    if (has(kFeatures, kFeaturePrincipled)) v.bsdf.lobes = get(lanes.lobes, i);
+    if (has(kFeatures, kFeaturePrincipled)) read(lanes.lobes, i, v.bsdf.lobes);
     if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
     return v;
 }
 
+// A vertex as arrive() leaves it.
 template <uint kFeatures>
 RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
     set(lanes.vertices, i, v);
-    if (has(kFeatures, kFeaturePrincipled)) set(lanes.lobes, i, v.bsdf.lobes);
+    if (!isPrincipled(kFeatures, v.bsdf)) return;
+    set(lanes.values, i, v.values);
     if (has(kFeatures, kFeatureCoatNormal)) set(lanes.coatNormals, i, v.bsdf.lobes.coatNormal);
 }
 

@@ -22,6 +22,7 @@ struct ActiveSlots {
     uint arrived = 0u;    // at a vertex
     uint lit = 0u;        // of these, where a light is chosen
     uint principled = 0u; // of these, where the material is
+    uint layered = 0u;    // of these, where there is more than diffuse and specular reflection
 };
 
 // Where all vertices would scatter if they were Lambertian.
@@ -34,41 +35,98 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
     }
 }
 
-// Where the principled vertices would scatter: proposals one by one, evaluated in lanes.
+// completeVertex() for the principled vertices: in lanes as if there were diffuse and specular reflection only, then one
+// by one where there is more.
 template <uint kFeatures>
-RT_CALL void proposeDirections(uint principled, PathLanes& lanes) {
+RT_CALL void completeVertices(const CpuScene& scene, uint principled, uint layered, PathLanes& lanes) {
+    FloatLanes cosines;
+    Vec3Lanes albedos{};
+    for (uint i = 0u; i < kLanes; ++i) {
+        const Vertex v = get(lanes.vertices, i);
+        cosines.at[i] = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
+    }
     eachLane(principled, [&](uint i) {
-        const Vertex v = vertexIn<kFeatures>(lanes, i);
-        const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
-        set(lanes.proposals, i,
-            wo.z > 0.0f ? proposePrincipled(kFeatures, v.bsdf, wo, get(lanes.u, i).bsdf) : absorbed());
+        set(albedos, i,
+            directionalAlbedo(scene, cosines.at[i], lanesOf<&PrincipledValues::roughness>(lanes.values).at[i]));
     });
     for (uint i = 0u; i < kLanes; ++i) {
+        const Vertex v = get(lanes.vertices, i);
+        PrincipledValues values = get(lanes.values, i);
+        values.others = 0u;
+        const float cosine = cosines.at[i];
+        set(lanes.lobes, i,
+            makeLobes(scene, values, v.bsdf.albedo, cosine, get(albedos, i), vec3(0.0f), cosine, v.front != 0u));
+    }
+    eachLane(layered, [&](uint i) {
+        Vertex v = get(lanes.vertices, i);
+        v.values = get(lanes.values, i);
+        if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
+        completeVertex(kFeatures, scene, v);
+        set(lanes.lobes, i, v.bsdf.lobes);
+    });
+}
+
+// Proposals for all vertices as if there were diffuse and specular reflection only, in the frame of the normal.
+template <uint kFeatures>
+RT_CALL void proposeReflections(PathLanes& lanes) {
+    for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
+        const PrincipledLobes& lobes = v.bsdf.lobes;
         const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
-        const vec3 wi = get(lanesOf<&BsdfSample::wi>(lanes.proposals), i);
-        const vec4 f = evalPrincipledReflection(kFeatures, v.bsdf.lobes, wo, wi);
-        set(lanes.proposedValues, i, vec3(f));
-        lanes.proposedPdfs.at[i] = f.w;
+        vec2 u = get(lanes.u, i).bsdf;
+        const bool isChosen = u.x < (wo.z > 0.0f ? lobes.diffuseShare + lobes.specularShare : 0.0f);
+        u.x = isChosen ? u.x : -1.0f; // what is absorbed counts as diffuse, as it is no mirror
+        BsdfSample s = proposeReflection(lobes, wo, u);
+        s.wi = select(isChosen, s.wi, vec3(0.0f));
+        set(lanes.principled, i, s);
     }
 }
 
-// samplePrincipled() of what proposeDirections() has begun.
+// Proposals of vertices with other lobes, one by one; what is transmitted is weighed at once.
 template <uint kFeatures>
-RT_FN BsdfSample finishProposal(const PathLanes& lanes, uint i, const Vertex& v) {
-    const Frame frame = makeFrame(v.shading);
-    BsdfSample b = get(lanes.proposals, i);
-    weighProposal(b.transmitted == 0u ? vec4(get(lanes.proposedValues, i), lanes.proposedPdfs.at[i])
-                                      : evalProposal(kFeatures, v.bsdf, toLocal(frame, v.wo), b),
-                  b);
-    b.wi = normalize(toWorld(frame, b.wi));
-    return b;
+RT_CALL void proposeLayers(uint layered, PathLanes& lanes) {
+    eachLane(layered, [&](uint i) {
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        const vec3 wo = toLocal(makeFrame(v.shading), v.wo);
+        BsdfSample s = absorbed();
+        if (wo.z > 0.0f) s = proposePrincipled(kFeatures, v.bsdf, wo, get(lanes.u, i).bsdf);
+        if (s.transmitted != 0u) weighProposal(evalProposal(kFeatures, v.bsdf, wo, s), s);
+        set(lanes.principled, i, s);
+    });
+}
+
+// Weighs the proposals of lobes that are among kOthers, and takes all to the world.
+template <uint kFeatures, uint kOthers>
+RT_CALL void weighProposals(PathLanes& lanes) {
+    for (uint i = 0u; i < kLanes; ++i) {
+        Vertex v = vertexIn<kFeatures>(lanes, i);
+        v.bsdf.lobes.others = kOthers;
+        const Frame frame = makeFrame(v.shading);
+        BsdfSample s = get(lanes.principled, i);
+        vec4 f = evalPrincipledReflection(kFeatures, v.bsdf.lobes, toLocal(frame, v.wo), s.wi);
+        if (has(kOthers, kLobeGlass)) f.w = s.transmitted == 0u ? f.w : 0.0f;
+        weighProposal(f, s);
+        s.wi = normalize(toWorld(frame, s.wi));
+        set(lanes.principled, i, s);
+    }
+}
+
+// samplePrincipled() for all vertices, in lanes but for proposals of lobes that few materials have.
+template <uint kFeatures>
+RT_FN void samplePrincipled(uint layered, PathLanes& lanes) {
+    proposeReflections<kFeatures>(lanes);
+    if (layered == 0u) {
+        weighProposals<kFeatures, 0u>(lanes);
+    } else {
+        proposeLayers<kFeatures>(layered, lanes);
+        weighProposals<kFeatures, kLobesAll>(lanes);
+    }
 }
 
 template <uint kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
-    if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return finishProposal<kFeatures>(lanes, i, v);
+    if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return get(lanes.principled, i);
     if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
     BsdfSample b = absorbed();
     b.wi = get(lanes.diffuse, i);
@@ -100,7 +158,7 @@ class PathPacket {
             if (active.lit != 0u) sampleLights(active.lit);
             if (active.principled != active.arrived) sampleDiffuse(lanes_);
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
-                proposeDirections<kFeatures>(active.principled, lanes_);
+                samplePrincipled<kFeatures>(active.layered, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
         }
     }
@@ -122,8 +180,11 @@ class PathPacket {
             keepVertex<kFeatures>(lanes_, i, v);
             active.arrived |= 1u << i;
             active.lit |= uint(choosesLight(v)) << i;
-            active.principled |= uint(isPrincipled(kFeatures, v.bsdf)) << i;
+            const bool principled = isPrincipled(kFeatures, v.bsdf);
+            active.principled |= uint(principled) << i;
+            active.layered |= uint(principled && v.values.others != 0u) << i;
         }
+        if (active.principled != 0u) completeVertices<kFeatures>(scene_, active.principled, active.layered, lanes_);
         return active;
     }
 

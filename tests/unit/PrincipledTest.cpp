@@ -72,7 +72,9 @@ Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front 
     Bsdf b{};
     b.kind = kMaterialPrincipled;
     b.albedo = albedo;
-    b.lobes = makeLobes(kFeatureAll, scene(), p, Surface{}, albedo, wo.z, coat, std::max(dot(coat, wo), 0.0f), front);
+    const PrincipledValues values = principledValues(kFeatureAll, scene(), p, Surface{});
+    b.lobes = makeLobes(scene(), values, albedo, wo.z, directionalAlbedo(scene(), wo.z, values.roughness), coat,
+                        std::max(dot(coat, wo), 0.0f), front);
     return b;
 }
 
@@ -165,6 +167,7 @@ TEST(Principled, LobesAreReciprocal) {
         b.kind = kMaterialPrincipled;
         b.albedo = vec3(1);
         b.lobes = noLobes();
+        b.lobes.others = kLobesAll;
         b.lobes.f0 = vec3(0.2f, 0.5f, 1);
         b.lobes.f90 = vec3(1);
         b.lobes.sheen = vec3(0.3f);
@@ -229,6 +232,7 @@ TEST(Principled, CoatsTurnWithTheirNormal) {
     Bsdf b{};
     b.kind = kMaterialPrincipled;
     b.lobes = noLobes();
+    b.lobes.others = kLobeCoat;
     b.lobes.coat = 0.7f;
     b.lobes.coatShare = 1;
     for (int i = 0; i < 1000; ++i) {

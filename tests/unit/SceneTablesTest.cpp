@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -68,7 +69,12 @@ TEST(MeshOrder, KeepsTheTrianglesAndBringsNeighboursTogether) {
     };
     const std::vector<glm::uvec3> before = sorted(triangles);
     EXPECT_GT(step(), 1.0);
-    orderAlongCurve(positions, triangles);
+    std::vector<std::uint32_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    orderAlongCurve(positions, {triangles}, order);
+    std::vector<glm::uvec3> ordered;
+    for (const std::uint32_t i : order) ordered.push_back(triangles[i]);
+    triangles = ordered;
     EXPECT_LT(step(), 0.1);
     EXPECT_EQ(sorted(triangles), before);
 }

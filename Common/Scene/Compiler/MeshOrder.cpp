@@ -44,30 +44,32 @@ void radixSort(std::vector<Keyed>& items) {
 
 } // namespace
 
-void orderAlongCurve(const std::vector<glm::vec3>& positions, std::vector<glm::uvec3>& triangles) {
-    if (triangles.size() < 2) return;
+void orderAlongCurve(const std::vector<glm::vec3>& positions, const WoundTriangles& triangles,
+                     std::vector<std::uint32_t>& order) {
+    if (order.size() < 2) return;
     // Three times the middle, bounded by three times the box of the vertices.
-    const auto middle = [&](const glm::uvec3& t) { return positions[t.x] + positions[t.y] + positions[t.z]; };
-    glm::vec3 lower = middle(triangles[0]), upper = lower;
-    for (const glm::uvec3& t : triangles) {
-        const glm::vec3 m = middle(t);
+    const auto middle = [&](std::uint32_t i) {
+        const glm::uvec3 t = triangles[i];
+        return positions[t.x] + positions[t.y] + positions[t.z];
+    };
+    glm::vec3 lower = middle(order[0]), upper = lower;
+    for (const std::uint32_t i : order) {
+        const glm::vec3 m = middle(i);
         lower = glm::min(lower, m);
         upper = glm::max(upper, m);
     }
     const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-30f));
     const float cells = 1u << kBits;
-    std::vector<Keyed> keys(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const glm::vec3 unit = (middle(triangles[i]) - lower) / size;
+    std::vector<Keyed> keys(order.size());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+        const glm::vec3 unit = (middle(order[k]) - lower) / size;
         const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));
-        keys[i] = {spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
+        keys[k] = {spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
                        spread(static_cast<std::uint32_t>(cell.z)) << 2,
-                   static_cast<std::uint32_t>(i)};
+                   order[k]};
     }
     radixSort(keys);
-    std::vector<glm::uvec3> ordered(triangles.size());
-    for (std::size_t i = 0; i < keys.size(); ++i) ordered[i] = triangles[keys[i].index];
-    triangles.swap(ordered);
+    for (std::size_t k = 0; k < keys.size(); ++k) order[k] = keys[k].index;
 }
 
 } // namespace rt::scene

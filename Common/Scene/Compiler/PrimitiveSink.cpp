@@ -249,25 +249,27 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     std::vector<shared::vec3> positions(data.positions.size());
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
 
-    std::vector<glm::uvec3> triangles;
-    triangles.reserve(data.triangles.size());
-    for (const glm::uvec3& t : data.triangles) {
+    const WoundTriangles triangles{data.triangles, map.mirrors()};
+    std::vector<std::uint32_t> order; // of those that are kept
+    order.reserve(data.triangles.size());
+    for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
         interruptionPoint();
+        const glm::uvec3& t = data.triangles[i];
         if (std::max({t.x, t.y, t.z}) >= positions.size())
             throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
                              std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
         if (doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0))
             ++dropped_.triangles;
         else
-            triangles.push_back(map.mirrors() ? glm::uvec3(t.x, t.z, t.y) : t);
+            order.push_back(i);
     }
-    if (triangles.empty()) return;
-    orderAlongCurve(positions, triangles);
+    if (order.empty()) return;
+    orderAlongCurve(positions, triangles, order);
 
     shared::Mesh mesh{};
     mesh.material = materials_.index(at.material ? *at.material : own);
     mesh.firstTriangle = static_cast<std::uint32_t>(out_.triangles.size());
-    mesh.triangleCount = static_cast<std::uint32_t>(triangles.size());
+    mesh.triangleCount = static_cast<std::uint32_t>(order.size());
     mesh.firstVertex = static_cast<std::uint32_t>(out_.positions.size());
     mesh.firstNormal = data.normals.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.normals.size());
     mesh.firstUv = data.uvs.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.uvs.size());
@@ -280,8 +282,8 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
 
     const std::size_t vertices = positions.size();
-    makeRoom(out_.triangles, triangles.size());
-    makeRoom(out_.triangleMesh, triangles.size());
+    makeRoom(out_.triangles, order.size());
+    makeRoom(out_.triangleMesh, order.size());
     makeRoom(out_.positions, vertices);
     if (!data.normals.empty()) makeRoom(out_.normals, vertices);
     if (!data.uvs.empty()) makeRoom(out_.uvs, vertices);
@@ -290,8 +292,9 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
 
     // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
     std::vector<std::uint32_t> renamed(positions.size(), shared::kNone);
-    for (const glm::uvec3& t : triangles) {
+    for (const std::uint32_t i : order) {
         interruptionPoint();
+        const glm::uvec3 t = triangles[i];
         for (int corner = 0; corner < 3; ++corner) {
             std::uint32_t& name = renamed[t[corner]];
             if (name == shared::kNone) {

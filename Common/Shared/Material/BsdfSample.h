@@ -8,8 +8,15 @@
 
 RT_SHARED_BEGIN
 
+// The lobes that few principled materials have beside diffuse and specular reflection, a bit each.
+const uint kLobeSheen = 1u << 0u;
+const uint kLobeCoat = 1u << 1u;
+const uint kLobeGlass = 1u << 2u;
+const uint kLobesAll = kLobeSheen | kLobeCoat | kLobeGlass;
+
 // Of a principled material, for one wo: what each lobe is multiplied by, and the probability with which it is sampled.
 struct PrincipledLobes {
+    uint others;         // kLobe...: those that may be there. What is not is zero, and left out of all formulas
     vec3 diffuse;        // albedo
     vec3 f0;             // of reflection by rough facets at normal incidence
     vec3 f90;            // and at grazing incidence
@@ -26,6 +33,23 @@ struct PrincipledLobes {
     float specularShare;
     float coatShare;
     float glassShare;
+};
+
+// What the lobes follow from: the numbers of a principled material at a point, its textures evaluated.
+struct PrincipledValues {
+    uint others; // kLobe...: as of the lobes
+    float metallic;
+    float roughness;
+    float specular;
+    float transmission;
+    float clearcoat;
+    float clearcoatRoughness;
+    float sheenRoughness;
+    vec3 specularColor;
+    vec3 sheenColor;
+    float ior;
+    uint thin;
+    uint glass; // as of Principled
 };
 
 // A material at a point, its textures evaluated.
@@ -56,6 +80,7 @@ RT_FN BsdfSample absorbed() {
 
 RT_FN PrincipledLobes noLobes() {
     PrincipledLobes lobes;
+    lobes.others = 0u;
     lobes.diffuse = vec3(0.0f);
     lobes.f0 = vec3(0.0f);
     lobes.f90 = vec3(0.0f);

@@ -56,38 +56,50 @@ RT_FN vec3 fromCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     return toWorld(makeFrame(lobes.coatNormal), w);
 }
 
-// The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch, for
-// loops over samples.
+// The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but for
+// lobes.others, for loops over samples.
 RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);
     float grazing = schlick(c);
     float cosine = wi.z * kInvPi;
+    bool isAbove = min(wo.z, wi.z) > 0.0f;
 
     float alpha = max(lobes.alpha, kLeastAlpha);
     float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
-    float reflected = fresnel(c, lobes.eta).x;
-    vec3 coatWo = toCoat(features, lobes, wo);
-    vec3 coatWi = toCoat(features, lobes, wi);
-    float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
-    float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(toCoat(features, lobes, h), coatAlpha);
-    float coatFacets = coatDensity * smithVisibility(coatWo.z, coatWi.z, coatAlpha) * coatWi.z;
-    float coat = lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets;
-    float coatPdf = lobes.coatShare * coatDensity * reflectionJacobian(coatWo, coatAlpha);
-
     vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
-    value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
-    float uncoloured = lobes.glass * reflected * facets;
     float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
-    // The normals of glass are all that are visible.
-    float glassPdf = lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
-    bool isAbove = min(wo.z, wi.z) > 0.0f;
+    if (has(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
+    if (!has(lobes.others, kLobeCoat | kLobeGlass)) {
+        return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
+    }
+
+    float uncoloured = 0.0f;
+    float glassPdf = 0.0f;
+    if (has(lobes.others, kLobeGlass)) {
+        float reflected = fresnel(c, lobes.eta).x;
+        uncoloured = lobes.glass * reflected * facets;
+        // The normals of glass are all that are visible.
+        glassPdf = lobes.glassShare * reflected * density * smithMasking(wo.z, alpha) / (4.0f * wo.z);
+    }
+    float coat = 0.0f;
+    float coatPdf = 0.0f;
+    bool isCoatAbove = isAbove;
+    if (has(lobes.others, kLobeCoat)) {
+        vec3 coatWo = toCoat(features, lobes, wo);
+        vec3 coatWi = toCoat(features, lobes, wi);
+        float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
+        float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(toCoat(features, lobes, h), coatAlpha);
+        float coatFacets = coatDensity * smithVisibility(coatWo.z, coatWi.z, coatAlpha) * coatWi.z;
+        coat = lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets;
+        coatPdf = lobes.coatShare * coatDensity * reflectionJacobian(coatWo, coatAlpha);
+        isCoatAbove = min(coatWo.z, coatWi.z) > 0.0f;
+    }
     if (!has(features, kFeatureCoatNormal)) {
         value += vec3(uncoloured + coat);
         return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf + coatPdf + glassPdf : 0.0f);
     }
-    bool isCoatAbove = min(coatWo.z, coatWi.z) > 0.0f;
     value = select(isAbove, value, vec3(0.0f)) + vec3((isAbove ? uncoloured : 0.0f) + (isCoatAbove ? coat : 0.0f));
     return vec4(value, (isAbove ? pdf : 0.0f) + (isCoatAbove ? coatPdf : 0.0f) + (isAbove ? glassPdf : 0.0f));
 }
@@ -126,23 +138,32 @@ RT_FN BsdfSample mirrorSample(vec3 wi, vec3 f, float share) {
     return s;
 }
 
+// The proposal, see proposePrincipled(), of those u that choose diffuse or specular reflection. Without a branch, for
+// loops over samples.
+RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u) {
+    float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
+    bool isDiffuse = u.x < lobes.diffuseShare;
+    bool isMirrored = isMirror(isDiffuse ? 1.0f : lobes.alpha); // GCC makes no vectors of && here
+    vec3 diffuse = sampleCosineHemisphere(vec2(stretch(u.x, 0.0f, lobes.diffuseShare), u.y));
+    vec3 h = sampleReflectionNormal(wo, lobes.alpha, vec2(stretch(u.x, lobes.diffuseShare, beyondDiffuse), u.y));
+    vec3 glossy = h * (2.0f * dot(wo, h)) - wo;
+    vec3 mirror = mix(lobes.f0, lobes.f90, schlick(wo.z)) / lobes.specularShare;
+    BsdfSample s = absorbed();
+    s.wi = select(isDiffuse, diffuse, select(isMirrored, vec3(-wo.x, -wo.y, wo.z), glossy));
+    s.weight = select(isMirrored, mirror, vec3(0.0f));
+    s.delta = isMirrored ? 1u : 0u;
+    return s;
+}
+
 // One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
 RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
-    vec3 mirrored = vec3(-wo.x, -wo.y, wo.z);
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
     float beyondSpecular = beyondDiffuse + lobes.coatShare;
     vec3 wi;
     uint transmitted = 0u;
-    if (u.x < lobes.diffuseShare) {
-        wi = sampleCosineHemisphere(vec2(stretch(u.x, 0.0f, lobes.diffuseShare), u.y));
-    } else if (u.x < beyondDiffuse) {
-        if (isMirror(lobes.alpha)) {
-            return mirrorSample(mirrored, mix(lobes.f0, lobes.f90, schlick(wo.z)), lobes.specularShare);
-        }
-        vec2 v = vec2(stretch(u.x, lobes.diffuseShare, beyondDiffuse), u.y);
-        vec3 h = sampleReflectionNormal(wo, lobes.alpha, v);
-        wi = h * (2.0f * dot(wo, h)) - wo;
+    if (u.x < beyondDiffuse) {
+        return proposeReflection(lobes, wo, u);
     } else if (u.x < beyondSpecular) {
         vec3 coatWo = toCoat(features, lobes, wo);
         if (isMirror(lobes.coatAlpha)) {
@@ -189,11 +210,12 @@ RT_FN vec4 evalProposal(uint features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample)
     return s.wi.z < 0.0f ? evalPrincipledTransmission(m, wo, s.wi) : vec4(0.0f);
 }
 
-// Weighs a proposal by the density of all lobes; f is evalProposal() of it.
+// Weighs a proposal by the density of all lobes; f is evalProposal() of it. Without a branch, for loops over samples.
 RT_FN void weighProposal(vec4 f, RT_INOUT(BsdfSample) s) {
-    if (s.delta != 0u || !(f.w > 0.0f)) return;
-    s.pdf = f.w;
-    s.weight = vec3(f) / f.w;
+    float density = s.delta == 0u ? f.w : 0.0f;
+    bool isWeighed = density > 0.0f;
+    s.pdf = isWeighed ? density : s.pdf;
+    s.weight = select(isWeighed, vec3(f) / density, s.weight);
 }
 
 RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {

@@ -130,41 +130,57 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
     return vec3(1.0f) + f0 * (1.0f / max(whole, 1.0e-3f) - 1.0f);
 }
 
-// Of the principled material p at a point: `albedo` its base colour, `cosine` that of wo, `coatNormal` as lobes have it
-// and `coatCosine` that of wo with it, `front` whether wo is on the front side.
-RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 albedo,
-                                float cosine, vec3 coatNormal, float coatCosine, bool front) {
+// Of the principled material p at a point.
+RT_FN PrincipledValues principledValues(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+    PrincipledValues values;
+    values.metallic = surfaceNumber(features, scene, p.metallic, s);
+    values.roughness = surfaceNumber(features, scene, p.roughness, s);
+    values.specular = surfaceNumber(features, scene, p.specular, s);
+    values.transmission = surfaceNumber(features, scene, p.transmission, s);
+    values.clearcoat = surfaceNumber(features, scene, p.clearcoat, s);
+    values.clearcoatRoughness = surfaceNumber(features, scene, p.clearcoatRoughness, s);
+    values.sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kLeastSheenRoughness);
+    values.specularColor = surfaceColor(features, scene, p.specularColor, s);
+    values.sheenColor = surfaceColor(features, scene, p.sheenColor, s);
+    values.ior = p.ior;
+    values.thin = p.thin;
+    values.glass = p.glass;
+    values.others = (maxComponent(values.sheenColor) > 0.0f ? kLobeSheen : 0u) |
+                    (values.clearcoat > 0.0f ? kLobeCoat : 0u) | (values.transmission > 0.0f ? kLobeGlass : 0u);
+    return values;
+}
+
+// The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
+// directionalAlbedo() at the roughness; `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front` tells
+// whether wo is on the front side. Without a branch but for values.others, for loops over samples.
+RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, vec3 albedo, float cosine, vec3 a,
+                                vec3 coatNormal, float coatCosine, bool front) {
     PrincipledLobes lobes;
-    float metallic = surfaceNumber(features, scene, p.metallic, s);
-    float roughness = surfaceNumber(features, scene, p.roughness, s);
-    float specular = surfaceNumber(features, scene, p.specular, s);
-    float transmission = surfaceNumber(features, scene, p.transmission, s);
-    float coat = surfaceNumber(features, scene, p.clearcoat, s);
-    float coatRoughness = surfaceNumber(features, scene, p.clearcoatRoughness, s);
-    float sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kLeastSheenRoughness);
-    vec3 specularColor = surfaceColor(features, scene, p.specularColor, s);
-    vec3 sheen = surfaceColor(features, scene, p.sheenColor, s);
+    lobes.others = values.others;
 
     // Clear coat and sheen leave the rest to what is below. From inside of glass there is neither.
-    bool inside = !front && transmission > 0.0f && p.thin == 0u;
-    coat = inside ? 0.0f : coat;
-    sheen = select(inside, vec3(0.0f), sheen);
+    bool inside = has(values.others, kLobeGlass) && !front && values.thin == 0u;
+    float coat = 0.0f;
     float coatAlbedo = 0.0f;
-    float coatBoost = 1.0f;
-    if (coat > 0.0f) {
-        vec3 a = directionalAlbedo(scene, coatCosine, coatRoughness);
-        coatBoost = compensation(vec3(kCoatReflectance), a.x + a.y).x;
-        coatAlbedo = coat * coatBoost * (kCoatReflectance * a.x + a.y);
+    if (has(values.others, kLobeCoat)) {
+        vec3 c = directionalAlbedo(scene, coatCosine, values.clearcoatRoughness);
+        float boost = compensation(vec3(kCoatReflectance), c.x + c.y).x;
+        coat = inside ? 0.0f : values.clearcoat * boost;
+        coatAlbedo = coat * (kCoatReflectance * c.x + c.y);
     }
+    vec3 sheen = vec3(0.0f);
     float sheenAlbedo = 0.0f;
-    if (maxComponent(sheen) > 0.0f) {
-        sheenAlbedo = min(maxComponent(sheen) * directionalAlbedo(scene, cosine, sheenRoughness).z, 1.0f);
+    if (has(values.others, kLobeSheen)) {
+        sheen = select(inside, vec3(0.0f), values.sheenColor);
+        float whole = directionalAlbedo(scene, cosine, values.sheenRoughness).z;
+        sheenAlbedo = min(maxComponent(sheen) * whole, 1.0f);
     }
     float below = (1.0f - coatAlbedo) * (1.0f - sheenAlbedo);
 
-    float opaque = (1.0f - metallic) * (1.0f - transmission);
-    vec3 a = directionalAlbedo(scene, cosine, roughness);
-    vec3 f0 = min(specularColor * square((p.ior - 1.0f) / (p.ior + 1.0f)), vec3(1.0f)) * specular;
+    float specular = values.specular;
+    float metallic = values.metallic;
+    float opaque = (1.0f - metallic) * (1.0f - values.transmission);
+    vec3 f0 = min(values.specularColor * square((values.ior - 1.0f) / (values.ior + 1.0f)), vec3(1.0f)) * specular;
     vec3 boost = compensation(f0, a.x + a.y);
     vec3 metalBoost = compensation(albedo, a.x + a.y);
     vec3 reflected = (f0 * a.x + vec3(specular * a.y)) * boost;
@@ -172,19 +188,22 @@ RT_FN PrincipledLobes makeLobes(uint features, SceneRef scene, RT_IN(Principled)
     lobes.f0 = (f0 * boost * opaque + albedo * metalBoost * metallic) * below;
     lobes.f90 = (boost * (opaque * specular) + metalBoost * metallic) * below;
     lobes.sheen = sheen * (1.0f - coatAlbedo);
-    lobes.sheenExponent = 1.0f / square(sheenRoughness);
-    lobes.alpha = square(roughness);
-    lobes.glass = (1.0f - metallic) * transmission * below;
-    if (lobes.glass > 0.0f && roughness > 0.0f) {
-        // A sheet mirrors to its other side what it does not reflect.
-        float whole = a.x + a.y;
-        if (p.glass != kNone) whole = glassAlbedo(scene, p.glass, !front, cosine, roughness);
-        lobes.glass *= compensation(vec3(1.0f), whole).x;
+    lobes.sheenExponent = 1.0f / square(values.sheenRoughness);
+    lobes.alpha = square(values.roughness);
+    lobes.glass = 0.0f;
+    if (has(values.others, kLobeGlass)) {
+        lobes.glass = (1.0f - metallic) * values.transmission * below;
+        if (lobes.glass > 0.0f && values.roughness > 0.0f) {
+            // A sheet mirrors to its other side what it does not reflect.
+            float whole = a.x + a.y;
+            if (values.glass != kNone) whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
+            lobes.glass *= compensation(vec3(1.0f), whole).x;
+        }
     }
-    lobes.eta = front || p.thin != 0u ? 1.0f / p.ior : p.ior;
-    lobes.thin = p.thin;
-    lobes.coat = coat * coatBoost;
-    lobes.coatAlpha = square(coatRoughness);
+    lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
+    lobes.thin = values.thin;
+    lobes.coat = coat;
+    lobes.coatAlpha = square(values.clearcoatRoughness);
     lobes.coatNormal = coatNormal;
 
     float diffuseAlbedo = maxComponent(lobes.diffuse) + sheenAlbedo * (1.0f - coatAlbedo);
@@ -213,8 +232,17 @@ vec3 coatNormalOf(uint features, SceneRef scene, Principled p, Surface s, vec3 s
                   vec3 wo, vec3 n) {
     return vec3(0.0f, 0.0f, 1.0f);
 }
-PrincipledLobes makeLobes(uint features, SceneRef scene, Principled p, Surface s, vec3 albedo, float cosine,
-                          vec3 coatNormal, float coatCosine, bool front) {
+vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
+    return vec3(0.0f);
+}
+PrincipledValues principledValues(uint features, SceneRef scene, Principled p, Surface s) {
+    PrincipledValues values;
+    values.others = 0u;
+    values.roughness = 0.0f;
+    return values;
+}
+PrincipledLobes makeLobes(SceneRef scene, PrincipledValues values, vec3 albedo, float cosine, vec3 a, vec3 coatNormal,
+                          float coatCosine, bool front) {
     return noLobes();
 }
 

@@ -76,7 +76,8 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
     s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
 }
 
-// Arrives at the next vertex of the path, v, given what s.ray hits. False: the path has ended.
+// Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. False: the path has
+// ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                   RT_INOUT(PathState) s, RT_OUT(Vertex) v) {
     uint medium = kNone;
@@ -133,6 +134,7 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
                     RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
     Vertex v;
     if (!arrive(features, scene, params, smp, hit, s, v)) return false;
+    completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     bool nextEvent = usesNextEventEstimation(features, params, globals, v);

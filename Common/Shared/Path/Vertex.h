@@ -19,8 +19,9 @@ struct Vertex {
     vec3 shading; // of the bsdf frame, facing wo; zero in a medium
     vec3 wo;
     vec3 position;
-    vec3 error;  // of position, per axis
-    vec3 origin; // where rays on wo's side start
+    vec3 error;              // of position, per axis
+    vec3 origin;             // where rays on wo's side start
+    PrincipledValues values; // of a principled material, for completeVertex()
 };
 
 // A medium's albedo.
@@ -85,15 +86,23 @@ RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_
         float facing = v.front != 0u ? 1.0f : -1.0f;
         vec3 mapped = mappedNormal(features, scene, p.normalTexture, p.normalScale, surface, v.shading, facing);
         vec3 n = keepReflectionAbove(mapped, v.normal, v.wo);
-        vec3 coat = coatNormalOf(features, scene, p, surface, v.shading, facing, v.normal, v.wo, n);
+        v.bsdf.lobes.coatNormal = coatNormalOf(features, scene, p, surface, v.shading, facing, v.normal, v.wo, n);
         v.shading = n;
-        float cosine = clamp(dot(v.wo, n), 0.0f, 1.0f);
-        float coatCosine = cosine;
-        if (has(features, kFeatureCoatNormal) && coat.z != 1.0f) {
-            coatCosine = clamp(dot(v.wo, toWorld(makeFrame(n), coat)), 0.0f, 1.0f);
-        }
-        v.bsdf.lobes = makeLobes(features, scene, p, surface, v.bsdf.albedo, cosine, coat, coatCosine, v.front != 0u);
+        v.values = principledValues(features, scene, p, surface);
     }
+}
+
+// Gives a vertex of a principled material its lobes. Apart from its place, as packets of paths do it in lanes.
+RT_FN void completeVertex(uint features, SceneRef scene, RT_INOUT(Vertex) v) {
+    if (!isPrincipled(features, v.bsdf)) return;
+    vec3 coat = v.bsdf.lobes.coatNormal;
+    float cosine = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
+    float coatCosine = cosine;
+    if (has(features, kFeatureCoatNormal) && coat.z != 1.0f) {
+        coatCosine = clamp(dot(v.wo, toWorld(makeFrame(v.shading), coat)), 0.0f, 1.0f);
+    }
+    vec3 a = directionalAlbedo(scene, cosine, v.values.roughness);
+    v.bsdf.lobes = makeLobes(scene, v.values, v.bsdf.albedo, cosine, a, coat, coatCosine, v.front != 0u);
 }
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
