@@ -51,8 +51,15 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
+        Passage passage = noPassage();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct);
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct, passage);
+        while (passage.segments != 0u) {
+            ++counters.shadow;
+            float tMax;
+            const Ray ray = passageRay(passage, path.ray.time, tMax);
+            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, passage, path);
+        }
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
         const Ray shadow = shadowRay(path, direct);
@@ -128,6 +135,7 @@ void compareEstimators(const TracedScene& scene) {
 // Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
+                           "next-week-final",
                            "one-weekend-final", "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json",
                            RT_TEST_DATA_DIR "/scenes/lacquer.json"}) {
         const TracedScene scene(id);

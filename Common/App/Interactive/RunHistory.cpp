@@ -69,6 +69,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/russian_roulette", "russian_roulette", r.russianRoulette);
     visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
     visit("/adaptive", "adaptive", r.adaptive);
+    visit("/specular_connections", "specular_connections", r.specularConnections);
 }
 
 // Likewise, but no part of the work.
@@ -165,7 +166,8 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Triangle lights", r.triangleLight},
             {"Roulette", r.russianRoulette},
             {"One-sided", r.oneSidedLights},
-            {"Adaptive", r.adaptive}};
+            {"Adaptive", r.adaptive},
+            {"Glass spheres", r.specularConnections}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {
