@@ -17,6 +17,9 @@ find_program(RT_CCACHE ccache)
 mark_as_advanced(RT_CCACHE)
 if(RT_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER ${RT_CCACHE})
+    if(NOT DEFINED ENV{CCACHE_SLOPPINESS}) # else it keeps nothing that was compiled with precompiled headers
+        set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${RT_CCACHE})
+    endif()
 endif()
 
 # GLM's functions are inlined everywhere, so that no object file compiled for a newer instruction set can offer its copy of
@@ -73,5 +76,6 @@ function(rt_set_kernel_options source isa)
         # What v4 brings is its 32 registers; vectors of 16 floats were measured to bring nothing.
         set(options.x86_64_v4 -march=x86-64-v4 -mprefer-vector-width=256)
     endif()
-    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options};${options.${isa}}")
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options};${options.${isa}}"
+                                                     SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

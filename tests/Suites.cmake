@@ -14,7 +14,8 @@ function(add_suite suite cases)
     endif()
     math(EXPR cost "${cases} * ${milliseconds}")
     add_test(${folder}.${suite} ${program} --gtest_brief=1 --gtest_filter=${suite}.*)
-    set_tests_properties(${folder}.${suite} PROPERTIES COST ${cost} TIMEOUT 1800 LABELS "${folder};${tier}")
+    set_tests_properties(${folder}.${suite} PROPERTIES COST ${cost} TIMEOUT 1800 LABELS "${folder};${tier}"
+                                                       ENVIRONMENT "${environment}")
 endfunction()
 
 # Lines "Suite.  # parameter" and, below, "  Case  # parameter".
