@@ -231,6 +231,32 @@ TEST_P(PanelsTest, TheToolbarDoesWhatItShows) {
     expectCleanEnd();
 }
 
+// The legend stands below the picture: the border's colour is all around both.
+TEST_P(PanelsTest, TheLegendCoversNothingOfThePicture) {
+    constexpr std::uint32_t kBorder = 0x2b2b2b;
+    foldOutOnly("view");
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    const auto isBorder = [this](int left, int y) {
+        const Screenshot shot = screenshot();
+        for (int x = left; x < kWidth - 10; ++x)
+            if (shot.at(x, y) != kBorder) return false;
+        return true;
+    };
+    EXPECT_TRUE(eventually([&] { return screenshot().at(826, 400) != kBorder && isBorder(380, 829); }));
+    EXPECT_FALSE(isBorder(380, 815)); // the picture reaches as far down as it can
+    EXPECT_TRUE(eventually([&] {      // again where the machine was too busy to see it
+        click(652, 16);               // Heat map
+        act("mousemove 375 40");
+        pause(1500);
+        return isBorder(380, 757);
+    }));
+    const Screenshot shot = screenshot();
+    EXPECT_EQ(shot.at(1050, 800), kWindowColor); // the legend
+    EXPECT_NE(shot.at(826, 745), kBorder);       // the picture
+    expectCleanEnd();
+}
+
 // At the pointer; where the window ends it moves to where it is seen as a whole.
 TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
     struct Box {
@@ -278,6 +304,16 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
     EXPECT_LT(inCorner.right, kWidth - 1);
     EXPECT_LT(inCorner.bottom, 833);
     EXPECT_GT(inCorner.bottom - inCorner.top, 0.9 * (inside.bottom - inside.top)); // as many lines
+    // Beside a pinned picture: the values of both, and their difference.
+    act("mousemove 375 40 key b");
+    EXPECT_TRUE(eventually([&] { return screenshot().at(826, 600) == 0xffffff; }));
+    pause(1000);
+    without = screenshot();
+    const Box ofBoth = boxAt(600, 300), ofBothInCorner = boxAt(1195, 815);
+    EXPECT_GT(ofBoth.right - ofBoth.left, 1.5 * (inside.right - inside.left));
+    EXPECT_LT(ofBothInCorner.right, kWidth - 1);
+    EXPECT_LT(ofBothInCorner.bottom, 833);
+    EXPECT_GT(ofBothInCorner.right - ofBothInCorner.left, 0.9 * (ofBoth.right - ofBoth.left));
     expectCleanEnd();
 }
 

@@ -47,7 +47,10 @@ bool SessionFilm::goOn(const FilmSubject& subject) {
     if (wanted != run_->settings() || !run_->canTake(spp)) return false;
     wanted.sppIsKnown = isKnown;
     if (isMadeForSpp(wanted) != isMadeForSpp(run_->settings())) return false;
-    if (spp != run_->settings().spp) run_->setSpp(spp);
+    if (spp != run_->settings().spp) {
+        run_->setSpp(spp);
+        publisher.discardViews(); // files of features may have more samples now
+    }
     // What is left of the time; where it was used up, as much again.
     std::optional<double> seconds = subject.request.timeLimit;
     if (seconds && run_->seconds() < *seconds) *seconds -= run_->seconds();
@@ -88,6 +91,11 @@ void SessionFilm::show() {
 
 void SessionFilm::showIfDue(const RenderRequest& request) {
     if (!isStale_ && publisher.isDue(*run_, request)) show();
+}
+
+void SessionFilm::refine() {
+    publisher.refine(*run_);
+    if (!publisher.isRefining()) show();
 }
 
 RenderSettings SessionFilm::settingsFor(const FilmSubject& subject) const {
