@@ -35,8 +35,8 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
     }
 }
 
-// completeVertex() for the principled vertices: in lanes as if there were diffuse and specular reflection only, then one
-// by one where there is more.
+// completeVertex() for the principled vertices: in lanes as if there were diffuse and specular reflection only, then
+// one by one where there is more.
 template <uint kFeatures>
 RT_CALL void completeVertices(const CpuScene& scene, uint principled, uint layered, PathLanes& lanes) {
     FloatLanes cosines;

@@ -5,19 +5,21 @@
 #include <cstdio> // which jpeglib.h expects
 #include <vector>
 
-#include <jpeglib.h>
-
-#include <jerror.h>
-
 #include "Common/Core/Error.h"
 #include "Common/Image/Codecs.h"
+
+// In this order: the numbers in jerror.h depend on the version that jpeglib.h states.
+// clang-format off
+#include <jpeglib.h>
+#include <jerror.h>
+// clang-format on
 
 namespace rt::image {
 
 namespace {
 
-// A progressive file may add to its coefficients as often as it likes, each time to all of them: without a limit a small
-// file takes hours. Encoders make about ten scans.
+// A progressive file may add to its coefficients as often as it likes, each time to all of them: without a limit a
+// small file takes hours. Encoders make about ten scans.
 constexpr int kMostScans = 100;
 
 // Fill bytes may precede any marker (ITU-T T.81, B.1.1.2), of which libjpeg takes none before a file's first.

@@ -80,7 +80,9 @@ TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
     for (const std::size_t fill : {0, 1, 3}) {
         const std::string begin(fill, '\xff');
         EXPECT_EQ(errorOf("a.jpg", begin + whole), "") << fill;
-        EXPECT_EQ(errorOf("a.jpg", begin + damaged), "a.jpg: cannot be read as a JPEG image: Bogus Huffman table definition") << fill;
+        EXPECT_EQ(errorOf("a.jpg", begin + damaged),
+                  "a.jpg: cannot be read as a JPEG image: Bogus Huffman table definition")
+            << fill;
     }
 }
 

@@ -3,10 +3,9 @@
 #include <array>
 #include <cstdio> // which jpeglib.h expects
 #include <cstdlib>
+#include <jpeglib.h>
 #include <string>
 #include <vector>
-
-#include <jpeglib.h>
 
 #include <gtest/gtest.h>
 

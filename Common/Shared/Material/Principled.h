@@ -56,8 +56,8 @@ RT_FN vec3 fromCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     return toWorld(makeFrame(lobes.coatNormal), w);
 }
 
-// The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but for
-// lobes.others, for loops over samples.
+// The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but
+// for lobes.others, for loops over samples.
 RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);

@@ -151,8 +151,8 @@ RT_FN PrincipledValues principledValues(uint features, SceneRef scene, RT_IN(Pri
 }
 
 // The lobes of a bsdf that has these values and the base colour `albedo`. `cosine` is that of wo and `a` its
-// directionalAlbedo() at the roughness; `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front` tells
-// whether wo is on the front side. Without a branch but for values.others, for loops over samples.
+// directionalAlbedo() at the roughness; `coatNormal` is as lobes have it, `coatCosine` that of wo with it; `front`
+// tells whether wo is on the front side. Without a branch but for values.others, for loops over samples.
 RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, vec3 albedo, float cosine, vec3 a,
                                 vec3 coatNormal, float coatCosine, bool front) {
     PrincipledLobes lobes;
