@@ -8,7 +8,7 @@ namespace rt::app {
 namespace {
 
 constexpr std::size_t kAhead = 2;            // leases that a rank holds at most
-constexpr double kPart = 0.4;                // of what is left for a rank when it asks, that it gets
+constexpr double kPart = 0.25;               // of what is left for a rank when it asks, that it gets
 constexpr double kLongest = 4;               // seconds, of a lease as expected: what is lost with a rank that dies
 constexpr double kLongestLeast = 1;          // seconds, of the least number of tiles
 constexpr double kPatience = 2;              // times as long as expected a lease may take, and
