@@ -102,8 +102,9 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
 }
 
 void DeviceFilm::uploadCounts() {
-    vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(samples_)));
-    vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(tiles_)), samples_.size() * sizeof samples_[0]);
+    std::vector<std::uint32_t> counts = samples_;
+    counts.insert(counts.end(), tiles_.begin(), tiles_.end());
+    vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(counts)));
 }
 
 // Of the tiles that it holds. The pilot's squares have served.

@@ -135,8 +135,10 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
         bindings_.update(uniforms_, scene_->linearLists());
     }
 
+    TraversalShape traversal = scene_->shape();
+    traversal.groupSize = groupSize(context_, features_);
     const SpecializationConstants constants =
-        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, scene_->shape());
+        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, traversal);
     if (!kernel_ || constants_ != constants) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
@@ -149,6 +151,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (!launchSize_) {
         launchSize_.emplace(context_.info().isSoftware(), settings.maxDepth, options_.launchSeconds);
     }
+    launches_.prepare(context_.info().isDiscrete() ? image::pixelCount(film_, tiles_) * settings_.spp : 0);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
     report_.renderDeviceSeconds = 0;

@@ -45,6 +45,7 @@ void GpuScene::buildTree(vulkan::VulkanContext& context, const std::atomic<bool>
     shape_ = traversalShape(*bvh);
     const accel::GpuTrees& t = bvh->trees;
     tree_.nodes = add(context, t.nodes, "the tree");
+    tree_.wideNodes = add(context, t.wideNodes, "the tree");
     tree_.spheres = add(context, t.spheres, "the tree's spheres");
     tree_.sphereMotions = add(context, t.sphereMotions, "the tree's motion");
     tree_.sphereIndices = add(context, t.sphereIndices, "the tree's spheres");

@@ -45,6 +45,18 @@ LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineC
       limits_(limits),
       launches_{Launch(context), Launch(context)} {}
 
+void LaunchQueue::prepare(std::uint64_t samples) {
+    const VkDeviceSize radiance = std::min(samples, limits_.samples) * sizeof(shared::vec3);
+    const VkDeviceSize left = std::min<VkDeviceSize>(samples, limits_.invocations) * sizeof(shared::UnfinishedPath);
+    try {
+        for (Launch& launch : launches_) {
+            reserve(context_, launch.radiance, radiance, radiance);
+            reserve(context_, launch.left, left, left);
+        }
+    } catch (const RenderError&) { // smaller launches may do
+    }
+}
+
 // No fewer than there are paths to go on with.
 std::uint32_t LaunchQueue::invocationsFor(const shared::FilmLaunch& launch) const {
     return std::max(std::min(shared::launchSamples(launch), limits_.invocations), last_ ? invocations_ : 0);

@@ -25,6 +25,9 @@ class LaunchQueue {
   public:
     LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits);
 
+    // Makes room for launches of a film that has so many samples, as far as there is memory; only when isEmpty().
+    // Otherwise they get it when they first are that large: on an H100 that takes 8 ms.
+    void prepare(std::uint64_t samples);
     // Whether begin() may be called with it before another end(); with FilmLaunch{}, whether finish() may.
     bool hasRoom(const shared::FilmLaunch& launch) const;
     // Whether it goes on where samples of the launch before are still to come; then finish() comes first.

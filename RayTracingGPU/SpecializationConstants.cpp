@@ -23,6 +23,7 @@ constexpr std::array kEntries{
     entry(shared::kLightCountId, offsetof(SpecializationConstants, lightCount)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
+    entry(shared::kTreeIsWideId, kTraversal + offsetof(TraversalShape, treeIsWide)),
     entry(shared::kIsLinearId, kTraversal + offsetof(TraversalShape, isLinear)),
     entry(shared::kListedSpheresId, kTraversal + offsetof(TraversalShape, listedSpheres)),
     entry(shared::kListedXQuadsId, kAxisQuads),
@@ -50,6 +51,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     constexpr std::uint32_t kDepthStep = 4; // so that scenes of nearly the same depth share a pipeline
     TraversalShape shape;
     shape.treeDepth = bvh.isLinear ? 0 : (bvh.trees.depth + kDepthStep - 1) / kDepthStep * kDepthStep;
+    shape.treeIsWide = bvh.trees.isWide ? 1 : 0;
     shape.isLinear = bvh.isLinear ? 1 : 0;
     shape.listedSpheres = bvh.lists.spheres;
     shape.listedAxisQuads = bvh.lists.axisQuads;

@@ -17,6 +17,7 @@ namespace rt::gpu {
 struct TraversalShape {
     std::uint32_t groupSize = 64; // invocations of a work group
     std::uint32_t treeDepth = 0;
+    std::uint32_t treeIsWide = 0;
     std::uint32_t isLinear = 0;
     std::uint32_t listedSpheres = 0;
     std::array<std::uint32_t, 3> listedAxisQuads{}; // perpendicular to x, y, z

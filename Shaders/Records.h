@@ -44,13 +44,15 @@ struct SceneArrays {
 
 RT_ARRAY(WordArray, uint)
 RT_VECTOR_ARRAY(TreeNodeArray, TreeNode)
+RT_VECTOR_ARRAY(WideTreeNodeArray, WideTreeNode)
 RT_VECTOR_ARRAY(TreeQuadArray, TreeQuad)
 RT_VECTOR_ARRAY(TreeTriangleArray, TreeTriangle)
 RT_VECTOR_ARRAY(FourArray, vec4)
 
 // The tree of the compute engine, see Common/Shared/TreeRecords.h; zero without one.
 struct TreeArrays {
-    TreeNodeArray nodes;
+    TreeNodeArray nodes; // or
+    WideTreeNodeArray wideNodes;
     FourArray spheres;       // center, radius
     FourArray sphereMotions; // of each of them, if the features have motion
     WordArray sphereIndices; // of each of them in the scene

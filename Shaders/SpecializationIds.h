@@ -25,6 +25,7 @@ const uint kListedYQuadsId = 14u;
 const uint kListedZQuadsId = 15u;
 const uint kListedQuadsId = 16u;
 const uint kListedTrianglesId = 17u;
+const uint kTreeIsWideId = 19u;
 // Of the preview, see Preview.glsl.
 const uint kShapeId = 18u;
 

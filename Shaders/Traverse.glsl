@@ -5,6 +5,7 @@
 #include "Common/Shared/Shape/Shapes.h"
 
 layout(constant_id = kTreeDepthId) const uint kTreeDepth = 0u; // references that a traversal has to remember
+layout(constant_id = kTreeIsWideId) const uint kTreeIsWide = 0u; // nodes have four children instead of two
 layout(constant_id = kIsLinearId) const uint kIsLinear = 1u;   // there are the lists instead of a tree
 layout(constant_id = kListedSpheresId) const uint kListedSpheres = 0u;
 layout(constant_id = kListedXQuadsId) const uint kListedXQuads = 0u; // along axes, perpendicular to x
@@ -188,6 +189,52 @@ void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout ve
     leave = min(leave, max(t.xz, t.yw));
 }
 
+// The same of four children.
+void clipSlabs(vec4 lower, vec4 upper, float origin, float inverse, inout vec4 entry, inout vec4 leave) {
+    vec4 a = (lower - origin) * inverse;
+    vec4 b = (upper - origin) * inverse;
+    entry = max(entry, min(a, b));
+    leave = min(leave, max(a, b));
+}
+
+// Orders the children of a wide node: where the ray enters, and in the last two bits which of the four it is.
+const uint kMissed = 0xffffffffu;
+
+uint childKey(float entry, float leave, uint child, uint place) {
+    return entry <= leave && child != kTreeNothing ? (floatBitsToUint(entry) & ~3u) | place : kMissed;
+}
+
+uint childAt(uvec4 children, uint key) {
+    uvec2 pair = (key & 2u) != 0u ? children.zw : children.xy;
+    return (key & 1u) != 0u ? pair.y : pair.x;
+}
+
+void sortPair(inout uint a, inout uint b) {
+    uint least = min(a, b);
+    b = max(a, b);
+    a = least;
+}
+
+// The keys of the children that the ray enters before tMax, the nearest first.
+uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
+    vec4 entry = vec4(0.0f);
+    vec4 leave = vec4(tMax);
+    clipSlabs(node.lowerX, node.upperX, origin.x, inverse.x, entry, leave);
+    clipSlabs(node.lowerY, node.upperY, origin.y, inverse.y, entry, leave);
+    clipSlabs(node.lowerZ, node.upperZ, origin.z, inverse.z, entry, leave);
+    leave *= kSlabMargin;
+    uint a = childKey(entry.x, leave.x, node.children.x, 0u);
+    uint b = childKey(entry.y, leave.y, node.children.y, 1u);
+    uint c = childKey(entry.z, leave.z, node.children.z, 2u);
+    uint d = childKey(entry.w, leave.w, node.children.w, 3u);
+    sortPair(a, b);
+    sortPair(c, d);
+    sortPair(a, c);
+    sortPair(b, d);
+    sortPair(b, c);
+    return uvec4(a, b, c, d);
+}
+
 // ---- trees ---------------------------------------------------------------------------------------------------------
 
 void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
@@ -232,7 +279,7 @@ Ray toObject(uint index, Ray ray) {
     return local;
 }
 
-// The nearer child first; the other waits on the stack. Instances are followed one level down: what lies on the stack
+// The nearest child first; the others wait on the stack. Instances are followed one level down: what lies on the stack
 // above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
     uint stack[kTreeDepth + 1u];
@@ -244,7 +291,17 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
     vec3 inverse = slabInverse(ray.direction);
     Nearest nearest = nothingWithin(tMax);
     for (;;) {
-        if ((current & kTreeLeaf) == 0u) {
+        if ((current & kTreeLeaf) == 0u && kTreeIsWide != 0u) {
+            WideTreeNode node = constants.tree.wideNodes.at[current];
+            uvec4 keys = sortedChildren(node, r.ray.origin, inverse, nearest.t);
+            if (keys.w != kMissed) stack[size++] = childAt(node.children, keys.w);
+            if (keys.z != kMissed) stack[size++] = childAt(node.children, keys.z);
+            if (keys.y != kMissed) stack[size++] = childAt(node.children, keys.y);
+            if (keys.x != kMissed) {
+                current = childAt(node.children, keys.x);
+                continue;
+            }
+        } else if ((current & kTreeLeaf) == 0u) {
             TreeNode node = constants.tree.nodes.at[current];
             vec2 entry = vec2(0.0f);
             vec2 leave = vec2(nearest.t);

@@ -15,7 +15,9 @@ namespace rt::accel {
 
 // The trees of all geometries, appended to the same arrays.
 struct GpuTrees {
+    bool isWide = false; // wideNodes instead of nodes
     std::vector<shared::TreeNode> nodes;
+    std::vector<shared::WideTreeNode> wideNodes;
     std::vector<shared::vec4> spheres;        // center, radius
     std::vector<shared::vec4> sphereMotions;  // of each of them; empty: nothing moves
     std::vector<std::uint32_t> sphereIndices; // of each of them in the scene

@@ -29,6 +29,7 @@ struct DeviceInfo {
     std::string missingForPipeline; // what it lacks beyond that for ray tracing pipelines
     std::string missingForQuery;    // likewise for ray queries, by which any shader traces rays
     bool isSoftware() const { return type == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    bool isDiscrete() const { return type == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU; }
     bool suitable() const { return missing.empty(); }
     bool tracesRays() const { return missing.empty() && missingForPipeline.empty(); }
     bool queriesRays() const { return missing.empty() && missingForQuery.empty(); }

@@ -130,6 +130,7 @@ void VulkanContext::queryLimits() {
     limits_.maxPrimitives = structure.maxPrimitiveCount;
     limits_.maxInstances = structure.maxInstanceCount;
     const VkPhysicalDeviceLimits& core = properties.properties.limits;
+    limits_.maxGroupSize = std::min(core.maxComputeWorkGroupInvocations, core.maxComputeWorkGroupSize[0]);
     limits_.maxDrawnSide = std::min({core.maxFramebufferWidth, core.maxFramebufferHeight, core.maxImageDimension2D,
                                      static_cast<std::uint32_t>(core.maxViewportDimensions[0]),
                                      static_cast<std::uint32_t>(core.maxViewportDimensions[1])});

@@ -46,6 +46,7 @@ struct DeviceLimits {
     std::uint32_t groupHandleAlignment = 0;
     std::uint32_t groupBaseAlignment = 0;
     std::uint32_t maxInvocations = 0;   // of one launch of rays
+    std::uint32_t maxGroupSize = 0;     // invocations of a work group of compute shaders, along x
     std::uint32_t scratchAlignment = 0; // bytes, of acceleration structure builds
     std::uint64_t maxPrimitives = 0;    // of one acceleration structure
     std::uint64_t maxInstances = 0;

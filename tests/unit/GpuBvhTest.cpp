@@ -52,23 +52,41 @@ class Walk {
         box.upper = {node.x[2 * child + 1], node.y[2 * child + 1], node.z[2 * child + 1]};
         return box;
     }
+    static Box childBox(const shared::WideTreeNode& node, int child) {
+        Box box;
+        box.lower = {node.lowerX[child], node.lowerY[child], node.lowerZ[child]};
+        box.upper = {node.upperX[child], node.upperY[child], node.upperZ[child]};
+        return box;
+    }
 
     // What is found in instances counts, but its boxes are of another space than the world's.
     void visit(std::uint32_t reference, const Box& box, std::uint32_t above, bool world) {
         depth = std::max(depth, above);
         if ((reference & shared::kTreeLeaf) == 0) {
-            ASSERT_LT(reference, trees_.nodes.size());
-            const shared::TreeNode& node = trees_.nodes[reference];
-            for (int child = 0; child < 2; ++child) {
-                const Box inner = childBox(node, child);
-                EXPECT_TRUE(contains(box, inner));
-                visit(node.children[child], inner, above + 1, world);
-            }
+            if (trees_.isWide)
+                visitChildren(trees_.wideNodes, reference, box, above, world);
+            else
+                visitChildren(trees_.nodes, reference, box, above, world);
             return;
         }
         const std::uint32_t first = shared::treeLeafFirst(reference);
         for (std::uint32_t i = first; i < first + shared::treeLeafCount(reference); ++i) {
             visitItem(shared::treeLeafKind(reference), i, box, above, world);
+        }
+    }
+
+    template <class Node>
+    void visitChildren(const std::vector<Node>& nodes, std::uint32_t index, const Box& box, std::uint32_t above,
+                       bool world) {
+        ASSERT_LT(index, nodes.size());
+        const shared::uvec4& children = nodes[index].children;
+        int count = 0;
+        while (count < 4 && children[count] != shared::kTreeNothing) ++count;
+        EXPECT_GE(count, 2);
+        for (int child = 0; child < count; ++child) {
+            const Box inner = childBox(nodes[index], child);
+            EXPECT_TRUE(contains(box, inner));
+            visit(children[child], inner, above + static_cast<std::uint32_t>(count) - 1, world);
         }
     }
 
@@ -111,15 +129,16 @@ class Walk {
     const GpuTrees& trees_;
 };
 
-// `count` primitives, all kinds in turn.
-Geometry mixture(std::size_t count, std::uint32_t seed) {
+// `count` primitives: all kinds in turn, and of triangles so many in a row.
+Geometry mixture(std::size_t count, std::uint32_t seed, std::size_t triangles = 1) {
     Geometry geometry;
     Random random(seed);
     for (std::size_t i = 0; i < count; ++i) {
         const shared::vec3 at = random.inCube(10.0f);
-        if (i % 3 == 0) geometry.addSphere(at, random.uniform(0.01f, 0.3f));
-        if (i % 3 == 1) geometry.addQuad(at, random.inCube(0.4f), random.inCube(0.4f));
-        if (i % 3 == 2) geometry.addTriangle(at, at + random.inCube(0.4f), at + random.inCube(0.4f));
+        const std::size_t kind = i % (2 + triangles);
+        if (kind == 0) geometry.addSphere(at, random.uniform(0.01f, 0.3f));
+        if (kind == 1) geometry.addQuad(at, random.inCube(0.4f), random.inCube(0.4f));
+        if (kind >= 2) geometry.addTriangle(at, at + random.inCube(0.4f), at + random.inCube(0.4f));
     }
     return geometry;
 }
@@ -142,6 +161,20 @@ TEST(GpuBvh, HoldsEveryPrimitiveOnce) {
         Geometry geometry = mixture(count, 7);
         const AccelInput input = geometry.input();
         expectComplete(input, *buildGpuBvh(input, alwaysTrees()));
+    }
+}
+
+TEST(GpuBvh, OfMostlyTrianglesHasFourChildrenANode) {
+    for (const std::size_t count : {3u, 4u, 5u, 64u, 1000u, 100000u}) {
+        Geometry geometry = mixture(count, 7, 4);
+        const AccelInput input = geometry.input();
+        const GpuBvh bvh = *buildGpuBvh(input, alwaysTrees());
+        const bool isWide = input.triangles.size() > input.spheres.size() + input.quads.size();
+        EXPECT_EQ(bvh.trees.isWide, isWide) << count;
+        EXPECT_EQ(isWide, bvh.trees.nodes.empty()) << count;
+        expectComplete(input, bvh);
+        if (count < 1000) continue;
+        EXPECT_LT(bvh.trees.wideNodes.size(), count / 2); // of two children it would be nearly one for each primitive
     }
 }
 

@@ -37,7 +37,8 @@ class Queue {
 class LocalRank {
   public:
     LocalRank(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings)
-        : link_{[this](Message message, TilesToPack tiles) {
+        : processorsRender_(engine.report().threads > 0),
+          link_{[this](Message message, TilesToPack tiles) {
                     outbox_.put({std::move(message), std::move(tiles)});
                 },
                 [this] { return inbox_.take(); }},
@@ -49,6 +50,7 @@ class LocalRank {
     LocalRank(const LocalRank&) = delete;
     LocalRank& operator=(const LocalRank&) = delete;
 
+    bool processorsRender() const { return processorsRender_; }
     void send(Message message) { inbox_.put(std::move(message)); }
     // Tiles are packed here, while the engine goes on with the next lease.
     std::optional<Message> receive() {
@@ -72,6 +74,7 @@ class LocalRank {
         }
     }
 
+    bool processorsRender_;
     Queue<Message> inbox_;
     Queue<Outgoing> outbox_;
     RankLink link_;
@@ -80,7 +83,7 @@ class LocalRank {
 
 // Takes messages from rank 0 to this rank, and back, until rank 0 ends it.
 inline void connect(LocalRank& rank, Communicator& ranks) {
-    IdleWait idle;
+    IdleWait idle(rank.processorsRender());
     for (bool isEnd = false; !isEnd;) {
         bool any = false;
         for (; auto message = rank.receive(); any = true) ranks.send(0, toBytes(std::move(*message)));

@@ -26,8 +26,12 @@ class Worker {
                      {"report", toJson(engine_.report())}},
                     {}},
                    nullptr);
+        IdleWait idle(engine_.report().threads > 0);
         while (!isEnd_) {
-            if (!listen() && leases_.empty()) std::this_thread::sleep_for(kPollInterval);
+            if (listen())
+                idle.wake();
+            else if (leases_.empty())
+                idle.rest();
             if (leases_.empty() || isEnd_) continue;
             const Message lease = std::move(leases_.front());
             leases_.pop_front();

@@ -32,7 +32,10 @@ std::string instructionSet(const EngineReport& report) {
 class RankedEngine final : public Engine {
   public:
     RankedEngine(std::unique_ptr<Engine> local, Communicator& ranks)
-        : local_(std::move(local)), ranks_(ranks), states_(static_cast<std::size_t>(ranks.size())) {}
+        : local_(std::move(local)),
+          ranks_(ranks),
+          idle_(local_->report().threads > 0),
+          states_(static_cast<std::size_t>(ranks.size())) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) override {
         if (!local_->setScene(scene, cancel)) return false;

@@ -13,19 +13,26 @@ namespace rt::app {
 
 inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that waits for messages: nearly idle
 
-// How a thread waits for messages beside others that render: the longer none came, the longer it sleeps, since every
-// look takes MPI some microseconds of a processor that has better things to do.
+// How a thread waits for messages: the longer none came, the longer it sleeps.
 class IdleWait {
   public:
+    // Beside threads that render, whether on this rank or on others: every look takes MPI some microseconds of a
+    // processor that has better things to do. Where devices render instead, a lease may take no longer than such a rest.
+    explicit IdleWait(bool processorsRender) : processorsRender_(processorsRender) {}
+
     void rest() {
         std::this_thread::sleep_for(interval_);
-        interval_ = std::min(2 * interval_, kLongest);
+        interval_ = std::min(2 * interval_, processorsRender_ ? kLongest : kLongestOfDevice);
     }
-    void wake() { interval_ = kPollInterval; }
+    void wake() { interval_ = kShortest; }
 
   private:
-    static constexpr std::chrono::milliseconds kLongest{8}; // far less than a lease takes, of which a rank holds two
-    std::chrono::milliseconds interval_ = kPollInterval;
+    using Time = std::chrono::microseconds;
+    static constexpr Time kShortest{100}, kLongestOfDevice{200};
+    static constexpr Time kLongest{8000}; // far less than a lease takes, of which a rank holds two
+
+    bool processorsRender_;
+    Time interval_ = kShortest;
 };
 
 // The ranks of the mpirun that has started this program; null when it was started alone. Throws UsageError where that

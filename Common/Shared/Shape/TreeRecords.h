@@ -1,5 +1,6 @@
-// The layout of acceleration structures that shaders traverse on their own: a binary tree whose nodes hold the boxes of
-// both children, with primitives in the order of its leaves, or, for the smallest scenes, lists without a tree.
+// The layout of acceleration structures that shaders traverse on their own: a tree whose nodes hold the boxes of
+// their children, two or four, with primitives in the order of its leaves, or, for the smallest scenes, lists without a
+// tree.
 #ifndef RT_SHARED_TREE_RECORDS_H
 #define RT_SHARED_TREE_RECORDS_H
 #include "Common/Shared/Base/Types.h"
@@ -17,6 +18,7 @@ const uint kTreeKindShift = 29u;
 const uint kTreeCountShift = 26u;
 const uint kTreeLeafSize = 8u;            // most primitives of a leaf
 const uint kTreeItems = (1u << 26u) - 1u; // most primitives of a kind; the last index stays free for kTreeReturn
+const uint kTreeNothing = 0xffffffffu;    // in place of a child
 const uint kTreeReturn = 0xffffffffu;     // on a traversal's stack: the instance ends here
 
 RT_FN uint treeLeaf(uint kind, uint first, uint count) {
@@ -41,6 +43,18 @@ struct TreeNode {
     vec4 y;
     vec4 z;
     uvec4 children; // two references; the rest is unused
+};
+
+// Bounds along each axis, a component for each child.
+struct WideTreeNode {
+    vec4 lowerX;
+    vec4 upperX;
+    vec4 lowerY;
+    vec4 upperY;
+    vec4 lowerZ;
+    vec4 upperZ;
+    uvec4 children; // references; kTreeNothing where there are fewer than four
+    uvec4 unused;   // so that a node is a line of most caches
 };
 
 // See QuadFrame.
