@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "Common/Accel/Build/BinnedSplit.h"
+#include "Common/Core/LargePages.h"
 #include "Common/Core/Parallel.h"
 
 namespace rt::accel {
@@ -301,11 +302,11 @@ std::optional<Bvh> Builder::build() {
     Bvh bvh;
     if (input_.boxes.empty()) return bvh;
     const std::size_t count = input_.boxes.size();
-    buffers_[0].resize(count);
+    resizeLarge(buffers_[0], count);
     const Range all = prepareItems();
     release(input_.boxes);
-    buffers_[1].resize(count);
-    items_.resize(count);
+    resizeLarge(buffers_[1], count);
+    resizeLarge(items_, count);
 
     bvh.nodes.push_back({all.box.box(), 0, 0});
     std::vector<Range> large, tasks;
@@ -330,7 +331,7 @@ std::optional<Bvh> Builder::build() {
         offsets[i] = total;
         total += trees[i].size() - 1;
     }
-    bvh.nodes.resize(total);
+    resizeLarge(bvh.nodes, total);
     parallelFor(settings_.threads, tasks.size(), [&](std::size_t i) {
         for (std::size_t n = 0; n < trees[i].size(); ++n) {
             BvhNode node = trees[i][n];

@@ -7,6 +7,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/LargePages.h"
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
@@ -43,7 +44,7 @@ shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
 template <typename T>
 void makeRoom(std::vector<T>& values, std::size_t count) {
     if (const std::size_t needed = values.size() + count; needed > values.capacity())
-        values.reserve(std::max(needed, 2 * values.size()));
+        reserveLarge(values, std::max(needed, 2 * values.size()));
 }
 
 bool isExcluded(Part part, bool isShareable) {
@@ -111,6 +112,16 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
     return static_cast<std::uint32_t>(out_.lights.size() - 1);
 }
 
+void PrimitiveSink::expect(const std::vector<ObjectDesc>& objects) {
+    std::size_t spheres = 0, quads = 0;
+    for (const ObjectDesc& object : objects) {
+        spheres += std::holds_alternative<SphereDesc>(object.shape);
+        quads += std::holds_alternative<QuadDesc>(object.shape);
+    }
+    makeRoom(out_.spheres, spheres);
+    makeRoom(out_.quads, quads);
+}
+
 // ---- spheres -------------------------------------------------------------------------------------------------------
 
 void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
@@ -120,6 +131,7 @@ void PrimitiveSink::add(const SphereDesc& object, const Placement& at) {
 
 void PrimitiveSink::add(const SphereSetDesc& object, const Placement& at) {
     const SphereFrame frame = frameOf(object, at);
+    makeRoom(out_.spheres, object.centers.size());
     for (const glm::dvec3& center : object.centers) sphere(center, glm::dvec3(0), object.radius, frame);
 }
 

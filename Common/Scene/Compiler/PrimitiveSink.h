@@ -37,6 +37,9 @@ class PrimitiveSink {
   public:
     PrimitiveSink(CompiledScene& out, MaterialTable& materials) : out_(out), materials_(materials) {}
 
+    // Makes room for those of the objects that are one primitive each; they are added one by one.
+    void expect(const std::vector<ObjectDesc>& objects);
+
     void add(const SphereDesc& sphere, const Placement& at);
     void add(const SphereSetDesc& spheres, const Placement& at);
     void add(const QuadDesc& quad, const Placement& at);

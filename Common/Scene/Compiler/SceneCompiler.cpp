@@ -61,8 +61,9 @@ class Compiler {
 
     void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
         Placement at = parent;
+        sink_.expect(objects);
         for (std::size_t i = 0; i < objects.size(); ++i) {
-            at.place = parent.place + "/" + std::to_string(i);
+            at.place.assign(parent.place).append("/").append(std::to_string(i));
             std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
         }
     }
