@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <new>
 
-#include "Common/Core/LargePages.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
-#include "Common/Core/LargePages.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt {
 

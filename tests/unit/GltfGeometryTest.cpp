@@ -10,6 +10,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
@@ -285,6 +286,18 @@ TEST_F(Gltf, PunctualLights) {
     EXPECT_EQ(scene.background, Background(ConstantBackground{}));
     gltf.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 3}}}}}});
     EXPECT_THROW(load(), InputError);
+}
+
+TEST(FramingCamera, IsOneThatASceneFileMayHave) {
+    for (const double size : {0.0, 1e-300, 1e-12, 1e-9, 1.0, 1e9, 1e18, 1e300})
+        for (const double offset : {0.0, 1e-9, 1.0, 1e6, 1e9, 1e18}) {
+            Bounds bounds;
+            bounds.add(glm::dvec3(offset, 0, -offset));
+            bounds.add(glm::dvec3(offset + size, size, size - offset));
+            SceneDesc framed;
+            framed.camera = framingCamera(bounds);
+            EXPECT_EQ(parseScene(toJson(framed), "a.json", {}).camera, framed.camera) << size << " at " << offset;
+        }
 }
 
 TEST_F(Gltf, WithoutACameraAllIsInSight) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/LargePages.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <utility>
 
-#include "Common/Core/LargePages.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {

@@ -6,8 +6,8 @@
 #include <glm/geometric.hpp>
 
 #include "Common/Core/Interruption.h"
-#include "Common/Core/LargePages.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Json/SceneReader.h"
