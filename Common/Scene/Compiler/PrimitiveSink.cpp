@@ -21,7 +21,8 @@ namespace {
 constexpr double kMaxCoordinate = 4e9;
 constexpr double kMinRadius = 1e-9;
 constexpr double kMinArea = 1e-18;
-constexpr std::size_t kChunk = 1u << 13; // vertices or triangles that a thread converts at a time
+constexpr std::size_t kChunk = 1u << 13;        // vertices or triangles that a thread converts at a time
+constexpr std::size_t kManyVertices = 1u << 18; // beside whose memory it is worth milliseconds to give some back
 
 bool representable(const glm::dvec3& v) {
     return std::abs(v.x) <= kMaxCoordinate && std::abs(v.y) <= kMaxCoordinate && std::abs(v.z) <= kMaxCoordinate;
@@ -322,6 +323,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     }
     release(order);
     release(renamed);
+    if (uses.size() > kManyVertices) releaseFreedMemory();
     const auto append = [&uses](auto& to, const auto& from, const auto& converted) {
         if (from.empty()) return;
         const std::size_t first = to.size();

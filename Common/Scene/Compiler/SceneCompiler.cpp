@@ -1,6 +1,5 @@
 #include "Common/Scene/Compiler/SceneCompiler.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -142,9 +141,10 @@ class Compiler {
         PrimitiveCounts sum;
         count(desc_.objects, 1, sum);
         for (const auto& [name, prototype] : plan.prototypes()) {
-            const auto baked = std::count_if(prototype.occurrences.begin(), prototype.occurrences.end(),
-                                             [&](const Occurrence& o) { return !prototype.isShared || o.isBaked(); });
-            count(*prototype.objects, static_cast<std::size_t>(baked) + (prototype.isShared ? 1 : 0), sum);
+            std::size_t times = prototype.isShared ? 1 : 0;
+            for (const Occurrence& occurrence : prototype.occurrences)
+                times += !prototype.isShared || occurrence.isBaked() ? 1 : 0;
+            count(*prototype.objects, times, sum);
         }
         return sum;
     }
