@@ -72,18 +72,11 @@ std::array<float, 256> makeSrgbTable() {
     return table;
 }
 
-// Descents through a large tree of lights jump about in it, and so does what they end at.
-template <class T>
-accel::LargeArray<T> copyToLargePages(const std::vector<T>& records) {
-    accel::LargeArray<T> copy(records.size());
-    std::copy(records.begin(), records.end(), copy.data());
-    return copy;
-}
-
 // A scene with everything that tracing it on the CPU needs.
 struct PreparedScene {
     std::shared_ptr<const scene::CompiledScene> compiled;
     std::unique_ptr<const accel::CpuAccel> accel;
+    // Descents through a large tree of lights jump about in it, and so does what they end at.
     accel::LargeArray<shared::LightNode> lightNodes;
     accel::LargeArray<shared::Light> lights; // if there are many
     std::array<float, 256> srgbToLinear = makeSrgbTable();
@@ -119,8 +112,8 @@ class CpuEngine final : public app::Engine {
         prepared->accel = accel::CpuAccel::build(input, build, cancel);
         if (!prepared->accel) return false;
         if (!s.lightNodes.empty()) {
-            prepared->lightNodes = copyToLargePages(s.lightNodes);
-            prepared->lights = copyToLargePages(s.lights);
+            prepared->lightNodes = accel::LargeArray<shared::LightNode>(s.lightNodes);
+            prepared->lights = accel::LargeArray<shared::Light>(s.lights);
         }
         prepared->compiled = std::move(compiled);
         prepared->view = makeView(*prepared, set_);

@@ -10,13 +10,15 @@
 #include "Common/Accel/QuantizedBvh.h"
 #include "Common/Accel/WideBvh.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Shared/Base/Features.h"
 
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kLeafChunk = 1u << 10;  // leaves whose blocks are filled at a time
-constexpr std::size_t kLargeBytes = 1u << 20; // of a tree that traversal fetches ahead
+constexpr std::size_t kLeafChunk = 1u << 10;      // leaves whose blocks are filled at a time
+constexpr std::size_t kLargeBytes = 1u << 20;     // of a tree that traversal fetches ahead
+constexpr std::size_t kManyPrimitives = 1u << 16; // beside whose memory it is worth a millisecond to give some back
 
 // One geometry's tree between its construction and the filling of its leaf blocks.
 struct BuiltTree {
@@ -123,10 +125,10 @@ void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) co
 
 void Assembly::fill(AccelStorage& storage) {
     const auto blocks = [&](LeafKind kind) { return blocks_.of[static_cast<std::uint32_t>(kind)]; };
-    storage.nodes = LargeArray<WideNode>(nodes_.size());
-    std::copy(nodes_.begin(), nodes_.end(), storage.nodes.data());
-    storage.quantizedNodes = LargeArray<QuantizedNode>(quantized_.nodes.size());
-    std::copy(quantized_.nodes.begin(), quantized_.nodes.end(), storage.quantizedNodes.data());
+    storage.nodes = LargeArray<WideNode>(std::exchange(nodes_, {}));
+    storage.quantizedNodes = LargeArray<QuantizedNode>(std::exchange(quantized_.nodes, {}));
+    // With the trees and what it took to build them.
+    if (input_.spheres.size() + input_.quads.size() + input_.triangles.size() > kManyPrimitives) releaseFreedMemory();
     storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
     storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));
     storage.quads = LargeArray<QuadBlock>(blocks(LeafKind::Quad));

@@ -3,14 +3,11 @@
 #include <cstdint>
 #include <new>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kLargePage = std::size_t{1} << 21;
 constexpr std::size_t kAlignment = 64;
 
 // From half a large page on, memory is whole large pages.
@@ -28,9 +25,7 @@ void* allocateLarge(std::size_t bytes) {
     if (!isLarge(bytes)) return ::operator new(bytes, alignment(bytes));
     const std::size_t whole = (bytes + kLargePage - 1) / kLargePage * kLargePage;
     void* memory = ::operator new(whole, alignment(bytes));
-#if defined(__linux__)
-    madvise(memory, whole, MADV_HUGEPAGE); // a wish: failure changes nothing
-#endif
+    preferLargePages(memory, whole);
     return memory;
 }
 

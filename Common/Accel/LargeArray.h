@@ -1,9 +1,11 @@
 // A fixed number of uninitialised records, on large pages where the system offers them: a ray that jumps about in a
 // large tree otherwise spends much of its time on address translation.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <type_traits>
+#include <vector>
 
 namespace rt::accel {
 
@@ -20,6 +22,10 @@ class LargeArray {
     explicit LargeArray(std::size_t count)
         : data_(count == 0 ? nullptr : static_cast<T*>(allocateLarge(count * sizeof(T))), Free{count * sizeof(T)}),
           size_(count) {}
+
+    explicit LargeArray(const std::vector<T>& records) : LargeArray(records.size()) {
+        std::copy(records.begin(), records.end(), data());
+    }
 
     T* data() const { return data_.get(); }
     std::size_t size() const { return size_; }

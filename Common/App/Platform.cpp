@@ -26,9 +26,6 @@
 #ifdef __linux__
 #include <sys/syscall.h>
 #endif
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 #include "Common/Core/Error.h"
 
@@ -37,12 +34,6 @@ extern char** environ; // POSIX names it, and leaves its declaration to the prog
 #endif
 
 namespace rt::app {
-
-void releaseFreedMemory() {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-}
 
 #ifdef _WIN32
 

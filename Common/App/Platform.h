@@ -17,8 +17,6 @@ bool hasDisplay(); // false where a window cannot be opened for want of a screen
 std::filesystem::path userConfigDirectory();
 std::uint64_t residentBytes();  // of this process at present; 0 where unknown
 std::uint64_t machineBytes();   // of memory that it has; 0 where unknown
-// Gives memory that was freed back to the system, where its allocator keeps that of many small pieces.
-void releaseFreedMemory();
 std::uint32_t processorCount(); // of the machine, whichever of them this process may use
 double processorSeconds();      // that all threads of this process have run
 

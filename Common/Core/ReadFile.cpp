@@ -9,6 +9,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Paths.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt {
 
@@ -69,7 +70,7 @@ std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t
 
     std::vector<std::byte> content;
     try {
-        content.resize(static_cast<std::size_t>(size));
+        resizeLarge(content, static_cast<std::size_t>(size));
     } catch (const std::bad_alloc&) {
         fail("it does not fit into memory");
     }

@@ -23,7 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const auto* image = std::get_if<scene::ImageTexture>(&texture);
         namesFiles = namesFiles || (image && !image->image);
         if (image && image->image)
-            test::readOrRefuse([&] { image::decodeTexels(images.encoded(*image->image), "f.gltf"); });
+            test::readOrRefuse([&] { image::decodeTexels(images.encoded(*image->image), std::string("f.gltf")); });
     }
     // An error is a find, but for images in other files, which are not there.
     if (!namesFiles) scene::parseScene(scene::toJson(scene), "again.json", test::fuzzFolder().path());

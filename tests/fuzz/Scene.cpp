@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::filesystem::path& folder = test::fuzzFolder().path();
     scene::SceneDesc scene;
     try {
-        scene = scene::parseScene(std::string(test::textOf(data, size)), "f.json", folder);
+        scene = scene::parseScene(test::textOf(data, size), "f.json", folder);
     } catch (const InputError&) {
         return 0;
     }

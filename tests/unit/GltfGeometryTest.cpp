@@ -10,6 +10,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
@@ -28,7 +29,7 @@ class Gltf : public testing::Test {
         scene = load();
         const ObjectDesc* object = &scene.objects.at(0);
         if (const auto* group = std::get_if<GroupDesc>(&object->shape)) object = &group->objects.at(0);
-        return std::get<MeshData>(std::get<MeshDesc>(object->shape).source);
+        return *std::get<Indirect<MeshData>>(std::get<MeshDesc>(object->shape).source);
     }
     void placeTriangle() { gltf.addNode({{"mesh", gltf.addMesh(gltf.triangle())}}); }
 
@@ -287,6 +288,18 @@ TEST_F(Gltf, PunctualLights) {
     EXPECT_THROW(load(), InputError);
 }
 
+TEST(FramingCamera, IsOneThatASceneFileMayHave) {
+    for (const double size : {0.0, 1e-300, 1e-12, 1e-9, 1.0, 1e9, 1e18, 1e300})
+        for (const double offset : {0.0, 1e-9, 1.0, 1e6, 1e9, 1e18}) {
+            Bounds bounds;
+            bounds.add(glm::dvec3(offset, 0, -offset));
+            bounds.add(glm::dvec3(offset + size, size, size - offset));
+            SceneDesc framed;
+            framed.camera = framingCamera(bounds);
+            EXPECT_EQ(parseScene(toJson(framed), "a.json", {}).camera, framed.camera) << size << " at " << offset;
+        }
+}
+
 TEST_F(Gltf, WithoutACameraAllIsInSight) {
     placeTriangle();
     scene = load();
@@ -315,7 +328,7 @@ TEST_F(Gltf, BuffersMayLieBesideOrInTheText) {
     text.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
     GltfBuilder::write(folder / "c.gltf", text.json.dump());
     const SceneDesc inside = loadGltfScene(folder / "c.gltf");
-    EXPECT_EQ(std::get<MeshData>(std::get<MeshDesc>(inside.objects.at(0).shape).source).positions,
+    EXPECT_EQ(std::get<Indirect<MeshData>>(std::get<MeshDesc>(inside.objects.at(0).shape).source)->positions,
               (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 

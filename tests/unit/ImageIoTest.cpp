@@ -10,8 +10,10 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
 
 namespace rt::image {
@@ -130,6 +132,29 @@ TEST(ImageIo, PngOf16BitsKeepsThem) {
     EXPECT_EQ(rgba.srgb16, (std::vector<std::uint16_t>{0x1234, 0x5678, 0x9abc}));
     EXPECT_EQ(rgba.alpha16, (std::vector<std::uint16_t>{0x80ff}));
     EXPECT_TRUE(rgba.srgb8.empty() && rgba.alpha8.empty());
+}
+
+// From the file to what kernels read: colours decoded, opacity as it is, neither rounded to 8 bits.
+TEST(ImageIo, TexturesOf16BitsKeepColoursAndOpacity) {
+    const test::TempFolder folder;
+    const std::vector<std::uint16_t> values = {0x1234, 0x5678, 0x9abc, 0x80ff, 0xffff, 0, 1, 0x0003};
+    std::ofstream(folder / "a.png", std::ios::binary) << encodePng16(2, 1, PNG_COLOR_TYPE_RGB_ALPHA, values);
+    const auto compiled = app::compile(scene::parseScene(
+                                           R"({"textures": {"t": {"type": "image", "file": "a.png"}},
+                "materials": {"m": {"type": "principled", "base_color": "t", "roughness": 1,
+                                    "opacity": {"texture": "t", "channel": "alpha"}}},
+                "objects": [{"type": "sphere", "center": [0, 0, -5], "radius": 1, "material": "m"}]})",
+                                           "a.json", folder.path()),
+                                       false);
+    ASSERT_EQ(compiled->images.size(), 1u);
+    EXPECT_EQ(compiled->images[0].format, shared::kTexelLinearF32A);
+    ASSERT_EQ(compiled->texels.size(), values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double encoded = values[i] / 65535.0;
+        const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+        EXPECT_NEAR(std::bit_cast<float>(compiled->texels[i]), i % 4 == 3 ? encoded : linear, 1e-6) << i;
+    }
+    EXPECT_NE(compiled->features & shared::kFeatureOpacity, 0u);
 }
 
 // Content of a chunk that stands between header and rows; empty: there is none.

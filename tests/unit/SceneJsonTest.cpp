@@ -256,7 +256,7 @@ TEST(SceneJson, TheElementsOfALongArrayAreParsedOneByOne) {
     EXPECT_EQ(*json.element(1), Json::parse(R"({"y": [{}, {}]})"));
     Json whole = Json::parse(text);
     EXPECT_EQ(parseJson(text, file), whole);
-    whole["objects"] = {0, 0};
+    whole["objects"] = Json::array();
     EXPECT_EQ(*json.document(), whole);
     // What is not a list of objects is left to the parser.
     for (const char* other :
@@ -264,6 +264,17 @@ TEST(SceneJson, TheElementsOfALongArrayAreParsedOneByOne) {
           "{\"objects\": [{}, 1]}", "{\"objects\": [{}", "{\"objects\": [{}}", "{\"objects\": [{},]}",
           "{\"objects\": [{\"]}", "{\"a\": {", "{\"a", "{\"a\\", "{\"a\": \"\\"})
         EXPECT_EQ(count(other), 0u) << other;
+}
+
+TEST(SceneJson, NoKindOfObjectMakesTheOthersLarge) {
+    EXPECT_LE(sizeof(ObjectDesc), 1.25 * sizeof(SphereDesc)); // what a million spheres take
+    const MeshDesc mesh{MeshData{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {}, {{0, 1, 2}}}, "matte", true};
+    MeshDesc copy = mesh;
+    EXPECT_EQ(copy, mesh);
+    EXPECT_EQ(std::get<Indirect<MeshData>>(copy.source)->positions[1], glm::dvec3(1, 0, 0));
+    copy.source = MeshData{{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {}, {{0, 1, 2}}};
+    EXPECT_NE(copy, mesh);
+    EXPECT_EQ(std::get<Indirect<MeshData>>(mesh.source)->positions[1], glm::dvec3(1, 0, 0));
 }
 
 TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
@@ -280,6 +291,11 @@ TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {
     EXPECT_EQ(errorOf("{\"objects\": [\n{\"type\": tru}]}").rfind("test.json:2:13: ", 0), 0u);
     EXPECT_EQ(errorOf("{\"objects\": [{}, {\"type\": \"}]}").rfind("test.json:1:31: ", 0), 0u)
         << errorOf("{\"objects\": [{}, {\"type\": \"}]}");
+    // What follows them stands where it is in the file.
+    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}").rfind("test.json:2:23: ", 0), 0u)
+        << errorOf("{\"objects\": [{\"type\": 1},\n{\"type\": 2}], \"a\": tru}");
+    EXPECT_EQ(errorOf("{\"objects\": [{\"type\": 1},\n{}],\n\"objects\": []}"),
+              "test.json:3:9: key \"objects\" appears twice in one object");
     EXPECT_EQ(errorOf("{\"objects\": [{\"type\": " + std::string(300, '[') + "]}]}").find("test.json:1:"), 0u);
     EXPECT_EQ(errorOf(std::string(300, '[')), "test.json:1:258: values are nested deeper than 256");
     EXPECT_NE(errorOf(std::string("\0\0\0\0", 4)), "no error");

@@ -6,6 +6,7 @@
 
 #include "Common/Accel/Build/BinnedSplit.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {
@@ -34,12 +35,6 @@ struct Division {
     std::uint32_t group = 0;
 };
 
-// Gives back the memory of what is no longer needed: that of large scenes adds up.
-template <typename T>
-void release(std::vector<T>& values) {
-    std::vector<T>().swap(values);
-}
-
 class Builder {
   public:
     Builder(BvhInput& input, const BvhSettings& settings, const std::atomic<bool>* cancel,
@@ -65,7 +60,9 @@ class Builder {
     // The plane to divide at; by count where no plane helps; nothing if the range is to be a leaf.
     std::optional<Division> choose(const Range& range, const BinSums& sums, bool binned, bool isMixedLeaf) const;
     std::optional<Division> chooseForLeaf(const Range& range) const;
-    void partition(const Range& range, const Division& division, const Binning& binning, Range& left, Range& right);
+    void partition(const Range& range, const Division& division, const Binning& binning, ItemBox* scratch, Range& left,
+                   Range& right);
+    void gatherTasks(std::vector<Range>& tasks);
     void makeLeaf(const Range& range, std::vector<BvhNode>& nodes);
 
     BvhInput& input_;
@@ -74,7 +71,7 @@ class Builder {
     std::atomic<std::uint64_t>* itemsDone_;
     const bool grouped_;
     const std::uint32_t firstGroup_;
-    std::vector<ItemBox> buffers_[2]; // a range lies in one of them and uses the same part of the other as scratch
+    std::vector<ItemBox> buffers_[2]; // a range lies in one of them; those of tasks all in the first
     std::vector<std::uint32_t> items_;
 };
 
@@ -150,11 +147,10 @@ std::optional<Division> Builder::chooseForLeaf(const Range& range) const {
     return division;
 }
 
-// Divides within one thread; items stay in their order on the left, and on the right.
-void Builder::partition(const Range& range, const Division& division, const Binning& binning, Range& left,
-                        Range& right) {
+// Divides within one thread; items stay in their order on the left, and on the right. Scratch is as long as the range.
+void Builder::partition(const Range& range, const Division& division, const Binning& binning, ItemBox* scratch,
+                        Range& left, Range& right) {
     ItemBox* items = buffers_[range.buffer].data() + range.begin;
-    ItemBox* scratch = buffers_[1 - range.buffer].data() + range.begin;
     left = right = Range{};
     left.buffer = right.buffer = range.buffer;
     left.depth = right.depth = range.depth + 1;
@@ -206,6 +202,7 @@ void addChildren(std::vector<BvhNode>& nodes, std::uint32_t parent, Range& left,
 void Builder::buildTask(const Range& task, std::vector<BvhNode>& nodes) {
     nodes.reserve(task.size() / 2 + 1);
     nodes.push_back({task.box.box(), 0, 0});
+    std::vector<ItemBox> scratch(task.size());
     std::vector<Range> open{task};
     open.back().node = 0;
     while (!open.empty()) {
@@ -228,7 +225,7 @@ void Builder::buildTask(const Range& task, std::vector<BvhNode>& nodes) {
             continue;
         }
         Range left, right;
-        partition(range, *division, binning, left, right);
+        partition(range, *division, binning, scratch.data(), left, right);
         addChildren(nodes, range.node, left, right);
         open.push_back(right);
         open.push_back(left);
@@ -256,7 +253,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
     const std::optional<Division> division = choose(range, total, binning.hasExtent(), false);
     Range left, right;
     if (!division || division->by != Division::By::Plane) {
-        partition(range, division.value_or(Division{Division::By::Count, {}, 0}), binning, left, right);
+        partition(range, division.value_or(Division{Division::By::Count, {}, 0}), binning, target, left, right);
     } else {
         const Split& split = division->split;
         std::vector<std::array<std::uint32_t, 2>> starts(chunks.count); // where a chunk's items go on either side
@@ -297,15 +294,25 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
     }
 }
 
+// The second buffer goes before trees grow.
+void Builder::gatherTasks(std::vector<Range>& tasks) {
+    parallelFor(settings_.threads, tasks.size(), [&](std::size_t i) {
+        Range& task = tasks[i];
+        if (task.buffer == 1)
+            std::copy_n(buffers_[1].begin() + task.begin, task.size(), buffers_[0].begin() + task.begin);
+        task.buffer = 0;
+    });
+    release(buffers_[1]);
+}
+
 std::optional<Bvh> Builder::build() {
     Bvh bvh;
     if (input_.boxes.empty()) return bvh;
     const std::size_t count = input_.boxes.size();
-    buffers_[0].resize(count);
+    resizeLarge(buffers_[0], count);
     const Range all = prepareItems();
     release(input_.boxes);
-    buffers_[1].resize(count);
-    items_.resize(count);
+    resizeLarge(buffers_[1], count);
 
     bvh.nodes.push_back({all.box.box(), 0, 0});
     std::vector<Range> large, tasks;
@@ -316,13 +323,16 @@ std::optional<Bvh> Builder::build() {
         divideTogether(range, bvh.nodes, large, tasks);
     }
 
+    gatherTasks(tasks);
+    resizeLarge(items_, count);
+
     std::stable_sort(tasks.begin(), tasks.end(), [](const Range& a, const Range& b) { return a.size() > b.size(); });
     std::vector<std::vector<BvhNode>> trees(tasks.size());
     parallelFor(settings_.threads, tasks.size(), [&](std::size_t i) {
         if (!cancelled()) buildTask(tasks[i], trees[i]);
     });
     if (cancelled()) return std::nullopt;
-    for (std::vector<ItemBox>& buffer : buffers_) release(buffer);
+    release(buffers_[0]);
 
     std::vector<std::size_t> offsets(tasks.size()); // of a tree's second node; its root replaces the node of its task
     std::size_t total = bvh.nodes.size();
@@ -330,7 +340,7 @@ std::optional<Bvh> Builder::build() {
         offsets[i] = total;
         total += trees[i].size() - 1;
     }
-    bvh.nodes.resize(total);
+    resizeLarge(bvh.nodes, total);
     parallelFor(settings_.threads, tasks.size(), [&](std::size_t i) {
         for (std::size_t n = 0; n < trees[i].size(); ++n) {
             BvhNode node = trees[i][n];

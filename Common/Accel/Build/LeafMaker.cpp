@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {
@@ -15,7 +16,7 @@ Reference reference(std::uint32_t kind, std::uint32_t firstBlock, std::uint32_t 
 
 LeafMaker::LeafMaker(const Bvh& bvh, std::span<const std::uint8_t> kinds, BlockCounts& blocks, LeafFilling& filling)
     : bvh_(bvh), kinds_(kinds), blocks_(blocks), filling_(filling) {
-    filling_.items.reserve(bvh.items.size());
+    reserveLarge(filling_.items, bvh.items.size());
 }
 
 Reference LeafMaker::make(const BvhNode& leaf) {

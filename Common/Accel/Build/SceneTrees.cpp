@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::accel {
 namespace {
@@ -24,7 +25,8 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
     const auto buildTree = [&](std::uint32_t geometry, std::vector<std::uint32_t> instances) {
         SceneTree tree{geometry, TreeItems(input, input.geometries[geometry], std::move(instances)), {}, {}};
         if (tree.items.size() == 0) return true;
-        std::vector<Box> boxes(tree.items.size());
+        std::vector<Box> boxes;
+        resizeLarge(boxes, tree.items.size());
         const Chunks chunks(boxes.size(), kBoxChunk);
         parallelFor(settings.threads, chunks.count, [&](std::size_t chunk) {
             for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {

@@ -11,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Interactive/CameraController.h"
-#include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"

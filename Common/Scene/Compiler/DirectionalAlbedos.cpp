@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "Common/Core/Parallel.h"
 #include "Common/Shared/Material/Bsdf.h"
 
 namespace rt::scene {
@@ -74,14 +75,14 @@ float glass(float cosine, float alpha, float eta) {
 }
 
 std::vector<vec3> makeTable() {
-    std::vector<vec3> table;
-    table.reserve(kAlbedoSteps * kAlbedoSteps);
-    for (uint row = 0; row < kAlbedoSteps; ++row)
+    std::vector<vec3> table(kAlbedoSteps * kAlbedoSteps);
+    parallelFor(0, kAlbedoSteps, [&](std::size_t row) {
         for (uint column = 0; column < kAlbedoSteps; ++column) {
             const float roughness = static_cast<float>(row) / (kAlbedoSteps - 1);
             const float cosine = static_cast<float>(column) / (kAlbedoSteps - 1);
-            table.emplace_back(vec3(facets(cosine, square(roughness)), sheen(cosine, roughness)));
+            table[row * kAlbedoSteps + column] = vec3(facets(cosine, square(roughness)), sheen(cosine, roughness));
         }
+    });
     return table;
 }
 
@@ -93,13 +94,14 @@ const std::vector<vec3>& directionalAlbedos() {
 }
 
 std::vector<float> glassAlbedos(float ior) {
-    std::vector<float> table;
-    table.reserve(std::size_t{2} * kAlbedoSteps * kAlbedoSteps);
-    for (const float eta : {1.0f / ior, ior})
-        for (uint row = 0; row < kAlbedoSteps; ++row)
-            for (uint column = 0; column < kAlbedoSteps; ++column)
-                table.push_back(glass(static_cast<float>(column) / (kAlbedoSteps - 1),
-                                      square(static_cast<float>(row) / (kAlbedoSteps - 1)), eta));
+    std::vector<float> table(std::size_t{2} * kAlbedoSteps * kAlbedoSteps);
+    parallelFor(0, std::size_t{2} * kAlbedoSteps, [&](std::size_t i) { // rows leaving, then rows entering
+        const float eta = i < kAlbedoSteps ? 1.0f / ior : ior;
+        const float roughness = static_cast<float>(i % kAlbedoSteps) / (kAlbedoSteps - 1);
+        for (uint column = 0; column < kAlbedoSteps; ++column)
+            table[i * kAlbedoSteps + column] =
+                glass(static_cast<float>(column) / (kAlbedoSteps - 1), square(roughness), eta);
+    });
     return table;
 }
 

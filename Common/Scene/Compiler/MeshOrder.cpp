@@ -5,11 +5,15 @@
 
 #include <glm/common.hpp>
 
+#include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
+
 namespace rt::scene {
 
 namespace {
 
-constexpr std::uint32_t kBits = 10; // per axis
+constexpr std::uint32_t kBits = 10;      // per axis
+constexpr std::size_t kChunk = 1u << 13; // triangles that a thread gives their codes at a time
 
 // Two zero bits between the lowest ten.
 std::uint32_t spread(std::uint32_t x) {
@@ -26,7 +30,8 @@ struct Keyed {
 
 // Stable, least significant digit first.
 void radixSort(std::vector<Keyed>& items) {
-    std::vector<Keyed> other(items.size());
+    std::vector<Keyed> other;
+    resizeLarge(other, items.size());
     for (std::uint32_t shift = 0; shift < 3 * kBits; shift += kBits) {
         std::array<std::size_t, 1u << kBits> starts{};
         const auto digit = [shift](const Keyed& item) { return item.code >> shift & ((1u << kBits) - 1); };
@@ -60,14 +65,17 @@ void orderAlongCurve(const std::vector<glm::vec3>& positions, const WoundTriangl
     }
     const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-30f));
     const float cells = 1u << kBits;
-    std::vector<Keyed> keys(order.size());
-    for (std::size_t k = 0; k < keys.size(); ++k) {
-        const glm::vec3 unit = (middle(order[k]) - lower) / size;
-        const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));
-        keys[k] = {spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
-                       spread(static_cast<std::uint32_t>(cell.z)) << 2,
-                   order[k]};
-    }
+    std::vector<Keyed> keys;
+    resizeLarge(keys, order.size());
+    parallelChunks(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const glm::vec3 unit = (middle(order[k]) - lower) / size;
+            const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));
+            keys[k] = {spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
+                           spread(static_cast<std::uint32_t>(cell.z)) << 2,
+                       order[k]};
+        }
+    });
     radixSort(keys);
     for (std::size_t k = 0; k < keys.size(); ++k) order[k] = keys[k].index;
 }

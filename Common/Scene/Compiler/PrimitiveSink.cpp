@@ -7,6 +7,8 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
@@ -19,6 +21,8 @@ namespace {
 constexpr double kMaxCoordinate = 4e9;
 constexpr double kMinRadius = 1e-9;
 constexpr double kMinArea = 1e-18;
+constexpr std::size_t kChunk = 1u << 13;        // vertices or triangles that a thread converts at a time
+constexpr std::size_t kManyVertices = 1u << 18; // beside whose memory it is worth milliseconds to give some back
 
 bool representable(const glm::dvec3& v) {
     return std::abs(v.x) <= kMaxCoordinate && std::abs(v.y) <= kMaxCoordinate && std::abs(v.z) <= kMaxCoordinate;
@@ -37,13 +41,6 @@ shared::vec4 tangentOf(const glm::dvec4& authored, const Affine& map) {
     if (!(glm::dot(along, along) > 0) || !representable(along)) return shared::vec4(0.0f);
     const double sign = (authored.w < 0) != map.mirrors() ? -1 : 1;
     return shared::vec4(glm::dvec4(glm::normalize(along), sign));
-}
-
-// For `count` more elements: all at once where they are many, and as a vector does where they come in small pieces.
-template <typename T>
-void makeRoom(std::vector<T>& values, std::size_t count) {
-    if (const std::size_t needed = values.size() + count; needed > values.capacity())
-        values.reserve(std::max(needed, 2 * values.size()));
 }
 
 bool isExcluded(Part part, bool isShareable) {
@@ -109,6 +106,18 @@ std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t mate
     light.sides = out_.materials[material].emissionSides;
     out_.lights.push_back(light);
     return static_cast<std::uint32_t>(out_.lights.size() - 1);
+}
+
+void PrimitiveSink::expect(const PrimitiveCounts& counts) {
+    reserveLarge(out_.spheres, counts.spheres);
+    reserveLarge(out_.quads, counts.quads);
+    reserveLarge(out_.triangles, counts.triangles);
+    reserveLarge(out_.triangleMesh, counts.triangles);
+    reserveLarge(out_.positions, counts.positions);
+    reserveLarge(out_.normals, counts.normals);
+    reserveLarge(out_.uvs, counts.uvs);
+    reserveLarge(out_.colors, counts.colors);
+    reserveLarge(out_.tangents, counts.tangents);
 }
 
 // ---- spheres -------------------------------------------------------------------------------------------------------
@@ -246,23 +255,30 @@ void PrimitiveSink::quad(const glm::dvec3& corner, const glm::dvec3& u, const gl
 void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool light, const Placement& at) {
     if (isExcluded(at.part, !emits(own))) return;
     const Affine map = at.outer * at.local;
-    std::vector<shared::vec3> positions(data.positions.size());
-    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
+    std::vector<shared::vec3> positions;
+    resizeLarge(positions, data.positions.size());
+    parallelChunks(positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
+    });
 
     const WoundTriangles triangles{data.triangles, map.mirrors()};
+    std::vector<std::uint8_t> isFlat(data.triangles.size());
+    parallelChunks(isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            interruptionPoint();
+            const glm::uvec3& t = data.triangles[i];
+            if (std::max({t.x, t.y, t.z}) >= positions.size())
+                throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
+                                 std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
+            isFlat[i] = doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0);
+        }
+    });
     std::vector<std::uint32_t> order; // of those that are kept
-    order.reserve(data.triangles.size());
-    for (std::uint32_t i = 0; i < data.triangles.size(); ++i) {
-        interruptionPoint();
-        const glm::uvec3& t = data.triangles[i];
-        if (std::max({t.x, t.y, t.z}) >= positions.size())
-            throw InputError(out_.id + ": " + at.place + ": a triangle refers to vertex " +
-                             std::to_string(std::max({t.x, t.y, t.z})) + " of " + std::to_string(positions.size()));
-        if (doubleArea(positions[t.x], positions[t.y], positions[t.z]) == glm::dvec3(0))
-            ++dropped_.triangles;
-        else
-            order.push_back(i);
-    }
+    reserveLarge(order, data.triangles.size());
+    for (std::uint32_t i = 0; i < data.triangles.size(); ++i)
+        if (!isFlat[i]) order.push_back(i);
+    release(isFlat);
+    dropped_.triangles += data.triangles.size() - order.size();
     if (order.empty()) return;
     orderAlongCurve(positions, triangles, order);
 
@@ -276,42 +292,26 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     mesh.firstUv2 = data.uvs2.empty() ? shared::kNone : 0u; // known when the first set is complete
     mesh.firstColor = data.colors.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.colors.size());
     mesh.firstTangent = data.tangents.empty() ? shared::kNone : static_cast<std::uint32_t>(out_.tangents.size());
-    std::vector<shared::vec2> uvs2;
     const bool hasLights = isLight(mesh.material, light);
     mesh.firstLight = hasLights ? static_cast<std::uint32_t>(out_.lights.size()) : shared::kNone;
     const glm::dmat3 normalMap = data.normals.empty() ? glm::dmat3(1) : glm::transpose(glm::inverse(map.linear));
 
-    const std::size_t vertices = positions.size();
-    makeRoom(out_.triangles, order.size());
-    makeRoom(out_.triangleMesh, order.size());
-    makeRoom(out_.positions, vertices);
-    if (!data.normals.empty()) makeRoom(out_.normals, vertices);
-    if (!data.uvs.empty()) makeRoom(out_.uvs, vertices);
-    if (!data.colors.empty()) makeRoom(out_.colors, vertices);
-    if (!data.tangents.empty()) makeRoom(out_.tangents, vertices);
-
     // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
-    std::vector<std::uint32_t> renamed(positions.size(), shared::kNone);
+    struct Use {
+        std::uint32_t vertex, triangle;
+    };
+    std::vector<Use> uses; // the first of each
+    reserveLarge(uses, positions.size());
+    std::vector<std::uint32_t> renamed;
+    resizeLarge(renamed, positions.size(), shared::kNone);
     for (const std::uint32_t i : order) {
         interruptionPoint();
         const glm::uvec3 t = triangles[i];
         for (int corner = 0; corner < 3; ++corner) {
             std::uint32_t& name = renamed[t[corner]];
-            if (name == shared::kNone) {
-                name = static_cast<std::uint32_t>(out_.positions.size());
-                out_.positions.push_back(positions[t[corner]]);
-                bounds_.add(positions[t[corner]]);
-                if (!data.uvs.empty()) out_.uvs.emplace_back(data.uvs[t[corner]]);
-                if (!data.uvs2.empty()) uvs2.emplace_back(data.uvs2[t[corner]]);
-                if (!data.colors.empty()) out_.colors.emplace_back(data.colors[t[corner]]);
-                if (!data.tangents.empty()) out_.tangents.push_back(tangentOf(data.tangents[t[corner]], map));
-                if (!data.normals.empty()) {
-                    glm::dvec3 normal = normalMap * data.normals[t[corner]];
-                    if (!(glm::dot(normal, normal) > 0) || !representable(normal))
-                        normal = doubleArea(positions[t.x], positions[t.y], positions[t.z]);
-                    out_.normals.emplace_back(glm::normalize(normal));
-                }
-            }
+            if (name != shared::kNone) continue;
+            name = mesh.firstVertex + static_cast<std::uint32_t>(uses.size());
+            uses.push_back({t[corner], i});
         }
         out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
         out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
@@ -321,10 +321,32 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
             appendLight(record, mesh.material);
         }
     }
-    if (!data.uvs2.empty()) {
-        mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
-        out_.uvs.insert(out_.uvs.end(), uvs2.begin(), uvs2.end());
-    }
+    release(order);
+    release(renamed);
+    if (uses.size() > kManyVertices) releaseFreedMemory();
+    const auto append = [&uses](auto& to, const auto& from, const auto& converted) {
+        if (from.empty()) return;
+        const std::size_t first = to.size();
+        to.resize(first + uses.size());
+        parallelChunks(uses.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+            interruptionPoint();
+            for (std::size_t i = begin; i < end; ++i) to[first + i] = converted(from[uses[i].vertex], uses[i].triangle);
+        });
+    };
+    const auto uvOf = [](const glm::dvec2& uv, std::uint32_t) { return shared::vec2(uv); };
+    append(out_.positions, positions, [](const shared::vec3& position, std::uint32_t) { return position; });
+    append(out_.uvs, data.uvs, uvOf);
+    if (!data.uvs2.empty()) mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
+    append(out_.uvs, data.uvs2, uvOf);
+    append(out_.colors, data.colors, [](const glm::dvec4& color, std::uint32_t) { return shared::vec4(color); });
+    append(out_.tangents, data.tangents, [&](const glm::dvec4& t, std::uint32_t) { return tangentOf(t, map); });
+    append(out_.normals, data.normals, [&](const glm::dvec3& authored, std::uint32_t triangle) {
+        const glm::dvec3 normal = normalMap * authored;
+        if (glm::dot(normal, normal) > 0 && representable(normal)) return shared::vec3(glm::normalize(normal));
+        const glm::uvec3 t = triangles[triangle];
+        return shared::vec3(glm::normalize(doubleArea(positions[t.x], positions[t.y], positions[t.z])));
+    });
+    for (std::size_t i = mesh.firstVertex; i < out_.positions.size(); ++i) bounds_.add(out_.positions[i]);
     out_.meshes.push_back(mesh);
 }
 

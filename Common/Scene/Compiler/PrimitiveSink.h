@@ -33,9 +33,17 @@ struct Ellipsoid {
     std::uint32_t light; // kNone: it is none
 };
 
+struct PrimitiveCounts {
+    std::size_t spheres = 0, quads = 0, triangles = 0;
+    std::size_t positions = 0, normals = 0, uvs = 0, colors = 0, tangents = 0; // of meshes
+};
+
 class PrimitiveSink {
   public:
     PrimitiveSink(CompiledScene& out, MaterialTable& materials) : out_(out), materials_(materials) {}
+
+    // Makes room for what comes: arrays that grow are copied again and again.
+    void expect(const PrimitiveCounts& counts);
 
     void add(const SphereDesc& sphere, const Placement& at);
     void add(const SphereSetDesc& spheres, const Placement& at);

@@ -45,6 +45,7 @@ class Compiler {
         const Affine toWorld = translation(-out_->origin);
         const InstancePlan plan(desc_, materials_, models_, toWorld);
         textures_.loadImages(texturesInUse(desc_, plan, materials_, models_));
+        sink_.expect(total(plan));
         emitWorld(plan, toWorld);
         emitSharedGeometries(plan);
         emitEllipsoids();
@@ -62,7 +63,7 @@ class Compiler {
     void emit(const std::vector<ObjectDesc>& objects, const Placement& parent) {
         Placement at = parent;
         for (std::size_t i = 0; i < objects.size(); ++i) {
-            at.place = parent.place + "/" + std::to_string(i);
+            at.place.assign(parent.place).append("/").append(std::to_string(i));
             std::visit([&](const auto& object) { emitOne(object, at); }, objects[i].shape);
         }
     }
@@ -106,6 +107,46 @@ class Compiler {
         Bounds cube;
         cube.add(glm::dvec3(0), 1);
         bounds_.add(cube, boundary);
+    }
+
+    // ---- totals -----------------------------------------------------------------------------------------------------
+
+    // Of objects that are added so many times.
+    void count(const std::vector<ObjectDesc>& objects, std::size_t times, PrimitiveCounts& sum) {
+        for (const ObjectDesc& object : objects) {
+            const auto& shape = object.shape;
+            if (std::holds_alternative<SphereDesc>(shape))
+                sum.spheres += times;
+            else if (const auto* spheres = std::get_if<SphereSetDesc>(&shape))
+                sum.spheres += times * spheres->centers.size();
+            else if (std::holds_alternative<QuadDesc>(shape))
+                sum.quads += times;
+            else if (std::holds_alternative<BoxDesc>(shape))
+                sum.quads += 6 * times;
+            else if (const auto* group = std::get_if<GroupDesc>(&shape))
+                count(group->objects, times, sum);
+            else if (const auto* mesh = std::get_if<MeshDesc>(&shape))
+                for (const ModelCache::Part& part : models_.parts(*mesh)) {
+                    sum.triangles += times * part.mesh->triangles.size();
+                    sum.positions += times * part.mesh->positions.size();
+                    sum.normals += times * part.mesh->normals.size();
+                    sum.uvs += times * (part.mesh->uvs.size() + part.mesh->uvs2.size());
+                    sum.colors += times * part.mesh->colors.size();
+                    sum.tangents += times * part.mesh->tangents.size();
+                }
+        }
+    }
+
+    PrimitiveCounts total(const InstancePlan& plan) {
+        PrimitiveCounts sum;
+        count(desc_.objects, 1, sum);
+        for (const auto& [name, prototype] : plan.prototypes()) {
+            std::size_t times = prototype.isShared ? 1 : 0;
+            for (const Occurrence& occurrence : prototype.occurrences)
+                times += !prototype.isShared || occurrence.isBaked() ? 1 : 0;
+            count(*prototype.objects, times, sum);
+        }
+        return sum;
     }
 
     // ---- geometries and instances ----------------------------------------------------------------------------------
@@ -208,9 +249,13 @@ class Compiler {
         }
     }
 
-    // Arrays were made without knowing their length.
+    // Some arrays were made without knowing their length. What nobody has touched of others takes no memory.
+    template <typename T>
+    static void shrink(std::vector<T>& values) {
+        if (values.capacity() - values.size() > values.size() / 8) values.shrink_to_fit();
+    }
     void finish() {
-#define RT_SHRINK(type, name, ...) out_->name.shrink_to_fit();
+#define RT_SHRINK(type, name, ...) shrink(out_->name);
         RT_SCENE_ARRAYS(RT_SHRINK, RT_SHRINK)
 #undef RT_SHRINK
         shared::SceneGlobals& globals = out_->globals;

@@ -10,6 +10,7 @@
 
 #include <glm/common.hpp>
 
+#include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::scene {
@@ -125,7 +126,8 @@ template <int N, typename Element>
 std::vector<Element> readElements(const GltfFile& file, int index, const std::vector<std::uint32_t>* elements) {
     const tinygltf::Accessor& accessor = at(file, index);
     if (accessor.type != typeOf(N)) fail(file, index, std::string("type: must be ") + nameOf(N));
-    std::vector<Element> values(elements ? elements->size() : accessor.count, Element(0));
+    std::vector<Element> values;
+    resizeLarge(values, elements ? elements->size() : accessor.count, Element(0));
     const auto component = [](Element& element, int c) -> double& {
         if constexpr (N == 1)
             return static_cast<void>(c), element;
@@ -197,7 +199,8 @@ std::vector<glm::dvec4> readColors(const GltfFile& file, int accessor, const std
 std::vector<std::uint32_t> readIndices(const GltfFile& file, int index) {
     const tinygltf::Accessor& accessor = at(file, index);
     if (accessor.type != TINYGLTF_TYPE_SCALAR) fail(file, index, "type: must be SCALAR");
-    std::vector<std::uint32_t> values(accessor.count, 0);
+    std::vector<std::uint32_t> values;
+    resizeLarge(values, accessor.count);
     withComponentType(accessor.componentType, [&](auto component) {
         using T = decltype(component);
         if constexpr (!std::is_unsigned_v<T>)

@@ -152,7 +152,7 @@ GltfFile readGltf(const fs::path& path) {
     const std::vector<std::byte> content = readFile(path, kMaxFileBytes);
     const std::string_view text = textOf(content, name);
     {
-        const nlohmann::json document = parseJson(std::string(text), name);
+        const nlohmann::json document = parseJson(text, name);
         const JsonNode root(document, name);
         file.notices = checkGltf(root);
         if (const auto buffers = root.find("buffers"))

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <vector>
 
 #include "Common/Core/Interruption.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
 #include "Common/Scene/Json/JsonNode.h"
@@ -15,6 +19,8 @@
 namespace rt::scene {
 
 namespace {
+
+constexpr std::size_t kManyVertices = 1u << 14; // of which attributes are read at the same time
 
 std::optional<int> attribute(const std::map<std::string, int>& attributes, const char* name) {
     const auto found = attributes.find(name);
@@ -29,12 +35,12 @@ std::vector<glm::uvec3> trianglesOf(const std::vector<std::uint32_t>& v, int mod
     std::vector<glm::uvec3> triangles;
     if (v.size() < 3) return triangles;
     if (mode == TINYGLTF_MODE_TRIANGLES) {
-        triangles.reserve(v.size() / 3);
+        reserveLarge(triangles, v.size() / 3);
         for (std::size_t i = 0; i + 2 < v.size(); i += 3) triangles.emplace_back(v[i], v[i + 1], v[i + 2]);
         return triangles;
     }
     const bool isStrip = mode == TINYGLTF_MODE_TRIANGLE_STRIP;
-    triangles.reserve(v.size() - 2);
+    reserveLarge(triangles, v.size() - 2);
     for (std::size_t i = 0; i + 2 < v.size(); ++i) {
         const glm::uvec3 t =
             isStrip ? glm::uvec3(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]) : glm::uvec3(v[i + 1], v[i + 2], v[0]);
@@ -161,14 +167,19 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
     std::optional<std::vector<std::uint32_t>> used;
     if (count > corners.size()) used = compact(corners);
     const std::vector<std::uint32_t>* elements = used ? &*used : nullptr;
-    mesh.triangles = trianglesOf(corners, primitive.mode);
 
     const VertexReader reader(file, primitive, use, elements, count, place);
-    mesh.positions = reader.vectors<3>("POSITION");
-    mesh.normals = reader.vectors<3>("NORMAL");
-    mesh.uvs = reader.uvs("TEXCOORD_0");
-    mesh.uvs2 = reader.uvs("TEXCOORD_1");
-    if (const auto colors = reader.find("COLOR_0")) mesh.colors = readColors(file, *colors, elements);
+    const std::function<void()> parts[] = {
+        [&] { mesh.triangles = trianglesOf(corners, primitive.mode); },
+        [&] { mesh.positions = reader.vectors<3>("POSITION"); },
+        [&] { mesh.normals = reader.vectors<3>("NORMAL"); },
+        [&] { mesh.uvs = reader.uvs("TEXCOORD_0"); },
+        [&] { mesh.uvs2 = reader.uvs("TEXCOORD_1"); },
+        [&] {
+            if (const auto colors = reader.find("COLOR_0")) mesh.colors = readColors(file, *colors, elements);
+        },
+    };
+    parallelFor(count < kManyVertices ? 1 : 0, std::size(parts), [&](std::size_t i) { parts[i](); });
     if (use.isOpaque)
         for (glm::dvec4& color : mesh.colors) color.a = 1;
     const bool needsTangents = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();

@@ -1,8 +1,8 @@
 #include "Common/Scene/Json/JsonText.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
-#include <span>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
@@ -12,11 +12,10 @@ namespace rt::scene {
 namespace {
 
 using Json = nlohmann::json;
-using Elements = std::span<const std::string_view>;
 
 constexpr std::size_t kMaxDepth = 256;
 
-std::string lineAndColumn(const std::string& text, std::size_t offset) {
+std::string lineAndColumn(std::string_view text, std::size_t offset) {
     offset = std::min(offset, text.size());
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(offset);
     const auto line = std::count(text.begin(), end, '\n') + 1;
@@ -34,7 +33,7 @@ std::string reason(const std::string& message) {
 
 // ---- parsing -------------------------------------------------------------------------------------------------------
 
-// Walks over a text and leaves word of how far; a 0 stands for each element that is left out.
+// Walks over a text, but for a part of it that is left out, and leaves word of how far.
 struct Reader {
     using iterator_category = std::input_iterator_tag;
     using value_type = char;
@@ -44,17 +43,12 @@ struct Reader {
 
     const char* at;
     const char** read;
-    const std::string_view* leftOut; // the next of them
-    const std::string_view* leftOutEnd;
+    std::string_view leftOut; // something follows it
 
-    bool isAtLeftOut() const { return leftOut != leftOutEnd && at == leftOut->data(); }
-    reference operator*() const {
-        static constexpr char kZero = '0';
-        return isAtLeftOut() ? kZero : *at;
-    }
+    const char* next() const { return at == leftOut.data() ? at + leftOut.size() : at; }
+    reference operator*() const { return *next(); }
     Reader& operator++() {
-        at += isAtLeftOut() ? (leftOut++)->size() : 1;
-        *read = at;
+        *read = at = next() + 1;
         return *this;
     }
     bool operator==(const Reader& other) const { return at == other.at; }
@@ -65,13 +59,12 @@ struct Reader {
 // square of an array's length once a callback watches it, and without one a repeated key goes unnoticed.
 class Builder : public nlohmann::json_sax<Json> {
   public:
-    Builder(const std::string& text, const std::string& file, std::string_view part, Elements leftOut)
+    Builder(std::string_view text, const std::string& file, std::string_view part, std::string_view leftOut)
         : text_(text), file_(file), part_(part), leftOut_(leftOut), read_(part.data()) {}
 
     LargeJson build() {
         const char* const end = part_.data() + part_.size();
-        const std::string_view* const none = leftOut_.data() + leftOut_.size();
-        Json::sax_parse(Reader{part_.data(), &read_, leftOut_.data(), none}, Reader{end, &read_, none, none}, this);
+        Json::sax_parse(Reader{part_.data(), &read_, leftOut_}, Reader{end, &read_, {}}, this);
         return std::move(root_);
     }
 
@@ -95,8 +88,11 @@ class Builder : public nlohmann::json_sax<Json> {
         return true;
     }
     bool parse_error(std::size_t, const std::string&, const Json::exception& error) override {
-        if (const auto* syntax = dynamic_cast<const Json::parse_error*>(&error))
-            failAt(offsetOf(part_.data()) + (syntax->byte > 0 ? syntax->byte - 1 : 0), reason(error.what()));
+        if (const auto* syntax = dynamic_cast<const Json::parse_error*>(&error)) {
+            const std::size_t offset = offsetOf(part_.data()) + (syntax->byte > 0 ? syntax->byte - 1 : 0);
+            const bool isBehind = !leftOut_.empty() && offset >= offsetOf(leftOut_.data());
+            failAt(offset + (isBehind ? leftOut_.size() : 0), reason(error.what()));
+        }
         fail(reason(error.what())); // a number that no double can hold
     }
 
@@ -130,10 +126,10 @@ class Builder : public nlohmann::json_sax<Json> {
         return true;
     }
 
-    const std::string& text_;
+    std::string_view text_;
     const std::string& file_;
     std::string_view part_; // of text_
-    Elements leftOut_;
+    std::string_view leftOut_;
     const char* read_;
     LargeJson root_;
     std::vector<Json*> open_; // arrays and objects around what comes next
@@ -141,6 +137,12 @@ class Builder : public nlohmann::json_sax<Json> {
 };
 
 // ---- finding the elements of an array ------------------------------------------------------------------------------
+
+constexpr std::array<bool, 256> kIsQuoteOrBracket = [] {
+    std::array<bool, 256> is{};
+    for (const unsigned char c : std::string_view("\"[]{}")) is[c] = true;
+    return is;
+}();
 
 // Looks at quotes and brackets only; whatever else is wrong shows when it is parsed. Positions beyond the end are the
 // end.
@@ -150,7 +152,9 @@ class Scanner {
 
     char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
     std::size_t position() const { return at_; }
-    void skipSpace() { at_ = std::min(text_.find_first_not_of(" \t\r\n", at_), text_.size()); }
+    void skipSpace() {
+        while (peek() == ' ' || peek() == '\n' || peek() == '\r' || peek() == '\t') ++at_;
+    }
     bool take(char expected) {
         if (peek() != expected) return false;
         ++at_;
@@ -170,8 +174,10 @@ class Scanner {
     std::string_view bracketed() {
         const std::size_t start = at_;
         std::size_t depth = 0;
-        for (at_ = text_.find_first_of("\"[]{}", at_); at_ < text_.size(); at_ = text_.find_first_of("\"[]{}", at_)) {
-            if (peek() == '"') {
+        for (;;) {
+            while (at_ < text_.size() && !kIsQuoteOrBracket[static_cast<unsigned char>(text_[at_])]) ++at_;
+            if (at_ == text_.size()) return {};
+            if (text_[at_] == '"') {
                 string();
                 continue;
             }
@@ -179,7 +185,6 @@ class Scanner {
             depth += bracket == '{' || bracket == '[' ? 1 : -1;
             if (depth == 0) return text_.substr(start, at_ - start);
         }
-        return {};
     }
 
   private:
@@ -235,16 +240,19 @@ LargeJson::~LargeJson() {
     takeApart(value_);
 }
 
-Json parseJson(const std::string& text, const std::string& file) {
+Json parseJson(std::string_view text, const std::string& file) {
     LargeJson root = Builder(text, file, text, {}).build();
     return std::move(*root);
 }
 
-LongJson::LongJson(const std::string& text, const std::string& file, const std::string& longArray)
+LongJson::LongJson(std::string_view text, const std::string& file, std::string_view longArray)
     : text_(text), file_(file), elements_(findObjects(text, longArray)) {}
 
 LargeJson LongJson::document() const {
-    return Builder(text_, file_, text_, elements_).build();
+    if (elements_.empty()) return Builder(text_, file_, text_, {}).build();
+    const char* const begin = elements_.front().data();
+    const char* const end = elements_.back().data() + elements_.back().size();
+    return Builder(text_, file_, text_, {begin, static_cast<std::size_t>(end - begin)}).build();
 }
 
 LargeJson LongJson::element(std::size_t index) const {

@@ -27,22 +27,22 @@ class LargeJson {
     nlohmann::json value_;
 };
 
-nlohmann::json parseJson(const std::string& text, const std::string& file);
+nlohmann::json parseJson(std::string_view text, const std::string& file);
 
 // A document of which one array, a member of the root, may be long: where it holds nothing but objects they are left
 // out of the document and parsed one by one, as all at once take ten times the memory of the text.
 class LongJson {
   public:
-    // Both must outlive this.
-    LongJson(const std::string& text, const std::string& file, const std::string& longArray);
+    // Text and file must outlive this.
+    LongJson(std::string_view text, const std::string& file, std::string_view longArray);
 
-    // With zeros for the elements that are left out.
+    // With an empty array where elements are left out.
     LargeJson document() const;
     std::size_t elementCount() const { return elements_.size(); } // 0: none is left out
     LargeJson element(std::size_t index) const;
 
   private:
-    const std::string& text_;
+    std::string_view text_;
     const std::string& file_;
     std::vector<std::string_view> elements_; // of text_
 };

@@ -7,6 +7,7 @@
 
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Json/SceneReader.h"
@@ -277,7 +278,8 @@ std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences&
     if (text.elementCount() == 0) return readObjects(node, references);
     constexpr std::size_t kElementsPerChunk = 256;
     const Chunks chunks(text.elementCount(), kElementsPerChunk);
-    std::vector<ObjectDesc> objects(text.elementCount());
+    std::vector<ObjectDesc> objects;
+    resizeLarge(objects, text.elementCount());
     parallelFor(0, chunks.count, [&](std::size_t chunk) {
         for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
             interruptionPoint();

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "Common/Scene/SceneDesc.h"
 
@@ -12,7 +13,7 @@ namespace rt::scene {
 SceneDesc loadSceneFile(const std::filesystem::path& path);
 
 // The same from a text; `file` stands in messages, `folder` is where files are looked for first.
-SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder);
+SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder);
 
 // The text of a scene file. parseScene gives back an equal description, but for its id, and numbers to the last bit.
 std::string toJson(const SceneDesc& scene);

@@ -2,6 +2,7 @@
 #include "Common/Scene/Json/SceneReader.h"
 
 #include <cstdint>
+#include <string_view>
 #include <system_error>
 
 #include <glm/geometric.hpp>
@@ -137,7 +138,7 @@ std::string readChoice(const JsonNode& node, const std::vector<std::string>& all
 
 // ---- interface -----------------------------------------------------------------------------------------------------
 
-SceneDesc parseScene(const std::string& text, const std::string& file, const std::filesystem::path& folder) {
+SceneDesc parseScene(std::string_view text, const std::string& file, const std::filesystem::path& folder) {
     const LongJson json(text, file, "objects");
     const LargeJson document = json.document();
     const JsonNode root(*document, file);
@@ -147,11 +148,8 @@ SceneDesc parseScene(const std::string& text, const std::string& file, const std
 }
 
 SceneDesc loadSceneFile(const std::filesystem::path& path) {
-    std::string text;
-    {
-        const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
-        text.assign(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    }
+    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     SceneDesc scene = parseScene(text, path.string(), path.parent_path());
     scene.id = path.filename().string();
     return scene;

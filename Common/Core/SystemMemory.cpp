@@ -1,0 +1,30 @@
+#include "Common/Core/SystemMemory.h"
+
+#include <cstdint>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace rt {
+
+void releaseFreedMemory() {
+#if defined(__GLIBC__)
+    malloc_trim(0);
+#endif
+}
+
+void preferLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(__linux__)
+    const auto address = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t skipped = (kLargePage - address % kLargePage) % kLargePage;
+    if (bytes < skipped + kLargePage) return;
+    const std::size_t whole = (bytes - skipped) / kLargePage * kLargePage;
+    madvise(static_cast<char*>(memory) + skipped, whole, MADV_HUGEPAGE); // failure changes nothing
+#endif
+}
+
+} // namespace rt

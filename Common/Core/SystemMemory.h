@@ -1,0 +1,37 @@
+// What the system is asked for beside memory itself. Large pages where it offers them: the first touch of a small page
+// costs several times what filling it does, and jumping about between many of them costs address translation.
+#pragma once
+#include <cstddef>
+#include <vector>
+
+namespace rt {
+
+inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
+
+// A wish for memory that nobody has touched yet, of which whole large pages are meant; may do nothing.
+void preferLargePages(void* memory, std::size_t bytes) noexcept;
+
+// Room for `count` elements in a vector or string, likewise.
+template <class Container>
+void reserveLarge(Container& container, std::size_t count) {
+    container.reserve(count);
+    preferLargePages(container.data(), count * sizeof(*container.data()));
+}
+
+// The same with the elements, which are values, or copies of one.
+template <class Container, class... Value>
+void resizeLarge(Container& container, std::size_t count, const Value&... value) {
+    reserveLarge(container, count);
+    container.resize(count, value...);
+}
+
+// Gives back the memory of what is no longer needed: that of large scenes adds up.
+template <class T>
+void release(std::vector<T>& values) {
+    std::vector<T>().swap(values);
+}
+
+// Gives memory that was freed back to the system, where its allocator keeps that of small and middling pieces.
+void releaseFreedMemory();
+
+} // namespace rt
