@@ -78,7 +78,7 @@ struct Kernel {
     void (*renderAovs)(const KernelContext&, const AovTask&);
 };
 
-inline constexpr std::uint32_t kKernelCount = 7;
+inline constexpr std::uint32_t kKernelCount = 8;
 
 // The table of each instruction set; only those of the architecture at hand exist.
 const Kernel* kernels_x86_64_v2();

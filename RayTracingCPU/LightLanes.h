@@ -227,7 +227,7 @@ RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& param
     });
     if (has(kFeatures, kFeatureQuadLights) && params.quadLight == kShapeAuto) sampleQuads(lanes);
     if (has(kFeatures, kFeatureSphereLights) && params.sphereLight == kShapeAuto) {
-        sampleSpheres<kFeatures & kFeatureMotion>(lanes);
+        sampleSpheres<kFeatures & kFeatureMovingSpheres>(lanes);
     }
     eachLane(lit, [&](uint i) {
         if (chosen.at[i] == kNone) {

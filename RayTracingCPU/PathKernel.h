@@ -100,6 +100,7 @@ constexpr Kernel makeKernel(const char* name) {
 constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures>("box"),
     makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
+    makeKernel<kBoxFeatures | kFeatureConnections>("box+connections"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
     makeKernel<kAssetFeatures>("assets"),

@@ -3,6 +3,7 @@
 // for all of them: what is arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one
 // translation unit per instruction set; all it defines has internal linkage.
 #pragma once
+#include "RayTracingCPU/ConnectionLanes.h"
 #include "RayTracingCPU/LightLanes.h"
 #include "RayTracingCPU/TileSamples.h"
 
@@ -21,7 +22,8 @@ struct PathSlot {
 struct ActiveSlots {
     uint arrived = 0u;    // at a vertex
     uint lit = 0u;        // of these, where a light is chosen
-    uint principled = 0u; // of these, where the material is
+    uint connected = 0u;  // of these, where it is connected to through a sphere
+    uint principled = 0u; // where the material is
     uint layered = 0u;    // of these, where there is more than diffuse and specular reflection
 };
 
@@ -152,14 +154,16 @@ class PathPacket {
     bool trace() {
         for (;;) {
             if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return false;
-            const ActiveSlots active = arriveAll();
+            ActiveSlots active = arriveAll();
             if (active.arrived == 0u) return true;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
+            if (has(kFeatures, kFeatureConnections) && active.lit != 0u && params_.connectedSpheres != 0u)
+                active.connected = connectLights(active.lit);
             if (active.principled != active.arrived) sampleDiffuse(lanes_);
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
-            eachLane(active.arrived, [&](uint i) { goOnFrom(i, (active.lit >> i & 1u) != 0u); });
+            eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
         }
     }
 
@@ -220,9 +224,30 @@ class PathPacket {
         if (samplesLights(kFeatures, params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
     }
 
+    // Connects the paths `lit`, and returns those that are connected: passages_.
+    uint connectLights(uint lit) {
+        FloatLanes rates;
+        const uint connected = rt::cpu::connectLights<kFeatures>(scene_, params_, lit, lanes_, rates, passages_);
+        eachLane(lit, [&](uint i) { slots_[i].path.chain.rate = rates.at[i]; });
+        return connected;
+    }
+
+    // Adds the passage of slot i if its segments are free.
+    void tracePassage(uint i) {
+        Passage& passage = passages_[i];
+        PathState& path = slots_[i].path;
+        while (passage.segments != 0u) {
+            ++counters_.shadow;
+            float tMax;
+            const Ray ray = passageRay(passage, path.ray.time, tMax);
+            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, path);
+        }
+    }
+
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
     // sampled.
-    void goOnFrom(uint i, bool isLit) {
+    void goOnFrom(uint i, const ActiveSlots& active) {
+        const bool isLit = (active.lit >> i & 1u) != 0u;
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;
         const Vertex v = vertexIn<kFeatures>(lanes_, i);
@@ -230,11 +255,13 @@ class PathPacket {
         const bool isSampled = isLit && samplesLights(kFeatures, params_);
         const DirectLight direct = isSampled ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);
+        if (has(kFeatures, kFeatureConnections) && (active.connected >> i & 1u) != 0u) tracePassage(i);
         BsdfSample b = sampleScattering<kFeatures>(lanes_, i, v);
         if (isLit && usesMixture(kFeatures, params_, scene_.globals, v)) {
             const LightChoice choice = get(lanes_.choices, i);
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
         }
+        if (has(kFeatures, kFeatureConnections)) goOnChain(v, b, path);
         if (goOn(params_, v, b, u.roulette.x, path)) {
             set(lanes_.hits, i, traceOn(i, direct, path));
         } else {
@@ -281,6 +308,7 @@ class PathPacket {
     KernelCounters& counters_;
     PathSlot slots_[kLanes]{};
     PathLanes lanes_{};
+    Passage passages_[kLanes]; // of the paths that are connected
 };
 
 } // namespace

@@ -25,8 +25,9 @@ struct Shaders {
 };
 
 // What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
-constexpr std::uint32_t kFeaturesOfFull =
-    shared::kFeatureProjected | shared::kFeaturePrincipled | shared::kFeatureOpacity | shared::kFeatureCoatNormal;
+constexpr std::uint32_t kFeaturesOfFull = shared::kFeatureProjected | shared::kFeaturePrincipled |
+                                          shared::kFeatureOpacity | shared::kFeatureCoatNormal |
+                                          shared::kFeatureConnections;
 
 Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {

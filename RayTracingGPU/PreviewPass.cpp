@@ -35,7 +35,7 @@ constexpr VkShaderStageFlags kStages =
 
 // What the preview leaves out: the lens, and motion over the shutter.
 std::uint32_t previewFeatures(std::uint32_t features) {
-    return features & ~(shared::kFeatureThinLens | shared::kFeatureMovingSpheres | shared::kFeatureMotion);
+    return features & ~(shared::kFeatureThinLens | shared::kFeatureMovingSpheres);
 }
 
 // The lights of a scene that send out most, but for the sky, which is everywhere.

@@ -10,17 +10,18 @@
 uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
     PathState path = beginPath(params, samples);
     DirectLight direct = noDirectLight();
+    Passage passage = noPassage();
     uint rays = 0u;
     uint nonfinite = 0u;
     bool goesOn = true;
-    while (goesOn || direct.distance > 0.0f) {
-        bool checking = direct.distance > 0.0f;
-        Hit hit = traceStep(samples.smp, path, direct, checking, nonfinite);
+    while (goesOn || isChecking(direct, passage)) {
+        bool checking = isChecking(direct, passage);
+        Hit hit = traceStep(samples.smp, path, direct, passage, checking, nonfinite);
         rays++;
         if (checking) {
-            direct.distance = 0.0f;
+            endChecked(scene, hit, path, direct, passage);
         } else {
-            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, direct);
+            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, direct, passage);
         }
     }
     return rays;

@@ -55,7 +55,7 @@ PathState beginPath(RenderParams params, Work work) {
 
 // Goes on with the path of this number that the launch before left. False: there is none.
 bool resumePath(uint number, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
-                inout bool goesOn) {
+                inout Passage passage, inout bool goesOn) {
     if (number >= launch.countersBefore.at[kCounterLeft]) return false;
     UnfinishedPath unfinished = launch.leftBefore.at[number];
     work.number = unfinished.number;
@@ -66,13 +66,14 @@ bool resumePath(uint number, RenderParams params, inout Work work, inout PathSta
     work.end = unfinished.index + 1u;
     work.isResumed = true;
     path = unfinished.path;
-    if (!has(kFeatures, kFeatureMotion)) path.ray.time = 0.0f; // as the compiler is to know
+    if (!has(kFeatures, kFeatureMovingSpheres)) path.ray.time = 0.0f; // as the compiler is to know
     direct = unfinished.direct;
+    if (has(kFeatures, kFeatureConnections)) passage = unfinished.passage;
     goesOn = unfinished.goesOn != 0u;
     return true;
 }
 
-void leavePath(Work work, PathState path, DirectLight direct, bool goesOn) {
+void leavePath(Work work, PathState path, DirectLight direct, Passage passage, bool goesOn) {
     UnfinishedPath unfinished;
     unfinished.number = work.number;
     unfinished.key = work.smp.key;
@@ -81,6 +82,7 @@ void leavePath(Work work, PathState path, DirectLight direct, bool goesOn) {
     unfinished.goesOn = goesOn ? 1u : 0u;
     unfinished.path = path;
     unfinished.direct = direct;
+    if (has(kFeatures, kFeatureConnections)) unfinished.passage = passage;
     launch.left.at[atomicAdd(launch.counters.at[kCounterLeft], 1u)] = unfinished;
 }
 
@@ -91,13 +93,6 @@ bool samplesAreSpent() {
 
 void tellSamplesAreSpent() {
     atomicStore(launch.counters.at[kSpent], 1u, gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
-}
-
-// What becomes of the light of a shadow ray, and of the ray.
-void endShadowRay(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout uint shadow) {
-    shadow++;
-    if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
-    direct.distance = 0.0f;
 }
 
 // What an invocation does; all invocations of a launch share its samples.
@@ -115,8 +110,9 @@ void tracePaths(uint invocation) {
     work.isResumed = false;
     PathState path;
     DirectLight direct = noDirectLight();
+    Passage passage = noPassage();
     bool goesOn = false; // the path has a next vertex
-    bool begins = !resumePath(invocation, params, work, path, direct, goesOn);
+    bool begins = !resumePath(invocation, params, work, path, direct, passage, goesOn);
     bool isSpent = false; // there is no sample to begin with
     for (;;) {
         // Read before it is needed: the time that it takes passes with the beginning of a path.
@@ -136,25 +132,28 @@ void tracePaths(uint invocation) {
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.slotCount != 0u) break;
         if (tracesApart()) {
-            Hit hit = traceStep(work.smp, path, direct, false, nonfinite);
-            goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
-            if (direct.distance > 0.0f) {
-                hit = traceStep(work.smp, path, direct, true, nonfinite);
-                endShadowRay(scene, hit, path, direct, shadow);
+            Hit hit = traceStep(work.smp, path, direct, passage, false, nonfinite);
+            goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
+            while (isChecking(direct, passage)) {
+                hit = traceStep(work.smp, path, direct, passage, true, nonfinite);
+                endChecked(scene, hit, path, direct, passage);
+                shadow++;
+                if (!has(kFeatures, kFeatureConnections)) break;
             }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {
-                bool checking = direct.distance > 0.0f;
+                bool checking = isChecking(direct, passage);
                 if (i > 0u && !checking) break;
-                Hit hit = traceStep(work.smp, path, direct, checking, nonfinite);
+                Hit hit = traceStep(work.smp, path, direct, passage, checking, nonfinite);
                 if (checking) {
-                    endShadowRay(scene, hit, path, direct, shadow);
+                    endChecked(scene, hit, path, direct, passage);
+                    shadow++;
                 } else {
-                    goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct);
+                    goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
                 }
             }
         }
-        begins = !goesOn && !(direct.distance > 0.0f);
+        begins = !goesOn && !isChecking(direct, passage);
         if (begins) {
             scattered += path.vertex - 1u;
             // A sample that is not a number is dropped and counted, and stays in the divisor.
@@ -169,7 +168,7 @@ void tracePaths(uint invocation) {
             work.smp.index++;
         }
     }
-    if (!isSpent) leavePath(work, path, direct, goesOn);
+    if (!isSpent) leavePath(work, path, direct, passage, goesOn);
     uint line = invocation / 32u % kCounterLines * kCounters; // the same for neighbours, whose sums are one access
     atomicAdd(launch.counters.at[line + kCounterFinished], finished);
     atomicAdd(launch.counters.at[line + kCounterScattered], scattered);

@@ -99,9 +99,10 @@ struct UnfinishedPath {
     uint key;
     uint index;
     uint base;
-    uint goesOn; // 1: it has a next vertex; 0: only the shadow ray is to be traced
+    uint goesOn; // 1: it has a next vertex; 0: only shadow rays are to be traced
     PathState path;
     DirectLight direct;
+    Passage passage; // read with kFeatureConnections
 };
 RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
 

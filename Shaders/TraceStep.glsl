@@ -32,15 +32,40 @@ Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
 
 #endif
 
-// What the path's next ray hits; when `checking`, whether the shadow ray of the vertex before hits anything. A ray that
-// cannot be traced is counted; it ends the path, or lets no light through.
-Hit traceStep(Sampler smp, PathState path, DirectLight direct, bool checking, inout uint nonfinite) {
+// What is found of the light at a vertex before the path goes on: segments of a passage first, then the shadow ray.
+bool isChecking(DirectLight direct, Passage passage) {
+    return direct.distance > 0.0f || passage.segments != 0u;
+}
+
+// The next of them.
+Ray checkedRay(PathState path, DirectLight direct, Passage passage, out float tMax) {
+#ifdef RT_FULL
+    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) return passageRay(passage, path.ray.time, tMax);
+#endif
+    tMax = direct.distance;
+    return shadowRay(path, direct);
+}
+
+// What becomes of its light, and of the ray.
+void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout Passage passage) {
+#ifdef RT_FULL
+    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) {
+        float tMax;
+        Ray ray = passageRay(passage, path.ray.time, tMax);
+        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, passage, path);
+        return;
+    }
+#endif
+    if (hit.t < 0.0f) addDirectLight(kFeatures, scene, direct, path);
+    direct.distance = 0.0f;
+}
+
+// What the path's next ray hits; when `checking`, whether the next ray of the light at its vertex hits anything. A ray
+// that cannot be traced is counted; it ends the path, or lets no light through.
+Hit traceStep(Sampler smp, PathState path, DirectLight direct, Passage passage, bool checking, inout uint nonfinite) {
     Ray ray = path.ray;
     float tMax = kInfinity;
-    if (checking) {
-        ray = shadowRay(path, direct);
-        tMax = direct.distance;
-    }
+    if (checking) ray = checkedRay(path, direct, passage, tMax);
     // Traced all the same, somewhere: a branch around the trace would cost all rays more.
     bool traceable = isTraceable(ray, tMax);
     if (!traceable) {

@@ -65,6 +65,7 @@ constexpr Axis kAxes[] = {
     method<"sphere_light", &RenderSettings::sphereLight, kSphereLights>(),
     method<"quad_light", &RenderSettings::quadLight, kFlatLights>(),
     method<"triangle_light", &RenderSettings::triangleLight, kFlatLights>(),
+    method<"specular_connections", &RenderSettings::specularConnections, kSpecularConnections>(),
     method<"sampler", &RenderSettings::sampler, kSamplers>(),
     method<"adaptive", &RenderSettings::adaptive, kAdaptive>(),
     method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),

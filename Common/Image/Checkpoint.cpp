@@ -95,6 +95,10 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
     film.writeState(out);
 }
 
+bool addLaterFields(nlohmann::json& render) {
+    return render.is_object() && render.emplace(kConnectionsField, "off").second;
+}
+
 Checkpoint readCheckpoint(const std::filesystem::path& path) {
     std::error_code ignored;
     if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))

@@ -24,4 +24,9 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
+constexpr const char* kConnectionsField = "specular_connections";
+
+// Checkpoints of programs that made no connections do not tell so: adds it to what the caller compares. False: it told.
+bool addLaterFields(nlohmann::json& render);
+
 } // namespace rt::image

@@ -21,7 +21,7 @@ RT_FN Ray generateCameraRay(uint features, RT_IN(Camera) camera, uvec2 pixel, uv
         target = target - lens;
     }
     ray.direction = normalize(target);
-    ray.time = has(features, kFeatureMotion) ? time : 0.0f;
+    ray.time = has(features, kFeatureMovingSpheres) ? time : 0.0f;
     return ray;
 }
 

@@ -211,6 +211,24 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
     }
 }
 
+// Lights that are connected to through spheres of glass: at rest, moving, among media.
+class ConnectionAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
+INSTANTIATE_TEST_SUITE_P(Engines, ConnectionAgreementTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Queries, ConnectionAgreementTest, kQueries, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engineName);
+
+TEST_P(ConnectionAgreementTest, SampleForSample) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
+        const auto scene = app::compile(app::loadScene(id), true);
+        EnginePair engines(scene, GetParam());
+        app::RenderSettings one = pairSettings(1), many = pairSettings(16);
+        one.specularConnections = many.specularConnections = true;
+        EXPECT_GE(agreement(engines.render(one)), leastAgreement(*scene)) << id;
+        EXPECT_TRUE(pairedMeansAgree(engines.render(many))) << id;
+    }
+    EXPECT_EQ(device().validationMessages(), 0u);
+}
+
 // Emissive spheres under every kind of transform.
 class EllipsoidAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, EllipsoidAgreementTest, kFirstEngine, engineName);

@@ -37,7 +37,7 @@ app::RunRecord run(const std::string& program, const std::string& estimator, con
     r.lightSelection = "contribution";
     r.sphereLight = r.quadLight = r.triangleLight = "auto";
     r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = "off";
+    r.adaptive = r.specularConnections = "off";
     r.width = r.height = 100;
     r.maxDepth = 50;
     r.threads = 2;

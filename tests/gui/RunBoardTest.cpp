@@ -20,7 +20,7 @@ app::RunRecord run(const std::string& app, const std::string& estimator, const s
     r.lightSelection = "contribution";
     r.sphereLight = r.quadLight = r.triangleLight = "auto";
     r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = "off";
+    r.adaptive = r.specularConnections = "off";
     r.width = r.height = 8;
     r.maxDepth = 50;
     r.spp = 16;

@@ -146,8 +146,8 @@ std::map<std::string, std::uint32_t> expectedFeatures() {
         {"one-weekend-default", book},
         {"one-weekend-test", book},
         {"one-weekend-final", field},
-        {"next-week-default", book | kFeatureMovingSpheres | kFeatureMotion | kFeatureThinLens},
-        {"next-week-random-spheres", field | kFeatureMovingSpheres | kFeatureMotion | kFeatureChecker},
+        {"next-week-default", book | kFeatureMovingSpheres | kFeatureThinLens},
+        {"next-week-random-spheres", field | kFeatureMovingSpheres | kFeatureChecker},
         {"next-week-two-spheres", book | kFeatureChecker},
         {"next-week-earth", book | kFeatureImages},
         {"next-week-two-perlin-spheres", book | kFeatureNoise},
@@ -155,8 +155,8 @@ std::map<std::string, std::uint32_t> expectedFeatures() {
         {"next-week-simple-light", cornell | kFeatureSpheres | kFeatureNoise | kFeatureSphereLights},
         {"next-week-cornell-box", cornell},
         {"next-week-cornell-smoke", cornell | kFeatureVolumes},
-        {"next-week-final", cornell | kFeatureSpheres | kFeatureMovingSpheres | kFeatureMotion | kFeatureMetal |
-                                kFeatureFuzz | kFeatureDielectric | kFeatureVolumes | kFeatureImages | kFeatureNoise},
+        {"next-week-final", cornell | kFeatureSpheres | kFeatureMovingSpheres | kFeatureMetal | kFeatureFuzz |
+                                kFeatureDielectric | kFeatureVolumes | kFeatureImages | kFeatureNoise},
         {"rest-of-life-cornell-box", cornell},
         {"rest-of-life-cornell-box-mirror", cornell | kFeatureMetal},
         {"rest-of-life-cornell-box-glass",

@@ -17,7 +17,7 @@ using test::Uniforms;
 
 constexpr uint kFeatures = kFeatureQuads | kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
                            kFeatureDielectric | kFeatureLights | kFeatureQuadLights | kFeatureSphereLights |
-                           kFeatureTriangleLights | kFeatureMotion;
+                           kFeatureTriangleLights | kFeatureMovingSpheres;
 
 // A scene of lights alone, as the engine keeps them.
 struct LitScene {

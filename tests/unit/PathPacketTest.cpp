@@ -51,8 +51,15 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
+        Passage passage = noPassage();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct);
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct, passage);
+        while (passage.segments != 0u) {
+            ++counters.shadow;
+            float tMax;
+            const Ray ray = passageRay(passage, path.ray.time, tMax);
+            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, passage, path);
+        }
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
         const Ray shadow = shadowRay(path, direct);
@@ -120,16 +127,19 @@ void compareEstimators(const TracedScene& scene) {
         SCOPED_TRACE("estimator " + std::to_string(estimator));
         app::RenderSettings settings = smallImage();
         settings.lightSampling = static_cast<decltype(settings.lightSampling)>(estimator);
-        comparePaths(scene, settings);
-        if (::testing::Test::HasFatalFailure()) return;
+        for (const bool connections : {false, true}) {
+            settings.specularConnections = connections;
+            comparePaths(scene, settings);
+            if (::testing::Test::HasFatalFailure()) return;
+        }
     }
 }
 
 // Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
-                           "one-weekend-final", "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json",
-                           RT_TEST_DATA_DIR "/scenes/lacquer.json"}) {
+                           "next-week-final", "one-weekend-final", "many-lights", "veach-mis",
+                           RT_TEST_DATA_DIR "/scenes/principled.json", RT_TEST_DATA_DIR "/scenes/lacquer.json"}) {
         const TracedScene scene(id);
         SCOPED_TRACE(id);
         compareEstimators(scene);

@@ -19,7 +19,7 @@ RunRecord run(const std::string& app, std::uint64_t spp) {
     r.lightSelection = "contribution";
     r.sphereLight = r.quadLight = r.triangleLight = "auto";
     r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = "off";
+    r.adaptive = r.specularConnections = "off";
     r.width = r.height = 8;
     r.spp = spp;
     return r;

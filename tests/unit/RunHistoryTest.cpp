@@ -31,7 +31,7 @@ class RunHistoryTest : public ::testing::Test {
         r.lightSelection = "contribution";
         r.sphereLight = r.quadLight = r.triangleLight = "auto";
         r.russianRoulette = r.oneSidedLights = "on";
-        r.adaptive = "off";
+        r.adaptive = r.specularConnections = "off";
         r.relmse = 0.1;
         r.hasReference = true;
         r.referenceError = 0.001;
@@ -156,7 +156,8 @@ TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
     EXPECT_EQ(lackingIn(old),
               "scene_hash, camera, light_selection, sphere_light, quad_light, triangle_light, "
               "russian_roulette, one_sided_lights, adaptive");
-    EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
+    EXPECT_EQ(old.specularConnections, "off"); // there was nothing else
+    EXPECT_FALSE(isSameWork(old, old));        // what is not known is not equal
     EXPECT_EQ(lackingIn(record("a")), "");
 }
 
@@ -181,6 +182,7 @@ TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {
              Change([](RunRecord& r) { r.russianRoulette = "off"; }),
              Change([](RunRecord& r) { r.oneSidedLights = "off"; }),
              Change([](RunRecord& r) { r.adaptive = "on"; }),
+             Change([](RunRecord& r) { r.specularConnections = "on"; }),
          }) {
         RunRecord gpu = gpuRecord("a");
         change(gpu);

@@ -8,42 +8,24 @@
 
 #include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
+#include "tests/unit/SphereConstellations.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
 namespace {
 
 using glm::dvec3;
+using test::acrossOf;
+using test::coneDirection;
+using test::coneSolidAngle;
+using test::Constellation;
+using test::LightQuad;
 using test::Mean;
+using test::Traced;
+using test::traceThrough;
 using test::Uniforms;
 
-constexpr double kPiD = 3.14159265358979323846;
-
-// A ray that has been refracted by the unit sphere at the origin, and the fraction of its light that is left.
-struct Traced {
-    dvec3 origin{};
-    dvec3 direction{};
-    double transmitted = 0; // 0: it missed the sphere
-};
-
-double reflectance(double c, double t, double eta) {
-    const double across = (c - eta * t) / (c + eta * t), along = (eta * c - t) / (eta * c + t);
-    return 0.5 * (across * across + along * along);
-}
-
-Traced traceThrough(const dvec3& x, const dvec3& direction, double eta) {
-    const double b = -glm::dot(x, direction);
-    const dvec3 foot = x + b * direction;
-    const double squared = 1 - glm::dot(foot, foot);
-    if (squared <= 0 || b <= 0) return {};
-    const dvec3 entry = x + (b - std::sqrt(squared)) * direction;
-    const double c = -glm::dot(direction, entry);
-    const double t = std::sqrt(1 - (1 - c * c) / (eta * eta));
-    const dvec3 inside = direction / eta + entry * (c / eta - t);
-    const dvec3 leave = entry - 2 * glm::dot(inside, entry) * inside;
-    const double kept = 1 - reflectance(c, t, eta);
-    return {leave, glm::normalize(eta * inside - leave * (eta * t - c)), kept * kept};
-}
+constexpr double kPiD = test::kPiD;
 
 double turn(double i, double eta, double nearX, double nearY) {
     const double s = std::sin(i);
@@ -135,28 +117,6 @@ TEST(SphereRefraction, PathsObeySnellsLaw) {
 
 // ---- irradiance through the sphere ---------------------------------------------------------------------------------
 
-struct Constellation {
-    const char* name;
-    double eta;
-    dvec3 x;
-    dvec3 corner, edgeU, edgeV; // of a quad that emits 1 to both sides
-};
-
-const std::array kConstellations = {
-    Constellation{"on the axis", 1.5, {0, 0, -4}, {-0.5, -0.5, 6}, {1, 0, 0}, {0, 1, 0}},
-    Constellation{"focus of the light", 1.5, {0, 0, -1.9}, {-0.5, -0.5, 7.125}, {1, 0, 0}, {0, 1, 0}},
-    Constellation{"fold", 1.5, {0.32, 0, -1.4}, {-0.3, -0.3, 6}, {0.6, 0, 0}, {0, 0.6, 0}},
-    Constellation{"touching the sphere", 1.5, {0, 0, -1.001}, {-1, -1, 4}, {2, 0, 0}, {0, 2, 0}},
-    Constellation{"light touching the sphere", 1.5, {0.3, 0.1, -3}, {-0.3, -0.3, 1.01}, {0.6, 0, 0}, {0, 0.6, 0}},
-    Constellation{"far", 1.5, {1, 2, -40}, {-1, -1, 8}, {2, 0, 0}, {0, 2, 0}},
-    Constellation{"far light", 1.5, {0.2, 0.1, -2.5}, {-2, -2, 60}, {4, 0, 0}, {0, 4, 0}},
-    Constellation{"beside", 1.5, {4, 0, -2}, {-1, -1, 3}, {2, 0, 0}, {0, 2, 0}},
-    Constellation{"on the other side", 1.5, {2, 0, -3}, {1, -0.5, 5}, {1, 0, 0.5}, {0, 1, 0}},
-    Constellation{"diamond", 2.4, {0.2, 0, -1.5}, {-0.6, -0.5, 5}, {1, 0, 0}, {0, 1, 0}},
-    Constellation{"ice", 1.31, {0.4, 0.3, -2.2}, {-0.6, -0.5, 5}, {1, 0, 0.3}, {0, 1, 0}},
-    Constellation{"small light", 1.5, {0.5, 0, -3}, {0, 0, 9}, {0.1, 0, 0}, {0, 0.1, 0}},
-};
-
 // Densities of solid angle at x with which connections, and directions uniform in the sphere's cone, find a path.
 struct Densities {
     double connecting, scattering;
@@ -164,28 +124,10 @@ struct Densities {
 
 class Irradiance {
   public:
-    explicit Irradiance(const Constellation& c)
-        : c_(c), across_(glm::cross(c.edgeU, c.edgeV)), area_(glm::length(across_)), normal_(across_ / area_) {
-        const double distance = glm::length(c.x);
-        axis_ = -c.x / distance;
-        height_ = 1 - std::sqrt(1 - 1 / (distance * distance));
-        aside_ = glm::normalize(glm::cross(axis_, std::abs(axis_.x) > 0.5 ? dvec3(0, 1, 0) : dvec3(1, 0, 0)));
-    }
+    explicit Irradiance(const Constellation& c) : c_(c), light_(c) {}
 
-    // Light along a direction that is uniform in the cone, and the point y that it comes from.
     double scatter(Uniforms& u, dvec3& y, Traced& ray) const {
-        const double h = height_ * double(u()), sine = std::sqrt(h * (2 - h)), phi = 2 * kPiD * double(u());
-        const dvec3 other = glm::cross(axis_, aside_);
-        const dvec3 d = axis_ * (1 - h) + aside_ * (sine * std::cos(phi)) + other * (sine * std::sin(phi));
-        ray = traceThrough(c_.x, d, c_.eta);
-        if (ray.transmitted == 0) return 0;
-        const double t = glm::dot(c_.corner - ray.origin, normal_) / glm::dot(ray.direction, normal_);
-        y = ray.origin + t * ray.direction;
-        const dvec3 at = y - c_.corner;
-        const double a = glm::dot(glm::cross(at, c_.edgeV), normal_) / area_;
-        const double b = glm::dot(glm::cross(c_.edgeU, at), normal_) / area_;
-        if (!(t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1)) return 0;
-        return ray.transmitted * solidAngle();
+        return light_.along(coneDirection(c_, u), y, ray) * coneSolidAngle(c_);
     }
 
     double scatterWeighted(Uniforms& u) const {
@@ -203,6 +145,7 @@ class Irradiance {
 
     double connectWeighted(Uniforms& u) const {
         const dvec3 y = c_.corner + double(u()) * c_.edgeU + double(u()) * c_.edgeV;
+        const dvec3 axis = -glm::normalize(c_.x);
         const RefractionPair p = pair(y);
         const RefractionRoots roots = refractionRoots(p, leastTurn(p));
         double sum = 0;
@@ -210,11 +153,11 @@ class Irradiance {
             if (!hasPath(roots, kind)) continue;
             const Refraction at = refractedPath(p, kind);
             const dvec3 toY = glm::normalize(y);
-            dvec3 aside = toY - axis_ * glm::dot(toY, axis_);
-            aside = glm::length(aside) > 0 ? glm::normalize(aside) : aside_;
-            const RefractedPlaces places = refractedPlaces(at, kind, vec3(axis_), vec3(aside));
+            const dvec3 across = toY - axis * glm::dot(toY, axis);
+            const dvec3 aside = glm::length(across) > 0 ? glm::normalize(across) : acrossOf(axis);
+            const RefractedPlaces places = refractedPlaces(at, kind, vec3(axis), vec3(aside));
             const Densities d = densities(p, at, glm::normalize(y - dvec3(places.leave)));
-            const double kept = d.scattering * solidAngle();
+            const double kept = d.scattering * coneSolidAngle(c_);
             sum += kept / (d.connecting + d.scattering);
             EXPECT_TRUE(std::isfinite(sum));
         }
@@ -222,37 +165,32 @@ class Irradiance {
     }
 
   private:
-    double solidAngle() const { return 2 * kPiD * height_; }
-
     RefractionPair pair(const dvec3& y) const {
-        const dvec3 toY = glm::normalize(y);
+        const dvec3 axis = -glm::normalize(c_.x), toY = glm::normalize(y);
         RefractionPair p;
         p.inverseEta = float(1 / c_.eta);
         p.nearX = float(1 / glm::length(c_.x));
         p.nearY = float(1 / glm::length(y));
-        p.bend = vec2(float(glm::dot(axis_, toY)), float(glm::length(glm::cross(axis_, toY))));
+        p.bend = vec2(float(glm::dot(axis, toY)), float(glm::length(glm::cross(axis, toY))));
         return p;
     }
 
     Densities densities(const RefractionPair& p, const Refraction& at, const dvec3& direction) const {
-        const double cosine = std::abs(glm::dot(direction, normal_));
-        const double connecting = 1 / (area_ * double(refractionDensity(p, at)) * cosine);
+        const double cosine = std::abs(glm::dot(direction, light_.normal));
+        const double connecting = 1 / (light_.area * double(refractionDensity(p, at)) * cosine);
         const double reflected = double(fresnel(at.incident.x, p.inverseEta).x);
-        return {connecting, (1 - reflected) * (1 - reflected) / solidAngle()};
+        return {connecting, (1 - reflected) * (1 - reflected) / coneSolidAngle(c_)};
     }
 
     Constellation c_;
-    dvec3 across_;
-    double area_;
-    dvec3 normal_, axis_{}, aside_{};
-    double height_ = 0;
+    LightQuad light_;
 };
 
 // Directions of the cone alone, in double precision, against connections and directions weighed against each other.
 TEST(SphereRefraction, IrradianceIsThatOfTracedRays) {
     constexpr int kTraced = 400000, kWeighed = 100000;
     std::uint32_t seed = 3;
-    for (const Constellation& c : kConstellations) {
+    for (const Constellation& c : test::kConstellations) {
         const Irradiance irradiance(c);
         Uniforms u(seed++);
         Mean traced, scattered, connected;

@@ -102,6 +102,7 @@ RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, c
     record.sphereLight = nameOf(kSphereLights, settings.sphereLight);
     record.quadLight = nameOf(kFlatLights, settings.quadLight);
     record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
+    record.specularConnections = nameOf(kSpecularConnections, settings.specularConnections);
     record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
     record.oneSidedLights = nameOf(kOnOff, oneSidedLights);
     record.adaptive = nameOf(kAdaptive, settings.adaptive);

@@ -11,6 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/AtomicFile.h"
@@ -69,6 +70,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/russian_roulette", "russian_roulette", r.russianRoulette);
     visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
     visit("/adaptive", "adaptive", r.adaptive);
+    visit("/specular_connections", "specular_connections", r.specularConnections);
 }
 
 // Likewise, but no part of the work.
@@ -82,6 +84,7 @@ RunRecord fromJson(const nlohmann::json& json) {
     forEachLaterField(r, [&](const char* place, const char*, std::string& value) {
         value = json.value(nlohmann::json::json_pointer(place), "");
     });
+    if (r.specularConnections.empty()) r.specularConnections = nameOf(kSpecularConnections, false);
     r.referenceError = json.value(kReferenceError, 0.0);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
@@ -165,7 +168,8 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Triangle lights", r.triangleLight},
             {"Roulette", r.russianRoulette},
             {"One-sided", r.oneSidedLights},
-            {"Adaptive", r.adaptive}};
+            {"Adaptive", r.adaptive},
+            {"Glass spheres", r.specularConnections}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {

@@ -80,6 +80,10 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
 inline constexpr Named<bool> kAdaptive[] = {
     {"off", false, "Uniform", "every pixel gets the same number"},
     {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
+inline constexpr Named<bool> kSpecularConnections[] = {
+    {"off", false, "By chance", "scattering alone finds it"},
+    {"on", true, "Connected",
+     "connections to where it comes from; unbiased; not for sky images, reflections, instances"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -96,6 +100,8 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.quadLight...);
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);
+    visit("specular_connections", "Lights through glass spheres", "how light through spheres of glass is found",
+          kSpecularConnections, settings.specularConnections...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
     visit("adaptive", "Samples over the image", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }

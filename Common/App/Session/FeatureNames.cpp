@@ -33,7 +33,6 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"sky", kFeatureSky},
     {"sky-image", kFeatureSkyImage},
     {"thin-lens", kFeatureThinLens},
-    {"motion", kFeatureMotion},
     {"lights", kFeatureLights},
     {"many-lights", kFeatureManyLights},
     {"sphere-lights", kFeatureSphereLights},
@@ -44,6 +43,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},
+    {"connections", kFeatureConnections},
 };
 
 constexpr bool haveOneNameEach() {

@@ -41,6 +41,14 @@ constexpr std::uint32_t kLightSampling =
     shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
     shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
 
+// Whether lights are connected to through spheres of glass. What layers of partial opacity let through is not traced.
+bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    const bool usesMis =
+        settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;
+    return settings.specularConnections && usesMis && !scene.smoothSpheres.empty() &&
+           !shared::has(scene.features, shared::kFeatureOpacity) && scattersWidely(scene);
+}
+
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {
     const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
@@ -66,6 +74,8 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.samplerKind = static_cast<std::uint32_t>(settings.sampler);
     params.strataX = settings.sampler == SamplerKind::SobolBlue ? logOfBlock(settings) : strata(settings).x;
     params.strataY = strata(settings).y;
+    if (connectsLights(scene, settings))
+        params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
     if (settings.russianRoulette) params.russianRoulette = isUnderPlainSky(scene) ? kRouletteUnderSky : kRoulette;
     return params;
 }
@@ -94,6 +104,7 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
     if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
     if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
+    if (connectsLights(scene, settings)) features |= shared::kFeatureConnections;
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
         if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
     // Mirrors, glass and emitters alone leave light sampling nothing to do.

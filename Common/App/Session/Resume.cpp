@@ -41,11 +41,14 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
     return json;
 }
 
-void checkIdentity(const std::string& file, const nlohmann::json& stored, const Json& wanted) {
-    for (const auto& [field, value] : wanted.items())
-        if (stored.at(field) != nlohmann::json(value))
-            throw InputError(file + ": " + field + " is " + stored.at(field).dump() + " in the checkpoint but " +
-                             value.dump() + " now");
+void checkIdentity(const std::string& file, nlohmann::json stored, const Json& wanted) {
+    const bool isEarlier = image::addLaterFields(stored);
+    for (const auto& [field, value] : wanted.items()) {
+        if (stored.at(field) == nlohmann::json(value)) continue;
+        const bool isTold = !isEarlier || field != image::kConnectionsField;
+        throw InputError(file + ": " + field + " is " + stored.at(field).dump() + " in the checkpoint" +
+                         (isTold ? "" : " (of a program that had no choice)") + " but " + value.dump() + " now");
+    }
 }
 
 // More samples may be asked for than before, but not fewer than there are; strata made for a known number allow no

@@ -68,7 +68,7 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     std::uint32_t mask = ofSky(scene.globals);
     const auto need = [&mask](bool needed, std::uint32_t bits) { mask |= needed ? bits : 0u; };
     need(!scene.spheres.empty(), shared::kFeatureSpheres);
-    need(!scene.sphereMotions.empty(), shared::kFeatureMovingSpheres | shared::kFeatureMotion);
+    need(!scene.sphereMotions.empty(), shared::kFeatureMovingSpheres);
     need(!scene.quads.empty(), shared::kFeatureQuads);
     need(!scene.triangles.empty(), shared::kFeatureTriangles);
     need(!scene.instances.empty(), shared::kFeatureInstances);

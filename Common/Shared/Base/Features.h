@@ -8,7 +8,7 @@
 RT_SHARED_BEGIN
 
 const uint kFeatureSpheres = 1u << 0u;
-const uint kFeatureMovingSpheres = 1u << 1u;
+const uint kFeatureMovingSpheres = 1u << 1u; // then the time of a ray matters
 const uint kFeatureQuads = 1u << 2u;
 const uint kFeatureTriangles = 1u << 3u;
 const uint kFeatureInstances = 1u << 4u;
@@ -27,11 +27,11 @@ const uint kFeatureSphereLights = 1u << 18u;
 const uint kFeatureQuadLights = 1u << 19u;
 const uint kFeatureTriangleLights = 1u << 20u;
 const uint kFeatureSmoothNormals = 1u << 21u;
-const uint kFeatureFuzz = 1u << 22u;      // metal with fuzz above kMirrorFuzz
-const uint kFeatureTargets = 1u << 23u;   // importance targets, used by `mixture` only
-const uint kFeatureMotion = 1u << 24u;    // the time of a ray matters
-const uint kFeatureMixture = 1u << 25u;   // a setting: Shirley's mixture, which lean kernels leave out
-const uint kFeatureProjected = 1u << 26u; // a setting: lights by projected solid angle
+const uint kFeatureFuzz = 1u << 22u;        // metal with fuzz above kMirrorFuzz
+const uint kFeatureTargets = 1u << 23u;     // importance targets, used by `mixture` only
+const uint kFeatureConnections = 1u << 24u; // a setting: lights connected to through spheres of glass
+const uint kFeatureMixture = 1u << 25u;     // a setting: Shirley's mixture, which lean kernels leave out
+const uint kFeatureProjected = 1u << 26u;   // a setting: lights by projected solid angle
 const uint kFeatureEllipsoidLights = 1u << 27u;
 const uint kFeatureDetail = 1u << 28u;         // tangents, vertex colours, second uvs: the bit of principled materials
 const uint kFeatureCoatNormal = 1u << 29u;     // clear coats over or under a map of normals

@@ -16,9 +16,10 @@ const uint kDimensionTime = 2u;  // x: time in the shutter interval
 const uint kCameraDimensions = 4u;
 const uint kDimensionLight = 0u;     // choice of the light, stretched, and position on it
 const uint kDimensionBsdf = 1u;      // lobe or direction of the scattered ray
-const uint kDimensionRoulette = 2u;  // x: survival of the roulette, y: technique of the mixture
+const uint kDimensionRoulette = 2u;  // x: survival of the roulette, y: technique of the mixture or connection
 const uint kDimensionSelection = 3u; // choice of the light where there are too many to stretch kDimensionLight
 const uint kDimensionMedium = 4u;    // x: free flight in medium 0; medium m uses dimension kDimensionMedium + (m << 16)
+const uint kDimensionConnection = 5u; // place on a light behind a sphere
 const uint kDimensionsPerVertex = 8u;
 
 RT_FN uint vertexDimension(uint vertex, uint dimension) {

@@ -201,6 +201,31 @@ struct LightPick {
     float total;  // of all weights
 };
 
+// ---- spheres that lights are connected through ---------------------------------------------------------------------
+
+const uint kConnectedSpheres = 8u; // at most
+const uint kReachSteps = 16u;
+
+// A sphere of clear glass, through which light reaches a point by refraction where it enters and where it leaves.
+struct SmoothSphere {
+    vec3 center; // at time 0
+    float radius;
+    vec3 motion;             // displacement over the shutter
+    float inverseEta;        // index outside over inside, < 1
+    vec3 tint;               // of light that has entered and left
+    uint primitive;          // into spheres
+    float nearest;           // least radius over distance at which light is thought to converge; 1: nowhere
+    vec2 reach[kReachSteps]; // cosine and sine of how far, seen from the centre, such a point may be from opposite a
+                             // light, by that ratio
+};
+
+// A light as one of these spheres sees it. kConnectedSpheres rows of them, an element for each light.
+struct SphereReach {
+    vec3 axis;    // unit, from the sphere to the light
+    vec2 extent;  // cosine and sine of the angle that bounds the light
+    float weight; // irradiance at the sphere; 0: none arrives
+};
+
 // ---- light tree ----------------------------------------------------------------------------------------------------
 // Over more lights `contribution` descends a tree. Node 0 is the root.
 
@@ -305,7 +330,8 @@ struct RenderParams {
     uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
                   // logarithm of the samples of a pixel that are next to each other in the sequence
     uint strataY;
-    uint russianRoulette; // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
+    uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
+    uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
@@ -343,6 +369,21 @@ struct LightContext {
     uint policy; // the selection in force: kSelect...
 };
 
+const uint kChainNone = 0u;
+const uint kChainScattered = 1u; // by a surface or in a medium, with a density
+const uint kChainInside = 2u;    // then refracted into a sphere
+const uint kChainBeyond = 3u;    // and out of it
+
+// How a path goes on since it scattered, for the weight against a connection from there through a sphere.
+struct SphereChain {
+    vec3 from;   // where it scattered
+    float pdf;   // density of the direction that it took there
+    float rate;  // probability of a connection there over the sum of weights that it was chosen by; 0: there was none
+    uint sphere; // of smoothSpheres, that is at the path's vertex; kNone: another surface
+    uint inside; // the one that the path was refracted into
+    uint state;  // kChain...
+};
+
 // A path between two steps of PathStep.h.
 struct PathState {
     Ray ray;
@@ -351,6 +392,7 @@ struct PathState {
     float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
     uint vertex;       // surfaces and collisions met so far
     LightContext last; // where ray starts, for the weights of multiple importance sampling
+    SphereChain chain; // likewise
 };
 
 // What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes
@@ -360,6 +402,18 @@ struct DirectLight {
     vec3 radiance;
     vec3 direction; // unit
     float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
+};
+
+const uint kPassageSegments = 3u;
+
+// What a connection through a sphere adds to a path unless something is in the way of one of its segments.
+struct Passage {
+    vec3 radiance;
+    vec3 begin;    // where the path scattered
+    vec3 entry[2]; // where the light leaves the sphere's surface and arrives there: outside, inside
+    vec3 leave[2]; // on the light's side: inside, outside
+    vec3 end;      // at the light
+    uint segments; // that have yet to be found free; 0: there is no connection
 };
 
 RT_SHARED_END

@@ -7,7 +7,7 @@
 RT_SHARED_BEGIN
 
 RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
-    return has(features, kFeatureMotion) ? light.position + light.edgeU * time : light.position;
+    return has(features, kFeatureMovingSpheres) ? light.position + light.edgeU * time : light.position;
 }
 
 RT_FN uint sphereLightStrategy(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {

@@ -87,18 +87,23 @@ RT_FN vec2 angleOfHalfTangent(float t) {
 }
 
 // The angle of incidence of least turn; 0 where the turn rises throughout. The turn is level there, so that halving the
-// interval a few times gives its least value to a part in a million.
-RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {
-    float low = 0.0f;
-    float high = 1.0f;
-    for (uint k = 0u; k < kLeastSteps; k++) {
-        float t = 0.5f * (low + high);
-        bool falls = refractionAt(p, angleOfHalfTangent(t)).slope < 0.0f;
-        low = falls ? t : low;
-        high = falls ? high : t;
-    }
+// interval a few times gives its least value to a part in a million. Tangents of half angles, from (0, 1) on: halved
+// kLeastSteps times the interval is that of the angle.
+RT_FN vec2 halvedLeast(RT_IN(RefractionPair) p, vec2 interval) {
+    float t = 0.5f * (interval.x + interval.y);
+    bool falls = refractionAt(p, angleOfHalfTangent(t)).slope < 0.0f;
+    return vec2(falls ? t : interval.x, falls ? interval.y : t);
+}
+
+RT_FN vec2 leastWithin(RT_IN(RefractionPair) p, vec2 interval) {
     bool rises = 2.0f - 2.0f * p.inverseEta - p.nearX - p.nearY >= 0.0f;
-    return angleOfHalfTangent(rises ? 0.0f : 0.5f * (low + high));
+    return angleOfHalfTangent(rises ? 0.0f : 0.5f * (interval.x + interval.y));
+}
+
+RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {
+    vec2 interval = vec2(0.0f, 1.0f);
+    for (uint k = 0u; k < kLeastSteps; k++) interval = halvedLeast(p, interval);
+    return leastWithin(p, interval);
 }
 
 // How many paths there are: beyond the minimum that turn by +bend and by -bend, and before it that turn by -bend.
@@ -138,18 +143,24 @@ RT_FN bool hasPath(RT_IN(RefractionRoots) n, uint kind) {
     return kind == kOppositePath ? n.opposite != 0u : kind == kBeyondPath ? n.beyond != 0u : n.before != 0u;
 }
 
+// Angles of incidence of a path of this kind, which there is: after kRootSteps steps it is known.
+RT_FN vec2 firstAngle(uint kind) {
+    return kind == kBeforePath ? vec2(1.0f, 0.0f) : vec2(0.0f, 1.0f);
+}
+
+RT_FN vec2 nextAngle(RT_IN(RefractionPair) p, uint kind, vec2 angle) {
+    bool isBefore = kind == kBeforePath;
+    Refraction r = refractionAt(p, angle);
+    float f = clampedSineOfDifference(r.turn, vec2(p.bend.x, kind == kOppositePath ? p.bend.y : -p.bend.y));
+    float slope = isBefore ? min(r.slope, -1.0e-3f) : max(r.slope, 1.0e-3f);
+    vec2 next = turnedBySmall(angle, clamp(-f / slope, -1.0f, 1.0f));
+    return vec2(max(next.x, 0.0f), clamp(next.y, 0.0f, 1.0f));
+}
+
 // Where a path of this kind, which there is, is refracted.
 RT_FN Refraction refractedPath(RT_IN(RefractionPair) p, uint kind) {
-    bool isBefore = kind == kBeforePath;
-    vec2 target = vec2(p.bend.x, kind == kOppositePath ? p.bend.y : -p.bend.y);
-    vec2 angle = vec2(isBefore ? 1.0f : 0.0f, isBefore ? 0.0f : 1.0f);
-    for (uint k = 0u; k < kRootSteps; k++) {
-        Refraction r = refractionAt(p, angle);
-        float f = clampedSineOfDifference(r.turn, target);
-        float slope = isBefore ? min(r.slope, -1.0e-3f) : max(r.slope, 1.0e-3f);
-        vec2 next = turnedBySmall(angle, clamp(-f / slope, -1.0f, 1.0f));
-        angle = vec2(max(next.x, 0.0f), clamp(next.y, 0.0f, 1.0f));
-    }
+    vec2 angle = firstAngle(kind);
+    for (uint k = 0u; k < kRootSteps; k++) angle = nextAngle(p, kind, angle);
     return refractionAt(p, angle);
 }
 

@@ -40,13 +40,14 @@ RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) materi
            vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));
 }
 
+// `chainWeight`: against what else may have found it.
 RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
-                       RT_IN(Material) material, float distance, RT_INOUT(PathState) s) {
+                       RT_IN(Material) material, float distance, float chainWeight, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
     if (!front && material.emissionSides != kSidesBoth) return;
     vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv, surface.uv2);
-    float weight = 1.0f;
+    float weight = chainWeight;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
         float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
         float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,

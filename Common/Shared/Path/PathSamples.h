@@ -10,7 +10,7 @@ RT_SHARED_BEGIN
 // Whether a camera ray uses a dimension, kDimensionPixel to kDimensionTime.
 RT_FN bool cameraUses(uint features, uint dimension) {
     if (dimension == kDimensionLens) return has(features, kFeatureThinLens);
-    if (dimension == kDimensionTime) return has(features, kFeatureMotion);
+    if (dimension == kDimensionTime) return has(features, kFeatureMovingSpheres);
     return true;
 }
 

@@ -4,6 +4,7 @@
 //                          surface
 //   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
+//   connect                mis, with spheres of glass: connectLight(), which leaves three segments
 //   scatter                the bsdf's sample, or the mixture's in its place
 //   go on                  throughput, next ray, roulette
 //
@@ -13,11 +14,12 @@
 //               v    next ray, by the bsdf or to a light (mixture)
 //
 // The engines trace: the nearest hit of PathState::ray before a vertex is arrived at, and whether anything lies in the
-// way of the shadow ray that it leaves. stepPath() strings the stages together for one path; the CPU does so for a
-// packet of paths.
+// way of the shadow ray that it leaves, and then of the segments of its connection. stepPath() strings the stages
+// together for one path; the CPU does so for a packet of paths.
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
+#include "Common/Shared/Path/Connection.h"
 #include "Common/Shared/Path/Mixture.h"
 
 RT_SHARED_BEGIN
@@ -42,6 +44,12 @@ RT_FN PathState startPath(RT_IN(Ray) ray) {
     s.last.normal = vec3(0.0f, 0.0f, 0.0f);
     s.last.total = 0.0f;
     s.last.policy = kSelectUniform;
+    s.chain.from = vec3(0.0f, 0.0f, 0.0f);
+    s.chain.pdf = 0.0f;
+    s.chain.rate = 0.0f;
+    s.chain.sphere = kNone;
+    s.chain.inside = kNone;
+    s.chain.state = kChainNone;
     return s;
 }
 
@@ -76,6 +84,20 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
     s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
 }
 
+// With kFeatureConnections: follows the path's chain to what it has hit, and returns the weight of emission there.
+RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
+                       RT_IN(Surface) surface, RT_INOUT(PathState) s) {
+#ifdef RT_FULL
+    if (has(features, kFeatureConnections)) {
+        arriveChain(scene, params, hit, s);
+        if (s.chain.state == kChainBeyond && surface.light != kNone) {
+            return passageWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
+        }
+    }
+#endif
+    return 1.0f;
+}
+
 // Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. False: the path has
 // ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
@@ -95,7 +117,8 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         Surface surface = makeSurface(features, scene, s.ray, hit);
         Material material = loadMaterial(scene, surface.material); // the vertex keeps parts of it, in registers
         if (isPrincipled(features, material)) absorbInside(scene, surface, hit.t, s);
-        addEmission(features, scene, params, surface, material, hit.t, s);
+        float chainWeight = weighChain(features, scene, params, hit, surface, s);
+        addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
     }
@@ -129,9 +152,9 @@ RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b
 }
 
 // All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
-// `direct`, which the caller sets to noDirectLight(), has been added if it arrives.
+// `passage` and `direct`, which the caller sets to noPassage() and noDirectLight(), have been added if they arrive.
 RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
-                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct) {
+                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct, RT_INOUT(Passage) passage) {
     Vertex v;
     if (!arrive(features, scene, params, smp, hit, s, v)) return false;
     completeVertex(features, scene, v);
@@ -148,8 +171,14 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         direct = sampleDirectLight(features, scene, params, choice, v, u, s);
         addUnshadowed(direct, s);
     }
+#ifdef RT_FULL
+    if (has(features, kFeatureConnections) && nextEvent) passage = connectLight(features, scene, params, smp, v, u, s);
+#endif
     BsdfSample b = sampleScattering(features, v, u.bsdf);
     if (mixture) b = sampleMixture(features, scene, params, choice, v, u, b, s.ray.time, s.last);
+#ifdef RT_FULL
+    if (has(features, kFeatureConnections)) goOnChain(v, b, s);
+#endif
     return goOn(params, v, b, u.roulette.x, s);
 }
 

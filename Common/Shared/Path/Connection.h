@@ -1,0 +1,417 @@
+// Connections: light that reaches a vertex which scatters widely through a sphere of glass, refracted where it enters
+// and where it leaves. A light is chosen that the sphere may focus on the vertex, a point on it sampled as the sphere's
+// centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three segments, which have to be
+// free. The weight against scattering, which finds the same paths, needs the vertex, the density of the direction that
+// was taken there and the rate of connections: PathState::chain carries them along. What connections do not cover counts
+// in full where scattering finds it: reflections, other orders of surfaces, lights around the sphere, and vertices where
+// no light is thought to converge.
+// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+#ifndef RT_SHARED_CONNECTION_H
+#define RT_SHARED_CONNECTION_H
+#include "Common/Shared/Light/SphereRefraction.h"
+#include "Common/Shared/Material/Dielectric.h"
+#include "Common/Shared/Path/DirectLight.h"
+
+RT_SHARED_BEGIN
+
+RT_FN Passage noPassage() {
+    Passage p;
+    p.radiance = vec3(0.0f);
+    p.begin = vec3(0.0f);
+    p.entry[0] = vec3(0.0f);
+    p.entry[1] = vec3(0.0f);
+    p.leave[0] = vec3(0.0f);
+    p.leave[1] = vec3(0.0f);
+    p.end = vec3(0.0f);
+    p.segments = 0u;
+    return p;
+}
+
+#ifdef RT_FULL
+
+// ---- choosing a sphere and a light ---------------------------------------------------------------------------------
+
+// A sphere as a point sees it.
+struct SphereView {
+    vec3 center;
+    vec3 along; // unit, to the centre
+    float near; // radius over distance
+    vec2 reach; // of SmoothSphere
+    bool isNear;
+};
+
+// Beyond it a point lies on the sphere, or within.
+const float kNearestToSphere = 0.999f;
+
+RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+    SphereView view;
+    view.center = sphere.center + sphere.motion * time;
+    vec3 toCenter = view.center - x;
+    float inverse = 1.0f / sqrt(max(dot(toCenter, toCenter), 1.0e-30f));
+    view.along = toCenter * inverse;
+    view.near = sphere.radius * inverse;
+    view.isNear = view.near > sphere.nearest && view.near < kNearestToSphere;
+    view.reach = sphere.reach[uint(min(view.near * float(kReachSteps), float(kReachSteps - 1u)))];
+    return view;
+}
+
+// What the choice of a light through the sphere is proportional to.
+RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
+    float limit = view.reach.x * light.extent.x - view.reach.y * light.extent.y;
+    return view.isNear && dot(light.axis, view.along) > limit ? light.weight : 0.0f;
+}
+
+// Sum of the weights of all lights through one sphere.
+RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
+    uint count = loadGlobals(scene).lightCount;
+    float sum = 0.0f;
+    for (uint i = 0u; i < count; i++) sum += reachWeight(loadSphereReach(scene, sphere * count + i), view);
+    return sum;
+}
+
+RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
+    float sum = 0.0f;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
+        if (view.isNear) sum += sphereWeight(scene, k, view);
+    }
+    return sum;
+}
+
+// Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
+RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+    bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
+    return isWide && v.index + 1u + kPassageSegments <= params.maxDepth;
+}
+
+// Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
+// directly contribute `direct`, by a path of this throughput: as much as it can matter.
+const float kConnectionGain = 4.0f;
+
+RT_FN float connectionChance(float total, float direct, vec3 throughput) {
+    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
+}
+
+struct ConnectionChoice {
+    uint sphere;
+    uint light;
+    float weight; // 0: none
+    float u;      // what is left of the number that chose, for further use
+};
+
+// The light at this place along the weights, less than their sum.
+RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time, float target) {
+    uint count = loadGlobals(scene).lightCount;
+    ConnectionChoice choice;
+    choice.sphere = 0u;
+    choice.light = 0u;
+    choice.weight = 0.0f;
+    choice.u = 0.0f;
+    float left = target;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
+        if (!view.isNear) continue;
+        for (uint i = 0u; i < count; i++) {
+            float weight = reachWeight(loadSphereReach(scene, k * count + i), view);
+            if (!(weight > 0.0f)) continue;
+            choice.sphere = k;
+            choice.light = i;
+            choice.weight = weight;
+            choice.u = clamp(left / weight, 0.0f, 0.999999940395355f);
+            left -= weight;
+            if (left < 0.0f) return choice;
+        }
+    }
+    return choice;
+}
+
+// ---- the light's end -----------------------------------------------------------------------------------------------
+
+// A point on a light, as a connection ends there.
+struct LightEnd {
+    vec3 point;
+    vec3 error;
+    vec3 normal;
+    vec3 radiance;
+    float density;  // of the point, over area, that a vertex connects to it through this sphere; 0: there is none
+    float twoSided; // 1: it emits to both sides
+};
+
+// Density over area of a point of a light, of which the sphere's centre sees the density `pdf` over solid angle in the
+// direction wi. 0 where connections do not cover it: from behind, or from within a round light.
+RT_FN float endDensity(RT_IN(Light) light, vec3 center, vec3 wi, float distance, vec3 normal, float pdf) {
+    bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
+    float cosine = dot(normal, wi);
+    bool isSeen = isRound ? cosine < 0.0f : isLit(light, center);
+    return isSeen ? pdf * abs(cosine) / square(distance) : 0.0f;
+}
+
+// `rate` as in SphereChain.
+RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
+                         vec3 center, float time, float rate, vec2 u) {
+    RT_IN(Light) light = loadLight(scene, choice.light);
+    LightSample s = sampleLight(features, params, light, center, vec3(0.0f), time, u);
+    applyEmissionTexture(features, scene, light, s);
+    LightEnd end;
+    end.point = s.point;
+    end.error = s.error;
+    end.normal = s.normal;
+    end.radiance = s.radiance;
+    end.density = 0.0f;
+    if (s.pdf > 0.0f) {
+        end.density = rate * choice.weight * endDensity(light, center, s.wi, s.distance, s.normal, s.pdf);
+    }
+    bool isRound = light.kind == kLightSphere || light.kind == kLightEllipsoid;
+    end.twoSided = !isRound && light.sides == kSidesBoth ? 1.0f : 0.0f;
+    return end;
+}
+
+// ---- paths between the two ends ------------------------------------------------------------------------------------
+
+struct ConnectionPair {
+    RefractionPair angles;
+    vec3 along; // unit, from the vertex to the centre
+    vec3 aside; // unit, across it, towards the light's end
+    vec3 axis;  // across both, as long as the sine of the angle between them
+};
+
+RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, vec3 y) {
+    ConnectionPair c;
+    vec3 toY = y - view.center;
+    float inverse = 1.0f / sqrt(max(dot(toY, toY), 1.0e-30f));
+    vec3 w = toY * inverse;
+    c.along = view.along;
+    c.axis = cross(view.along, w);
+    float sine = sqrt(dot(c.axis, c.axis));
+    c.aside = cross(c.axis, view.along) * (1.0f / max(sine, 1.0e-12f));
+    c.angles.inverseEta = sphere.inverseEta;
+    c.angles.nearX = view.near;
+    c.angles.nearY = sphere.radius * inverse;
+    c.angles.bend = vec2(dot(view.along, w), sine);
+    return c;
+}
+
+// Whether both ends lie outside the sphere.
+RT_FN bool isConnectable(RT_IN(ConnectionPair) c) {
+    return c.angles.nearX < kNearestToSphere && c.angles.nearY < kNearestToSphere;
+}
+
+// One path between the ends.
+struct SpherePath {
+    vec3 atX;          // unit direction at the vertex
+    vec3 entry;        // unit normals, outward, where it meets the sphere: on the vertex's side
+    vec3 leave;        // and on the light's
+    float transmitted; // fraction of light
+    float spread;      // solid angle at the vertex over area of the light
+    float share;       // of the choice among the paths
+};
+
+RT_FN float transmittedTwice(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
+    return square(1.0f - fresnel(r.incident.x, p.inverseEta).x);
+}
+
+// Solid angle at the vertex over area at the light, whose normal makes an angle of this cosine with the path.
+RT_FN float pathSpread(RT_IN(RefractionPair) p, RT_IN(Refraction) r, float radius, float cosine) {
+    Refraction at = r;
+    at.turn.y = p.bend.y;
+    return refractionDensity(p, at) * cosine / square(radius);
+}
+
+// The path of this kind that is refracted at this angle; its share is 0 where there is none. Without a branch, for
+// loops over lanes.
+RT_FN SpherePath pathAt(RT_IN(ConnectionPair) c, uint kind, bool exists, vec2 angle, float radius, vec3 center,
+                        RT_IN(LightEnd) end, vec3 normal) {
+    Refraction r = refractionAt(c.angles, angle);
+    RefractedPlaces places = refractedPlaces(r, kind, c.along, c.aside);
+    SpherePath path;
+    path.atX = places.atX;
+    path.entry = places.entry;
+    path.leave = places.leave;
+    vec3 toEnd = end.point - (center + places.leave * radius);
+    vec3 wy = toEnd * (1.0f / sqrt(max(dot(toEnd, toEnd), 1.0e-30f)));
+    float facing = -dot(end.normal, wy);
+    facing = max(facing, -facing * end.twoSided);
+    path.transmitted = transmittedTwice(c.angles, r);
+    path.spread = pathSpread(c.angles, r, radius, facing);
+    // The irradiance that it brings, weighed against scattering by the cosine.
+    float receiver = isSurface(normal) ? max(dot(normal, path.atX), 0.0f) : 1.0f;
+    float scattering = kInvPi * receiver * path.transmitted * path.spread / end.density;
+    float share = receiver * path.transmitted * path.spread / (1.0f + square(scattering));
+    bool isOutside = dot(wy, places.leave) > 0.0f && dot(places.atX, places.entry) < 0.0f;
+    bool isValid = exists && isConnectable(c) && isOutside && end.density > 0.0f && share > 0.0f && share < kInfinity;
+    path.share = isValid ? share : 0.0f;
+    return path;
+}
+
+// One of three paths by their shares, of which one is above 0; its share becomes the probability of the choice.
+RT_FN SpherePath pickPath(RT_IN(SpherePath) a, RT_IN(SpherePath) b, RT_IN(SpherePath) c, float u) {
+    float sum = a.share + b.share + c.share;
+    float target = u * sum;
+    SpherePath path = a;
+    if (target >= a.share) path = b;
+    if (target >= a.share + b.share || !(path.share > 0.0f)) path = c.share > 0.0f ? c : path;
+    if (!(path.share > 0.0f)) path = a.share > 0.0f ? a : b;
+    path.share = path.share / max(sum, 1.0e-37f);
+    return path;
+}
+
+// Points on the surface are moved off it by this fraction of the radius, which is more than the angle of a path is
+// known to.
+const float kPassageMargin = 5.0e-5f;
+
+// A path weighed against scattering at v, which the path before reached with this throughput.
+RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, vec3 center,
+                           RT_IN(SpherePath) path, RT_IN(LightEnd) end, RT_IN(Vertex) v, vec3 throughput) {
+    Passage p = noPassage();
+    if (!(path.share > 0.0f)) return p;
+    vec4 f = evalScattering(features, v, path.atX);
+    float connecting = end.density / path.spread;
+    float scattering = f.w * path.transmitted;
+    if (params.lightSampling != kSampleMisBalance) scattering *= scattering / connecting;
+    vec3 light = sphere.tint * end.radiance * (path.transmitted / (path.share * (connecting + scattering)));
+    p.radiance = throughput * vec3(f) * light;
+    float strongest = maxComponent(p.radiance);
+    if (!(strongest > 0.0f && strongest < kInfinity)) return p;
+    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius);
+    vec3 entry = center + path.entry * sphere.radius;
+    vec3 leave = center + path.leave * sphere.radius;
+    p.begin = v.origin;
+    p.entry[0] = offsetOrigin(entry, error, path.entry, path.entry);
+    p.entry[1] = offsetOrigin(entry, error, path.entry, -path.entry);
+    p.leave[0] = offsetOrigin(leave, error, path.leave, -path.leave);
+    p.leave[1] = offsetOrigin(leave, error, path.leave, path.leave);
+    p.end = offsetOrigin(end.point, end.error, end.normal, leave - end.point);
+    p.segments = kPassageSegments;
+    return p;
+}
+
+// The sample that places the point on the light. Whether there is one, which light, and which path is decided by the
+// number that the mixture of lights and bsdf, which makes no connections, has for the same.
+RT_FN vec2 connectionSample(RT_IN(Sampler) smp, RT_IN(Vertex) v) {
+    return sample2D(smp, vertexDimension(v.index, kDimensionConnection));
+}
+
+// A connection from v, where a light has been chosen for next-event estimation.
+RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                           RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s) {
+    s.chain.rate = 0.0f;
+    if (params.connectedSpheres == 0u || !connects(features, params, v)) return noPassage();
+    float total = totalWeight(scene, params, v.origin, s.ray.time);
+    if (!(total > 0.0f)) return noPassage();
+    float chance = connectionChance(total, s.last.total, s.throughput * v.bsdf.albedo);
+    s.chain.rate = chance / total;
+    if (!(u.roulette.y < chance)) return noPassage();
+    float target = u.roulette.y / chance * total;
+    ConnectionChoice choice = chooseConnection(scene, params, v.origin, s.ray.time, target);
+    if (!(choice.weight > 0.0f)) return noPassage();
+    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, choice.sphere);
+    SphereView view = viewSphere(sphere, v.origin, s.ray.time);
+    LightEnd end =
+        sampleEnd(features, scene, params, choice, view.center, s.ray.time, s.chain.rate, connectionSample(smp, v));
+    if (!(end.density > 0.0f)) return noPassage();
+    ConnectionPair c = connectionPair(sphere, view, end.point);
+    RefractionRoots roots = refractionRoots(c.angles, leastTurn(c.angles));
+    SpherePath paths[kRefractedPaths];
+    for (uint kind = 0u; kind < kRefractedPaths; kind++) {
+        vec2 angle = firstAngle(kind);
+        for (uint k = 0u; k < kRootSteps; k++) angle = nextAngle(c.angles, kind, angle);
+        paths[kind] = pathAt(c, kind, hasPath(roots, kind), angle, sphere.radius, view.center, end, v.shading);
+    }
+    SpherePath path = pickPath(paths[0], paths[1], paths[2], choice.u);
+    return weighPassage(features, params, sphere, view.center, path, end, v, s.throughput);
+}
+
+// ---- segments ------------------------------------------------------------------------------------------------------
+
+// The next segment of the passage that has to be free, up to tMax.
+RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
+    vec3 from = p.segments == 3u ? p.leave[1] : p.segments == 2u ? p.begin : p.entry[1];
+    vec3 to = p.segments == 3u ? p.end : p.segments == 2u ? p.entry[0] : p.leave[0];
+    vec3 segment = to - from;
+    float segmentLength = length(segment);
+    Ray ray;
+    ray.origin = from;
+    ray.direction = segment / segmentLength;
+    ray.time = time;
+    tMax = segmentLength * (1.0f - kShadowMargin);
+    return ray;
+}
+
+// What becomes of the passage when its next segment has been traced.
+RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax, RT_INOUT(Passage) p,
+                      RT_INOUT(PathState) s) {
+    if (!isFree) {
+        p.segments = 0u;
+        return;
+    }
+    p.radiance *= rayTransmittance(features, scene, ray, tMax);
+    p.segments -= 1u;
+    if (p.segments == 0u) s.radiance += p.radiance;
+}
+
+// ---- the path's side -----------------------------------------------------------------------------------------------
+
+// Which of the spheres a path has hit.
+RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
+    if (hit.kind != kSphere || hit.instance != kNone) return kNone;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        if (loadSmoothSphere(scene, k).primitive == hit.primitive) return k;
+    }
+    return kNone;
+}
+
+// A path arrives at a surface, or in a medium, where hit.t < 0.
+RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
+    bool isSought = s.chain.state == kChainScattered || s.chain.state == kChainInside;
+    s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
+}
+
+// And goes on from there.
+RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
+    uint state = kChainNone;
+    if (b.delta == 0u) {
+        if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;
+        s.chain.from = v.origin;
+        s.chain.pdf = b.pdf;
+    } else if (b.transmitted != 0u && s.chain.sphere != kNone) {
+        if (s.chain.state == kChainScattered && v.front != 0u) {
+            state = kChainInside;
+            s.chain.inside = s.chain.sphere;
+        } else if (s.chain.state == kChainInside && v.front == 0u && s.chain.inside == s.chain.sphere) {
+            state = kChainBeyond;
+        }
+    }
+    s.chain.state = state;
+}
+
+// Weight of emission at y that the path of s hit beyond a sphere, against connections.
+RT_FN float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
+                          vec3 y, vec3 normal) {
+    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, s.chain.inside);
+    SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
+    uint count = loadGlobals(scene).lightCount;
+    float weight = reachWeight(loadSphereReach(scene, s.chain.inside * count + index), view);
+    ConnectionPair c = connectionPair(sphere, view, y);
+    if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
+    RT_IN(Light) light = loadLight(scene, index);
+    vec3 toY = y - view.center;
+    float distance = length(toY);
+    vec3 wi = toY / distance;
+    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, normal);
+    float density = s.chain.rate * weight * endDensity(light, view.center, wi, distance, normal, pdf);
+    if (!(density > 0.0f)) return 1.0f;
+    vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
+    float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
+    Refraction r = refractionAt(c.angles, angleOfSine(sine));
+    uint kind = dot(moment, c.axis) > 0.0f ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
+    if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
+    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
+    float scattering = s.chain.pdf * transmittedTwice(c.angles, r);
+    return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
+}
+
+#endif
+
+RT_SHARED_END
+
+#endif

@@ -1,0 +1,192 @@
+// Connections through spheres of glass change the noise and nothing else.
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Image/ImageTest.h"
+#include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Shared/Base/Features.h"
+#include "tests/image/AnalyticScenes.h"
+#include "tests/image/Harness.h"
+#include "tests/unit/Statistics.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using glm::dvec3;
+
+MaterialDesc glassOf(double ior) {
+    MaterialDesc glass;
+    glass.kind = MaterialKind::Dielectric;
+    glass.albedo = dvec3(0.9, 1, 0.8);
+    glass.parameters[shared::kDielectricIor] = ior;
+    return glass;
+}
+
+// Side and samples of the images, of which 32 are compared.
+struct Effort {
+    std::uint32_t side, spp;
+};
+
+image::Image renderImage(app::Engine& engine, const CompiledScene& scene, const app::RenderSettings& settings) {
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
+    }
+    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
+    return engine.film().resolve();
+}
+
+std::vector<image::Image> images(app::Engine& engine, const CompiledScene& scene, app::RenderSettings settings,
+                                 bool connected, std::uint32_t firstSeed) {
+    constexpr std::uint32_t kImages = 32;
+    settings.specularConnections = connected;
+    settings.sampler = app::SamplerKind::Independent;
+    std::vector<image::Image> images;
+    for (std::uint32_t i = 0; i < kImages; ++i) {
+        settings.seed = firstSeed + i;
+        images.push_back(renderImage(engine, scene, settings));
+    }
+    return images;
+}
+
+// 4 standard errors, as AgreementTest.cpp; without connections the light is that of scattering alone.
+void expectSameLight(const SceneDesc& desc, Effort effort, std::uint32_t maxDepth = 50) {
+    const auto scene = app::compile(desc, true, true);
+    ASSERT_FALSE(scene->smoothSpheres.empty()) << desc.id;
+    const auto engine = cpu::makeCpuEngine({});
+    engine->setScene(scene, nullptr);
+    app::RenderSettings settings;
+    settings.width = settings.height = effort.side;
+    settings.spp = effort.spp;
+    settings.maxDepth = maxDepth;
+    const auto reference = images(*engine, *scene, settings, false, 100);
+    EXPECT_FALSE(shared::has(engine->report().features, shared::kFeatureConnections));
+    for (const auto heuristic : {app::LightSampling::Mis, app::LightSampling::MisBalance}) {
+        settings.lightSampling = heuristic;
+        const auto result = image::testImages(
+            images(*engine, *scene, settings, true, heuristic == app::LightSampling::Mis ? 1000 : 2000), reference);
+        EXPECT_TRUE(shared::has(engine->report().features, shared::kFeatureConnections));
+        EXPECT_GT(result.globalP, 1e-4) << desc.id << ", " << result.summary();
+        EXPECT_EQ(result.tileDiscoveries, 0u) << desc.id << ", " << result.summary();
+    }
+}
+
+// A floor on which a sphere of glass focuses a light, both seen from above.
+SceneDesc caustic(const ObjectDesc::Shape& lamp) {
+    SceneDesc desc = emptyScene({0, 3, 4}, {0, 0, 0}, 40);
+    desc.id = "caustic";
+    desc.materials["floor"] = lambertian(0.7);
+    desc.materials["glass"] = glassOf(1.5);
+    desc.materials["lamp"] = lambertian(0, 30);
+    desc.objects = {
+        {QuadDesc{{-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, "floor"}}, {SphereDesc{{0, 1.2, 0}, 0.7, {}, "glass"}}, {lamp}};
+    return desc;
+}
+
+const QuadDesc kPanel{{-0.3, 5, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, "lamp"};
+
+TEST(Connection, ChangesNothingButNoise) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"})
+        expectSameLight(findBuiltinScene(id), {16, 16});
+    expectSameLight(caustic(kPanel), {16, 64});
+    expectSameLight(caustic(kPanel), {16, 64}, 5); // paths that end early
+}
+
+TEST(NightlyConnection, ChangesNothingButNoise) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"})
+        expectSameLight(findBuiltinScene(id), {32, 256});
+}
+
+// Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
+std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
+    const auto scene = app::compile(findBuiltinScene(id), true, true);
+    const auto engine = cpu::makeCpuEngine({});
+    engine->setScene(scene, nullptr);
+    app::RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.spp = 4;
+    constexpr std::size_t kRegions = 16;
+    std::vector<Mean> means(kRegions);
+    for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
+        double sums[kRegions] = {};
+        for (const bool connected : {false, true}) {
+            settings.specularConnections = connected;
+            const image::Image image = renderImage(*engine, *scene, settings);
+            for (std::size_t i = 0; i < image.data.size(); ++i) {
+                const std::size_t x = i / 3 % 16, y = i / 48;
+                sums[y / 4 * 4 + x / 4] += (connected ? 1.0 : -1.0) * double(image.data[i]);
+            }
+        }
+        for (std::size_t r = 0; r < kRegions; ++r) means[r].add(sums[r]);
+    }
+    return means;
+}
+
+// By 16 regions and 3 scenes fewer than one in 3000 true sets of images fail.
+void expectSameMeans(std::uint32_t seeds) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
+        int differing = 0;
+        for (const Mean& mean : differences(id, seeds)) {
+            EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError()) << id;
+            if (mean.variance() > 0) ++differing;
+        }
+        EXPECT_GT(differing, 4) << id;
+    }
+    for (const Mean& mean : differences("veach-mis", 3))
+        EXPECT_EQ(mean.variance(), 0) << "without glass nothing changes";
+}
+
+TEST(Connection, MeansOfManySeedsAreTheSame) {
+    expectSameMeans(100);
+}
+
+TEST(NightlyConnection, MeansOfManySeedsAreTheSame) {
+    expectSameMeans(1000);
+}
+
+TEST(Connection, ToEveryShapeOfLight) {
+    expectSameLight(caustic(SphereDesc{{0.4, 4, -0.2}, 0.3, {}, "lamp"}), {16, 64});
+    SceneDesc desc =
+        caustic(GroupDesc{{Scale{{1, 0.2, 0.6}}, Translate{{0, 4, 0}}}, {{SphereDesc{{0, 0, 0}, 0.5, {}, "lamp"}}}});
+    expectSameLight(desc, {16, 64});
+}
+
+// What connections do not cover, or only with care: moving, hollow, nested, occluded inside, around a light, in fog.
+TEST(Connection, ThroughSpheresOfEveryKind) {
+    SceneDesc moving = caustic(kPanel);
+    moving.objects[1] = {SphereDesc{{-0.5, 1.2, 0}, 0.7, dvec3(0.5, 1.4, 0.3), "glass"}};
+    expectSameLight(moving, {16, 64});
+    SceneDesc hollow = caustic(kPanel);
+    hollow.materials["bubble"] = glassOf(1 / 1.5);
+    hollow.objects.push_back({SphereDesc{{0, 1.2, 0}, 0.6, {}, "bubble"}});
+    hollow.objects.push_back({SphereDesc{{1.2, 0.8, 1}, 0.5, {}, "glass"}});
+    expectSameLight(hollow, {16, 64});
+    SceneDesc inside = caustic(kPanel);
+    inside.objects.push_back({SphereDesc{{0.2, 1.2, 0}, 0.3, {}, "floor"}});
+    inside.objects.push_back({SphereDesc{{0.9, 1.2, 0}, 0.7, {}, "glass"}});
+    inside.objects.push_back({SphereDesc{{-1.5, 0.5, 0}, 0.5, {}, "glass"}});
+    inside.objects.push_back({SphereDesc{{-1.5, 0.5, 0}, 0.1, {}, "lamp"}});
+    expectSameLight(inside, {16, 64});
+    SceneDesc fog = caustic(kPanel);
+    fog.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, 0, -3), dvec3(3, 4, 3)}, 0.2, dvec3(0.9)}});
+    expectSameLight(fog, {16, 64});
+}
+
+// Walls that emit and reflect light each other, and a sphere of clear glass among them, which changes nothing.
+TEST(Connection, AFurnaceStaysOne) {
+    SceneDesc desc = shell(true, 0.5, 0.5);
+    desc.materials["glass"].kind = MaterialKind::Dielectric;
+    desc.objects.push_back({SphereDesc{{0.5, -0.4, -0.2}, 0.3, {}, "glass"}});
+    app::RenderSettings settings = smallSettings(8, 2048);
+    settings.maxDepth = 4096;
+    settings.specularConnections = true;
+    EXPECT_TRUE(isMean(render(desc, settings), dvec3(1)));
+}
+
+} // namespace
+} // namespace rt::test
