@@ -255,8 +255,15 @@ class Suite {
         add(std::to_string(spp) + " samples per pixel", off, "|value| <= 1e-6", std::abs(off) <= 1e-6);
     }
 
-    // Every way of sampling a light's shape, for lights that are seen or shine at grazing angles.
-    void forEachShape(const std::string& name, const SceneDesc& desc, double irradiance, double allowance) {
+    struct LitFloor {
+        std::string name;
+        SceneDesc desc;
+        double irradiance = 0;
+    };
+
+    // Every way of sampling a light's shape, for lights that are seen or shine at grazing angles. The lights of one call
+    // have one shape: a device compiles its shaders once for each way.
+    void forEachShape(const std::vector<LitFloor>& floors, double allowance) {
         constexpr std::pair<app::ShapeSampling, const char*> kShapes[] = {
             {app::ShapeSampling::Auto, "auto"},
             {app::ShapeSampling::SolidAngle, "solid angle"},
@@ -265,35 +272,40 @@ class Suite {
             app::RenderSettings settings;
             settings.maxDepth = 2;
             settings.sphereLight = settings.quadLight = settings.triangleLight = shape;
-            addMean(name + ", " + label, render(desc, 1024, settings), 2 * 0.7 / kPi * irradiance, allowance);
+            for (const auto& [name, desc, irradiance] : floors)
+                addMean(name + ", " + label, render(desc, 1024, settings), 2 * 0.7 / kPi * irradiance, allowance);
         }
     }
 
     void grazing() {
+        std::vector<LitFloor> floors;
         for (const double height : {1e-2, 1e-4}) { // of the light's plane beside the point
             const dvec3 corner(-1, 0.01, -height), u(2, 0, 0), v(0, 1, 0);
             SceneDesc desc = litFloor();
             desc.objects.push_back({QuadDesc{corner, u, v, "light"}});
             const std::vector<dvec3> outline{corner, corner + u, corner + u + v, corner + v};
-            forEachShape("light's plane at " + text("%.0e", height), desc, irradianceOf(outline), 2e-3);
+            floors.push_back({"light's plane at " + text("%.0e", height), desc, irradianceOf(outline)});
         }
+        forEachShape(floors, 2e-3);
         SphereDesc low;
         low.center = {0, 0.02, -2}, low.radius = 0.02, low.material = "light";
         SceneDesc desc = litFloor();
         desc.objects.push_back({low});
         const double d2 = glm::dot(low.center, low.center);
-        forEachShape("sphere that touches the floor", desc, kPi * 4e-4 / d2 * 0.02 / std::sqrt(d2), 1e-3);
+        forEachShape({{"sphere that touches the floor", desc, kPi * 4e-4 / d2 * 0.02 / std::sqrt(d2)}}, 1e-3);
     }
 
     void slivers() {
+        std::vector<LitFloor> floors;
         for (const double thickness : {1e-2, 1e-4}) {
             MeshData mesh;
             mesh.positions = {{-1, 1, 0.3}, {1, 1, 0.3}, {0.1, 1, 0.3 - thickness}};
             mesh.triangles = {{0, 1, 2}};
             SceneDesc desc = litFloor();
             desc.objects.push_back({MeshDesc{mesh, "light"}});
-            forEachShape("sliver of 1 : " + text("%.0e", thickness / 2), desc, irradianceOf(mesh.positions), 1e-3);
+            floors.push_back({"sliver of 1 : " + text("%.0e", thickness / 2), desc, irradianceOf(mesh.positions)});
         }
+        forEachShape(floors, 1e-3);
     }
 
     // The floor twice: which of the two is hit must not matter.

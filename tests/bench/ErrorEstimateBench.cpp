@@ -25,7 +25,7 @@ namespace {
 app::SamplerKind samplerOf(const std::string& name) {
     for (const auto& row : app::kSamplers)
         if (row.name == name) return row.value;
-    throw UsageError("sampler \"" + name + "\" is not one of sobol, sobol-blue, stratified, independent");
+    throw UsageError("sampler \"" + name + "\" is not one of " + app::joinedNames(app::kSamplers));
 }
 
 struct Campaign {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "Common/App/Interactive/RunGroups.h"
+#include "Common/App/Options/Names.h"
 
 namespace rt::gui {
 
@@ -44,14 +46,15 @@ std::string whatErrorKindMeans(const app::RunRecord& run) {
 
 std::string runDetails(const app::RunRecord& run) {
     const std::string lacking = lackingIn(run);
-    return whenText(run) + " UTC, " + run.device +
+    return (run.time.empty() ? "" : whenText(run) + " UTC, ") + run.device +
            (lacking.empty() ? "" : "\nCompared with no other run: the record lacks " + lacking);
 }
 
 Mark markOf(const std::string& lightSampling) {
-    if (lightSampling == "mis-balance") return Mark::Square;
-    if (lightSampling == "mixture") return Mark::Diamond;
-    if (lightSampling == "bsdf") return Mark::Triangle;
+    constexpr Mark kMarks[] = {Mark::Circle, Mark::Square, Mark::Diamond, Mark::Triangle}; // of each row
+    static_assert(std::size(kMarks) == std::size(app::kLightSamplings));
+    for (std::size_t i = 0; i < std::size(kMarks); ++i)
+        if (app::kLightSamplings[i].name == lightSampling) return kMarks[i];
     return Mark::Circle;
 }
 
