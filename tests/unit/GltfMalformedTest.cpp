@@ -98,6 +98,8 @@ TEST(GltfMalformed, EveryMistakeIsNamed) {
         {"/accessors/0/type", "VEC9", "/accessors/0/type"},
         {"/accessors/2/componentType", 5126, "/accessors/2: its 3 elements"},
         {"/accessors/1/count", 2, "TEXCOORD_0: has 2 elements"},
+        {"/accessors/3/count", 1, "JOINTS_0: has 1 elements: must be those of POSITION, 3"},
+        {"/accessors/4/count", 2, "WEIGHTS_0: has 2 elements: must be those of POSITION, 3"},
         {"/bufferViews/0/byteLength", 1000000, "/bufferViews/0: ends at byte"},
         {"/bufferViews/0/byteStride", 4096, "/bufferViews/0/byteStride"},
         {"/bufferViews/0/buffer", 1, "/bufferViews/0/buffer: 1"},

@@ -24,9 +24,15 @@ std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& 
                                const std::string& place, std::size_t count) {
     std::vector<Affine> maps(count, Affine{glm::dmat3(0), glm::dvec3(0)});
     std::vector<double> sums(count, 0);
+    const std::size_t vertices = accessorCount(file, primitive.attributes.at("POSITION"));
     for (int set = 0; set < jointSetCount(primitive); ++set) {
         const std::string jointsName = setName("JOINTS_", set), weightsName = setName("WEIGHTS_", set);
         const int numbers = primitive.attributes.at(jointsName), shares = primitive.attributes.at(weightsName);
+        for (const std::string& name : {jointsName, weightsName})
+            if (const std::size_t given = accessorCount(file, primitive.attributes.at(name)); given != vertices)
+                file.fail(place + "/attributes/" + name, "has " + std::to_string(given) +
+                                                             " elements: must be those of POSITION, " +
+                                                             std::to_string(vertices));
         const std::vector<glm::dvec4> number = readVectors<4>(file, numbers, elements);
         const std::vector<glm::dvec4> weight = readVectors<4>(file, shares, elements);
         for (std::size_t i = 0; i < count; ++i)
