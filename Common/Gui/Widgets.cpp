@@ -10,7 +10,7 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kLabelShare = 0.47f; // of a row: the longest of the names fit
+constexpr float kLabelShare = 0.40f; // of a row
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
