@@ -63,10 +63,10 @@ std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan:
 // an H100 0.87 times as long as eight groups of 64 through lists and 0.97 to 0.99 through trees. Without lights, where
 // more groups fit, they take 1.12 times as long.
 std::uint32_t groupSize(const vulkan::VulkanContext& context, std::uint32_t features) {
-    constexpr std::uint32_t kNvidia = 0x10de, kUsual = 64, kLarge = 512;
+    constexpr std::uint32_t kNvidia = 0x10de, kLarge = 512;
     const bool isMeasured = context.limits().vendor == kNvidia && shared::has(features, shared::kFeatureLights) &&
                             !shared::has(features, kFeaturesOfFull);
-    return isMeasured && context.limits().maxGroupSize >= kLarge ? kLarge : kUsual;
+    return isMeasured && context.limits().maxGroupSize >= kLarge ? kLarge : TraversalShape().groupSize;
 }
 
 std::uint32_t maxInvocations(const vulkan::VulkanContext& context, app::GpuEngineKind engine) {

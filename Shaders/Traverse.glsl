@@ -189,7 +189,7 @@ void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout ve
     leave = min(leave, max(t.xz, t.yw));
 }
 
-// The same of four children.
+// Where the ray is between lower and upper bounds, of each of four children.
 void clipSlabs(vec4 lower, vec4 upper, float origin, float inverse, inout vec4 entry, inout vec4 leave) {
     vec4 a = (lower - origin) * inverse;
     vec4 b = (upper - origin) * inverse;

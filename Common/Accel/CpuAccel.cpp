@@ -92,9 +92,9 @@ bool Assembly::buildTrees() {
 }
 
 void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const {
-    const Chunks chunks(tree.filling.leaves.size(), kLeafChunk);
-    parallelFor(settings_.tree.threads, chunks.count, [&](std::size_t chunk) {
-        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+    const std::size_t leaves = tree.filling.leaves.size();
+    parallelChunks(settings_.tree.threads, leaves, kLeafChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const LeafItems& leaf = tree.filling.leaves[i];
             switch (leaf.kind) {
                 case LeafKind::Sphere:
@@ -127,7 +127,7 @@ void Assembly::fill(AccelStorage& storage) {
     const auto blocks = [&](LeafKind kind) { return blocks_.of[static_cast<std::uint32_t>(kind)]; };
     storage.nodes = LargeArray<WideNode>(std::exchange(nodes_, {}));
     storage.quantizedNodes = LargeArray<QuantizedNode>(std::exchange(quantized_.nodes, {}));
-    // With the trees and what it took to build them.
+    // That of the trees, which were copied, and of what it took to build them.
     if (input_.spheres.size() + input_.quads.size() + input_.triangles.size() > kManyPrimitives) releaseFreedMemory();
     storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
     storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));

@@ -120,8 +120,8 @@ class Flattener {
 
   private:
     std::uint32_t addLeaf(const SceneTree& tree, const BvhNode& leaf);
-    template <std::uint32_t kWidth, class Node>
-    void addNodes(const SceneTree& tree, std::vector<Node>& nodes);
+    template <class Node, class Children>
+    void addNodes(const SceneTree& tree, std::vector<Node>& nodes, const Children& childrenOf);
     std::uint32_t depthBelow(const SceneTree& tree, const BvhNode& leaf) const;
 
     const AccelInput& input_;
@@ -187,19 +187,14 @@ std::uint32_t Flattener::depthBelow(const SceneTree& tree, const BvhNode& leaf) 
     return 1 + depths_[input_.instances[tree.items.index(item)].geometry];
 }
 
-// Depth first, so that what is visited together lies together. A traversal remembers all children but one of every node
-// on its way down.
-template <std::uint32_t kWidth, class Node>
-void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes) {
+// Of a tree whose root is no leaf; childrenOf(node of the binary tree): which of its descendants become children. Depth
+// first, so that what is visited together lies together. A traversal remembers all children but one of every node on its
+// way down.
+template <class Node, class Children>
+void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const Children& childrenOf) {
     const std::vector<BvhNode>& binary = tree.bvh.nodes;
     std::uint32_t& depth = depths_[tree.geometry];
-    if (binary[0].isLeaf()) {
-        roots_[tree.geometry] = addLeaf(tree, binary[0]);
-        depth = depthBelow(tree, binary[0]);
-        return;
-    }
     roots_[tree.geometry] = static_cast<std::uint32_t>(nodes.size());
-    const Collapse<kWidth> collapse(tree.bvh, 0.0f, [&](std::uint32_t node) { return binary[node].isLeaf(); });
     struct Open {
         std::uint32_t binary, parent;
         int child;
@@ -217,7 +212,7 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes) {
             depth = std::max(depth, next.above + depthBelow(tree, node));
             continue;
         }
-        const auto children = collapse.children(next.binary);
+        const auto children = childrenOf(next.binary);
         Node record{};
         record.children = shared::uvec4(shared::kTreeNothing);
         for (std::uint32_t i = children.count; i-- > 0;) {
@@ -230,10 +225,19 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes) {
 }
 
 void Flattener::add(const SceneTree& tree) {
-    if (trees_.isWide)
-        addNodes<4>(tree, trees_.wideNodes);
-    else
-        addNodes<2>(tree, trees_.nodes);
+    const std::vector<BvhNode>& nodes = tree.bvh.nodes;
+    if (nodes[0].isLeaf()) {
+        roots_[tree.geometry] = addLeaf(tree, nodes[0]);
+        depths_[tree.geometry] = depthBelow(tree, nodes[0]);
+    } else if (trees_.isWide) {
+        const Collapse<4> collapse(tree.bvh, 0.0f, [&](std::uint32_t node) { return nodes[node].isLeaf(); });
+        addNodes(tree, trees_.wideNodes, [&](std::uint32_t node) { return collapse.children(node); });
+    } else {
+        using Children = Collapse<2>::Children;
+        addNodes(tree, trees_.nodes, [&](std::uint32_t node) {
+            return Children{{nodes[node].first, nodes[node].first + 1}, 2};
+        });
+    }
 }
 
 GpuTrees Flattener::finish() {

@@ -261,8 +261,8 @@ class Suite {
         double irradiance = 0;
     };
 
-    // Every way of sampling a light's shape, for lights that are seen or shine at grazing angles. The lights of one call
-    // have one shape: a device compiles its shaders once for each way.
+    // Every way of sampling a light's shape, for lights that are seen or shine at grazing angles. The lights of one
+    // call have one shape: a device compiles its shaders once for each way.
     void forEachShape(const std::vector<LitFloor>& floors, double allowance) {
         constexpr std::pair<app::ShapeSampling, const char*> kShapes[] = {
             {app::ShapeSampling::Auto, "auto"},

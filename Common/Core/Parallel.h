@@ -124,11 +124,11 @@ struct Chunks {
     std::size_t items_;
 };
 
-// Calls f(begin, end) for pieces of [0, items), as parallelFor does, on as many threads as the machine has.
+// Calls f(begin, end) for pieces of [0, items), as parallelFor does.
 template <class Function>
-void parallelChunks(std::size_t items, std::size_t itemsPerChunk, const Function& f) {
+void parallelChunks(std::size_t threads, std::size_t items, std::size_t itemsPerChunk, const Function& f) {
     const Chunks chunks(items, itemsPerChunk);
-    parallelFor(0, chunks.count, [&](std::size_t chunk) { f(chunks.begin(chunk), chunks.end(chunk)); });
+    parallelFor(threads, chunks.count, [&](std::size_t chunk) { f(chunks.begin(chunk), chunks.end(chunk)); });
 }
 
 } // namespace rt

@@ -18,7 +18,7 @@ void reserveLarge(Container& container, std::size_t count) {
     preferLargePages(container.data(), count * sizeof(*container.data()));
 }
 
-// The same with the elements, which are values, or copies of one.
+// As reserveLarge(), with the elements: default ones, or copies of the value.
 template <class Container, class... Value>
 void resizeLarge(Container& container, std::size_t count, const Value&... value) {
     reserveLarge(container, count);

@@ -42,9 +42,8 @@ void checkSide(const char* what, std::uint32_t side) {
 Image allRows(const ImageRows& rows) {
     constexpr std::size_t kRows = 16; // that a thread takes at a time
     Image image(rows.width, rows.height, rows.channels);
-    const Chunks chunks(rows.height, kRows);
-    parallelFor(0, chunks.count, [&](std::size_t chunk) {
-        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+    parallelChunks(0, rows.height, kRows, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             const auto y = static_cast<std::uint32_t>(i);
             rows.read(y, {image.pixel(0, y), rows.rowValues()});
         }

@@ -1,4 +1,5 @@
-// A value that lies elsewhere, as std::indirect of C++26: one that is much larger than what else may stand in its place.
+// A value that lies elsewhere, as std::indirect of C++26: one that is much larger than what else may stand in its
+// place.
 #pragma once
 #include <memory>
 #include <utility>

@@ -41,7 +41,7 @@ app::AovImages firstHits(const Scene& scene, scene::CameraDesc camera, std::uint
                          std::uint32_t height = kHeight) {
     auto still = std::make_shared<scene::CompiledScene>(*scene);
     still->sphereMotions.clear();
-    still->features &= ~(shared::kFeatureMovingSpheres);
+    still->features &= ~shared::kFeatureMovingSpheres;
     camera.defocusAngle = 0;
     app::RenderSettings settings;
     settings.width = width;

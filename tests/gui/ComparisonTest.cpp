@@ -12,6 +12,7 @@
 #include "Common/App/Interactive/RunHistory.h"
 #include "Common/Gui/Theme.h"
 #include "tests/gui/WindowTest.h"
+#include "tests/unit/RunRecords.h"
 
 namespace rt::test {
 namespace {
@@ -25,23 +26,14 @@ std::uint32_t bytesOf(const ImVec4& color) {
 }
 
 app::RunRecord run(const std::string& program, const std::string& estimator, const std::string& time) {
-    app::RunRecord r;
+    app::RunRecord r = runRecord(program, estimator, 16);
     r.time = time;
-    r.app = program;
     r.engine = "multi";
     r.scene = "cornell-box-lights";
-    r.sceneHash = "0123456789abcdef";
     r.camera = "{}";
-    r.lightSampling = estimator;
-    r.sampler = "sobol";
-    r.lightSelection = "contribution";
-    r.sphereLight = r.quadLight = r.triangleLight = "auto";
-    r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = r.specularConnections = "off";
     r.width = r.height = 100;
     r.maxDepth = 50;
     r.threads = 2;
-    r.spp = 16;
     r.renderSeconds = 1;
     r.samplesPerSecond = 160000;
     r.relmse = 0.1;

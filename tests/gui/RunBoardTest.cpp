@@ -4,26 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "Common/Gui/RunBoard.h"
+#include "tests/unit/RunRecords.h"
 
 namespace rt::gui {
 namespace {
 
-app::RunRecord run(const std::string& app, const std::string& estimator, const std::string& time) {
-    app::RunRecord r;
+app::RunRecord run(const std::string& program, const std::string& estimator, const std::string& time) {
+    app::RunRecord r = test::runRecord(program, estimator, 16);
     r.time = time;
-    r.app = app;
-    r.scene = "a";
-    r.sceneHash = "0123456789abcdef";
-    r.camera = "{}";
-    r.lightSampling = estimator;
-    r.sampler = "sobol";
-    r.lightSelection = "contribution";
-    r.sphereLight = r.quadLight = r.triangleLight = "auto";
-    r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = r.specularConnections = "off";
-    r.width = r.height = 8;
     r.maxDepth = 50;
-    r.spp = 16;
     r.renderSeconds = 1;
     r.samplesPerSecond = 1024;
     return r;

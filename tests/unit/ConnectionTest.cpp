@@ -78,7 +78,7 @@ class Scattered {
         return light * double(weight);
     }
 
-    // The same by connections.
+    // One sample of that light by connections.
     double connect(Uniforms& u) const {
         PathState s = pathAt();
         const Passage p = connection(u, s);

@@ -4,25 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Interactive/RunGroups.h"
+#include "tests/unit/RunRecords.h"
 
 namespace rt::app {
 namespace {
 
-RunRecord run(const std::string& app, std::uint64_t spp) {
-    RunRecord r;
-    r.app = app;
-    r.scene = "a";
-    r.sceneHash = "0123456789abcdef";
-    r.camera = "{\"look_from\":[0,0,1]}";
-    r.lightSampling = "mis";
-    r.sampler = "sobol";
-    r.lightSelection = "contribution";
-    r.sphereLight = r.quadLight = r.triangleLight = "auto";
-    r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = r.specularConnections = "off";
-    r.width = r.height = 8;
-    r.spp = spp;
-    return r;
+RunRecord run(const std::string& program, std::uint64_t spp) {
+    return test::runRecord(program, "mis", spp);
 }
 
 bool isSaidOnce(const RunGroups& groups, const std::string& title) {

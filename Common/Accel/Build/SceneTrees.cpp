@@ -27,9 +27,8 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
         if (tree.items.size() == 0) return true;
         std::vector<Box> boxes;
         resizeLarge(boxes, tree.items.size());
-        const Chunks chunks(boxes.size(), kBoxChunk);
-        parallelFor(settings.threads, chunks.count, [&](std::size_t chunk) {
-            for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+        parallelChunks(settings.threads, boxes.size(), kBoxChunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
                 boxes[i] = tree.items.box(static_cast<std::uint32_t>(i), geometryBoxes);
             }
         });

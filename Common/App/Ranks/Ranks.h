@@ -17,7 +17,8 @@ inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that w
 class IdleWait {
   public:
     // Beside threads that render, whether on this rank or on others: every look takes MPI some microseconds of a
-    // processor that has better things to do. Where devices render instead, a lease may take no longer than such a rest.
+    // processor that has better things to do. Where devices render instead, a lease may take no longer than such a
+    // rest.
     explicit IdleWait(bool processorsRender) : processorsRender_(processorsRender) {}
 
     void rest() {

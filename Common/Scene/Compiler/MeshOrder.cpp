@@ -67,7 +67,7 @@ void orderAlongCurve(const std::vector<glm::vec3>& positions, const WoundTriangl
     const float cells = 1u << kBits;
     std::vector<Keyed> keys;
     resizeLarge(keys, order.size());
-    parallelChunks(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    parallelChunks(0, keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const glm::vec3 unit = (middle(order[k]) - lower) / size;
             const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));

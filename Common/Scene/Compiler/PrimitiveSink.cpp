@@ -257,13 +257,13 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     const Affine map = at.outer * at.local;
     std::vector<shared::vec3> positions;
     resizeLarge(positions, data.positions.size());
-    parallelChunks(positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    parallelChunks(0, positions.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) positions[i] = shared::vec3(map.point(data.positions[i]));
     });
 
     const WoundTriangles triangles{data.triangles, map.mirrors()};
     std::vector<std::uint8_t> isFlat(data.triangles.size());
-    parallelChunks(isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    parallelChunks(0, isFlat.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             interruptionPoint();
             const glm::uvec3& t = data.triangles[i];
@@ -328,7 +328,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
         if (from.empty()) return;
         const std::size_t first = to.size();
         to.resize(first + uses.size());
-        parallelChunks(uses.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        parallelChunks(0, uses.size(), kChunk, [&](std::size_t begin, std::size_t end) {
             interruptionPoint();
             for (std::size_t i = begin; i < end; ++i) to[first + i] = converted(from[uses[i].vertex], uses[i].triangle);
         });

@@ -39,18 +39,26 @@ shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t inde
     return smooth;
 }
 
+shared::vec3 middleOf(const shared::SmoothSphere& sphere) { // of its way while the shutter is open
+    return sphere.center + 0.5f * sphere.motion;
+}
+
+// What a light irradiates the sphere's centre by.
+float irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
+    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
+    return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
+}
+
 // How the sphere sees a light at the middle of the shutter.
 shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::Light& light,
                             const shared::LightBound& bound) {
-    const shared::vec3 center = sphere.center + 0.5f * sphere.motion;
-    const shared::vec3 toLight = bound.center - center;
+    const shared::vec3 toLight = bound.center - middleOf(sphere);
     const double distance = glm::length(toLight);
     const double sine = distance > bound.radius ? bound.radius / distance : 1;
     shared::SphereReach reach{};
     reach.axis = distance > 0 ? toLight / static_cast<float>(distance) : shared::vec3(0, 0, 1);
     reach.extent = cosineAndSine(std::asin(sine));
-    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
-    reach.weight = hasExtent ? shared::lightContribution(bound, center, shared::vec3(0.0f)) : 0.0f;
+    reach.weight = irradianceAt(sphere, light, bound);
     return reach;
 }
 
@@ -88,7 +96,7 @@ void addSphere(std::uint32_t index, CompiledScene& out) {
         out.sphereReaches.push_back(reach);
         if (!(reach.weight > 0)) continue;
         const shared::LightBound& bound = out.lightBounds[i];
-        const double distance = glm::length(bound.center - sphere.center - 0.5f * sphere.motion);
+        const double distance = glm::length(bound.center - middleOf(sphere));
         const double nearest = std::max(distance - static_cast<double>(bound.radius), 0.0);
         const double radius = static_cast<double>(sphere.radius);
         nearY = std::max(nearY, radius / std::max(nearest, radius));
@@ -103,7 +111,7 @@ double flux(const CompiledScene& scene, std::uint32_t index) {
     const shared::SmoothSphere sphere = smoothSphere(scene, index);
     double sum = 0;
     for (std::size_t i = 0; i < scene.globals.lightCount; ++i)
-        sum += reachOf(sphere, scene.lights[i], scene.lightBounds[i]).weight;
+        sum += irradianceAt(sphere, scene.lights[i], scene.lightBounds[i]);
     return sum * sphere.radius * sphere.radius;
 }
 

@@ -277,11 +277,10 @@ std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences&
 std::vector<ObjectDesc> readObjects(const JsonNode& node, const SceneReferences& references, const LongJson& text) {
     if (text.elementCount() == 0) return readObjects(node, references);
     constexpr std::size_t kElementsPerChunk = 256;
-    const Chunks chunks(text.elementCount(), kElementsPerChunk);
     std::vector<ObjectDesc> objects;
     resizeLarge(objects, text.elementCount());
-    parallelFor(0, chunks.count, [&](std::size_t chunk) {
-        for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
+    parallelChunks(0, objects.size(), kElementsPerChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
             interruptionPoint();
             const LargeJson element = text.element(i);
             objects[i] = readObject(JsonNode(*element, node, i), references);

@@ -2,9 +2,9 @@
 // and where it leaves. A light is chosen that the sphere may focus on the vertex, a point on it sampled as the sphere's
 // centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three segments, which have to be
 // free. The weight against scattering, which finds the same paths, needs the vertex, the density of the direction that
-// was taken there and the rate of connections: PathState::chain carries them along. What connections do not cover counts
-// in full where scattering finds it: reflections, other orders of surfaces, lights around the sphere, and vertices where
-// no light is thought to converge.
+// was taken there and the rate of connections: PathState::chain carries them along. What connections do not cover
+// counts in full where scattering finds it: reflections, other orders of surfaces, lights around the sphere, and
+// vertices where no light is thought to converge.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
