@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 #extension GL_EXT_scalar_block_layout : require
 #include "Records.h"
 #include "PixelEnd.glsl"
@@ -43,16 +44,29 @@ void main() {
     if (blockSquares || sampleSquares) square = launch.squares.at[pixel];
     vec3 block = vec3(0.0f);
     if (done % kBlock != 0u) block = launch.open.at[pixel];
-    for (uint step = 0u; step < end - done; step++) {
-        vec3 radiance = vec3(0.0f);
-        if (done + step < last) radiance = launch.radiance.at[sampleAt(launch, position, step, gl_LocalInvocationID.x)];
-        block += radiance;
-        if (sampleSquares) add(square, radiance * radiance);
-        if ((done + step + 1u) % kBlock == 0u) {
+    // All of a block are fetched before the first is added: a launch of few slots has many steps, whose latencies would
+    // follow each other.
+    for (uint first = done; first < end;) {
+        uint stop = min((first / kBlock + 1u) * kBlock, end);
+        vec3 radiances[kBlock];
+        [[unroll]] for (uint i = 0u; i < kBlock; i++) {
+            radiances[i] = vec3(0.0f);
+            if (first + i < min(stop, last))
+                radiances[i] =
+                    launch.radiance.at[sampleAt(launch, position, first + i - done, gl_LocalInvocationID.x)];
+        }
+        [[unroll]] for (uint i = 0u; i < kBlock; i++) {
+            if (first + i < stop) {
+                block += radiances[i];
+                if (sampleSquares) add(square, radiances[i] * radiances[i]);
+            }
+        }
+        if (stop % kBlock == 0u) {
             add(sum, block);
             if (blockSquares) add(square, block * block / float(kBlock));
             block = vec3(0.0f);
         }
+        first = stop;
     }
     if (end % kBlock != 0u) launch.open.at[pixel] = block;
     launch.sums.at[pixel] = sum;
