@@ -218,6 +218,11 @@ INSTANTIATE_TEST_SUITE_P(Queries, ConnectionAgreementTest, kQueries, engineName)
 INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engineName);
 
 TEST_P(ConnectionAgreementTest, SampleForSample) {
+    if (!device().info().serves(gpu::neededBy(GetParam()))) {
+        const auto scene = app::compile(app::loadScene("cornell-box-lights"), true);
+        EXPECT_THROW(EnginePair(scene, GetParam()), vulkan::NoDeviceError);
+        return;
+    }
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
         const auto scene = app::compile(app::loadScene(id), true);
         EnginePair engines(scene, GetParam());
