@@ -246,7 +246,8 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
     if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples(cancel);
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
-    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest());
+    const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
+    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted);
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
 }

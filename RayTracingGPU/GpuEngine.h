@@ -22,7 +22,12 @@ struct GpuEngineOptions {
     // Whether Auto measures. Otherwise it is the engine that is likely to be the fastest: ranks must choose alike.
     bool measures = true;
     std::optional<double> launchSeconds; // of a launch, at most; else as suits the device
+    // For how long some pixels may have more samples than others, where the number of samples is known, and none comes
+    // sooner. Nobody watches a render without a window, which is faster so: rays of a tile are alike.
+    double passSeconds = 0;
 };
+
+inline constexpr double kUnwatchedPassSeconds = 1;
 
 // `context` must outlive the engine. Throws NoDeviceError when its device does not have the engine that is asked for.
 // Failures of the device are RenderErrors; film() then returns the last copy on the host, which is at most

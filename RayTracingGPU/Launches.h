@@ -7,8 +7,7 @@
 namespace rt::gpu {
 
 // How long a launch may be. A window's draws wait for at most one, which leaves them half of a frame; no watchdog
-// fires, and a cancelled render ends at once. Renders without a window do the same, so that both take the same time. A
-// device that is the processor runs draws and launches side by side.
+// fires, and a cancelled render ends at once. A device that is the processor runs draws and launches side by side.
 inline constexpr double kLaunchSeconds = 0.008;
 inline constexpr double kSoftLaunchSeconds = 0.02;
 inline double launchSeconds(bool softwareDevice) {
@@ -39,6 +38,8 @@ class LaunchSize {
         samples_ = done * std::min(seconds_ / std::max(seconds, 1e-6), kLargestStep);
     }
 
+    // As many as the device does in that time, as far as is known.
+    std::uint64_t samplesIn(double seconds) const { return static_cast<std::uint64_t>(samples_ / seconds_ * seconds); }
     // How long the device is going to take for them, as far as is known.
     double secondsFor(std::uint64_t samples) const { return static_cast<double>(samples) / samples_ * seconds_; }
 

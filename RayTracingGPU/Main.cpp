@@ -33,7 +33,9 @@ class Device {
         const std::string device = ranks_ == nullptr || !options_.device.empty() ? options_.device : deviceOfRank();
         context_.emplace(
             rt::vulkan::ContextOptions{device, options_.validation, rt::gpu::neededBy(options_.gpuEngine)});
-        return rt::gpu::makeGpuEngine(*context_, {.engine = options_.gpuEngine, .measures = ranks_ == nullptr});
+        return rt::gpu::makeGpuEngine(*context_, {.engine = options_.gpuEngine,
+                                                  .measures = ranks_ == nullptr,
+                                                  .passSeconds = rt::gpu::kUnwatchedPassSeconds});
     }
 
   private:

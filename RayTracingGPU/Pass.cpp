@@ -14,16 +14,17 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 // Where two launches take all pixels several samples further, they are a pass: one would have to wait for the paths of
 // the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
 // shorter than it may be. Large films go on by whole blocks.
-Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting) {
+Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
+              std::uint64_t wanted) {
     const std::uint64_t replicates = region.replicates();
     const std::uint64_t stepSamples = region.stepSamples();
     const std::uint64_t round = shared::kBlock * replicates; // samples per pixel
     std::uint64_t end = (begun / round + kRegionRounds) * round;
     if (region.isWhole()) {
         const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region.columnSamples(), 1);
-        const std::uint64_t wanted =
-            std::max(2 * fitting / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
-        end = begun + std::clamp<std::uint64_t>(wanted, 1, most) * replicates;
+        const std::uint64_t steps =
+            std::max(std::max(2 * fitting, wanted) / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
+        end = begun + std::clamp<std::uint64_t>(steps, 1, most) * replicates;
     }
     end = std::min(end, spp);
     return {.end = static_cast<std::uint32_t>(end),

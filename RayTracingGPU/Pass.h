@@ -16,8 +16,10 @@ struct Pass {
     std::uint32_t nextSlot = 0;    // of each of the region's bands: the first that it has not launched
 };
 
-// From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples.
-Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting);
+// From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples; of `wanted` samples
+// in all, or more where few would do.
+Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
+              std::uint64_t wanted);
 
 // The next slots of the pass in all bands of the region, up to about `fitting` samples.
 shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting);

@@ -91,7 +91,7 @@ class EngineList {
                 added.missing = info.name + " lacks " + (isQuery ? info.missingForQuery : info.missingForPipeline);
             } else {
                 added.make = [this, engine = kind](std::uint32_t) {
-                    return gpu::makeGpuEngine(*context_, {.engine = engine});
+                    return gpu::makeGpuEngine(*context_, {.engine = engine, .passSeconds = gpu::kUnwatchedPassSeconds});
                 };
                 if (options.device.empty()) // ranks choose among all
                     added.mostRanks =

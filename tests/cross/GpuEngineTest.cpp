@@ -146,21 +146,23 @@ TEST_P(GpuEngineTest, SamplesUnderWayAreNotInTheFilm) {
     EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
 }
 
-// A film that is rendered part by part, in launches of single tiles: the same bits.
+// A film that is rendered part by part, in launches of single tiles, in passes that take some tiles far ahead: the same
+// bits.
 TEST_P(GpuEngineTest, NeitherPartsNorLaunchesShow) {
     app::RenderSettings settings = settingsFor(150);
     settings.replicates = 2;
     settings.secondMoments = true;
     const Film expected = rendered(settings);
     for (const std::uint32_t slots : {1u, 6u, gpu::GpuEngineOptions().regionSlots}) {
-        for (const double seconds : {1e-9, 0.1}) {
+        for (const auto& [launch, pass] : {std::pair(1e-9, 0.0), {0.1, 0.0}, {0.1, 1e3}}) {
             gpu::GpuEngineOptions options = testedEngine(slots);
-            options.launchSeconds = seconds;
+            options.launchSeconds = launch;
+            options.passSeconds = pass;
             Render parts(settings, options);
             const Film& actual = parts.finish();
-            EXPECT_TRUE(sameBits(expected.resolve().data, actual.resolve().data)) << slots << ", " << seconds;
-            EXPECT_TRUE(sameBits(expected.varianceOfMean().data, actual.varianceOfMean().data))
-                << slots << ", " << seconds;
+            SCOPED_TRACE(std::to_string(slots) + ", " + std::to_string(launch) + ", " + std::to_string(pass));
+            EXPECT_TRUE(sameBits(expected.resolve().data, actual.resolve().data));
+            EXPECT_TRUE(sameBits(expected.varianceOfMean().data, actual.varianceOfMean().data));
             EXPECT_EQ(parts.engine->report().rays.camera, std::uint64_t{kSide} * kSide * settings.spp);
         }
     }
