@@ -90,7 +90,7 @@ inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 // dashes it is the flag. Of one RenderSettings, or of several side by side.
 template <typename Visit, typename... Settings>
 void forEachMethod(const Visit& visit, Settings&... settings) {
-    visit("light_sampling", "Direct-lighting estimator", "how light is found", kLightSamplings,
+    visit("light_sampling", "Direct lighting", "direct-lighting estimator: how light is found", kLightSamplings,
           settings.lightSampling...);
     visit("light_selection", "Light selection", "how one of the lights is chosen", kLightSelections,
           settings.lightSelection...);
