@@ -34,7 +34,8 @@ INSTANTIATE_TEST_SUITE_P(, ThemeTest,
 TEST_P(ThemeTest, TextIsReadableOnWhatItIsDrawnOver) {
     for (const ImGuiCol below :
          {ImGuiCol_WindowBg, ImGuiCol_PopupBg, ImGuiCol_FrameBg, ImGuiCol_Button, ImGuiCol_Header, ImGuiCol_TitleBg,
-          ImGuiCol_PlotHistogram, ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
+          ImGuiCol_Tab, ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive, ImGuiCol_PlotHistogram, ImGuiCol_SliderGrab,
+          ImGuiCol_SliderGrabActive}) {
         EXPECT_GE(contrast(color(ImGuiCol_Text), color(below)), 4.5) << ImGui::GetStyleColorName(below);
     }
     EXPECT_GE(contrast(accentTextColor(GetParam()), accentColor(GetParam())), 3.0); // large: a button's title
