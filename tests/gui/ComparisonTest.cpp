@@ -294,8 +294,8 @@ TEST_P(NightlyComparisonTest, AReferenceOfOneProgramIsFoundByTheOther) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
-    EXPECT_TRUE(clickUntil(1117, 536, [&] { return isAt(1110, 560, popupColor()); })) << log(); // Reference...
-    click(1230, 560);                                                                           // Render reference
+    EXPECT_TRUE(clickUntil(1117, 536, [&] { return isAt(1230, 560, popupColor()); })) << log(); // Reference...
+    click(1123, 559);                                                                           // Render reference
     EXPECT_TRUE(eventually([&] { return measured(GetParam()); })) << log(); // the picture's film has begun anew
     expectCleanEnd();
     EXPECT_FALSE(fs::is_empty(folder_ / "cache" / "ray-tracing" / "references"));
