@@ -166,7 +166,7 @@ class CpuEngine final : public app::Engine {
 
     app::AovImages renderAovs(const app::AovRequest& request, std::uint32_t samples) override {
         const std::uint32_t width = settings_.width;
-        const std::uint32_t height = settings_.height;
+        const std::uint32_t height = request.rows > 0 ? request.rows : settings_.height;
         app::AovImages images;
         if (request.albedo) images.albedo = image::Image(width, height, 3);
         if (request.normal) images.normal = image::Image(width, height, 3);
@@ -175,7 +175,7 @@ class CpuEngine final : public app::Engine {
         runWorkers(policy_, threads_, [&](std::uint32_t) {
             for (std::uint32_t y = nextRow.fetch_add(1, std::memory_order_relaxed); y < height;
                  y = nextRow.fetch_add(1, std::memory_order_relaxed)) {
-                const AovTask task{y, samples, request.albedo ? images.albedo.pixel(0, y) : nullptr,
+                const AovTask task{request.firstRow + y, samples, request.albedo ? images.albedo.pixel(0, y) : nullptr,
                                    request.normal ? images.normal.pixel(0, y) : nullptr,
                                    request.depth ? images.depth.pixel(0, y) : nullptr};
                 kernel_->renderAovs(context_, task);

@@ -24,10 +24,11 @@ void copyPixels(std::span<const float> values, std::size_t firstPixel, app::AovI
 app::AovImages renderAovPass(vulkan::VulkanContext& context, const Kernel& kernel, std::uint32_t width,
                              std::uint32_t height, const app::AovRequest& request, std::uint32_t samples) {
     app::AovImages images;
-    if (request.albedo) images.albedo = image::Image(width, height, 3);
-    if (request.normal) images.normal = image::Image(width, height, 3);
-    if (request.depth) images.depth = image::Image(width, height, 1);
-    runPixelPass(context, kernel, {width, height, 1, samples, shared::kAovValues},
+    const std::uint32_t rows = request.rows > 0 ? request.rows : height;
+    if (request.albedo) images.albedo = image::Image(width, rows, 3);
+    if (request.normal) images.normal = image::Image(width, rows, 3);
+    if (request.depth) images.depth = image::Image(width, rows, 1);
+    runPixelPass(context, kernel, {width, rows, 1, samples, shared::kAovValues, request.firstRow},
                  [&](std::span<const float> values, std::size_t first) { copyPixels(values, first, images); });
     return images;
 }

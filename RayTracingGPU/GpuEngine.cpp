@@ -100,8 +100,8 @@ class GpuEngine final : public app::Engine {
     app::RenderSettings settings_;
     shared::RenderParams params_{};
     std::uint32_t features_ = 0;
-    std::unique_ptr<Kernel> kernel_;
-    SpecializationConstants constants_; // that it was compiled for
+    std::unique_ptr<Kernel> kernel_, firstHits_; // the second once it was asked for
+    SpecializationConstants constants_;          // that they were compiled for
 
     Film film_;                          // the whole film, on the host
     image::TileList tiles_;              // of it, that are to be rendered
@@ -142,6 +142,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     if (!kernel_ || constants_ != constants) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
+        firstHits_ = nullptr;
         constants_ = constants;
         kernel_ = makeKernel(KernelPurpose::Paths);
         cache_.save();
@@ -368,9 +369,11 @@ app::Snapshot GpuEngine::snapshot() {
 // ---- the rest ------------------------------------------------------------------------------------------------------
 
 app::AovImages GpuEngine::renderAovs(const app::AovRequest& request, std::uint32_t samples) {
-    const std::unique_ptr<Kernel> kernel = makeKernel(KernelPurpose::FirstHits);
-    cache_.save();
-    return renderAovPass(context_, *kernel, settings_.width, settings_.height, request, samples);
+    if (!firstHits_) {
+        firstHits_ = makeKernel(KernelPurpose::FirstHits);
+        cache_.save();
+    }
+    return renderAovPass(context_, *firstHits_, settings_.width, settings_.height, request, samples);
 }
 
 image::Image GpuEngine::renderCost(app::Cost cost, std::uint32_t samples) {

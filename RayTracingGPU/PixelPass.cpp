@@ -16,7 +16,8 @@ constexpr std::uint64_t kPiecePixels = 1u << 20; // on the device at a time
 
 void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const PixelPass& pass,
                   const std::function<void(std::span<const float> values, std::size_t firstPixel)>& take) {
-    const std::uint64_t pixels = std::uint64_t{pass.width} * pass.height;
+    const std::uint64_t pixels = std::uint64_t{pass.width} * pass.rows;
+    const std::uint64_t before = std::uint64_t{pass.width} * pass.firstRow;
     const std::uint64_t piece = std::min(pixels, kPiecePixels);
     std::vector<float> values(piece * pass.values);
     const vulkan::Buffer buffer(context.memory(), values.size() * sizeof(float), 0, vulkan::Memory::Device,
@@ -29,7 +30,7 @@ void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const Pi
             const std::uint64_t count = std::min(end - pixel, fitting);
             shared::PixelLaunch launch{};
             launch.values = buffer.address() + (pixel - first) * pass.values * sizeof(float);
-            launch.firstPixel = static_cast<std::uint32_t>(pixel);
+            launch.firstPixel = static_cast<std::uint32_t>(before + pixel);
             launch.pixels = static_cast<std::uint32_t>(count);
             launch.samples = pass.samples;
             const double seconds = context.runTimed([&](VkCommandBuffer commands) {

@@ -1,4 +1,4 @@
-// Runs a kernel of one invocation a pixel over an image, in launches as short as a window needs them.
+// Runs a kernel of one invocation a pixel over rows of an image, in launches as short as a window needs them.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +11,15 @@
 namespace rt::gpu {
 
 struct PixelPass {
-    std::uint32_t width = 0, height = 0;
+    std::uint32_t width = 0, rows = 0;
     std::uint32_t maxDepth = 1; // rays of a path, as far as the kernel follows it
     std::uint32_t samples = 1;  // that an invocation takes
     std::uint32_t values = 1;   // that it writes: floats
+    std::uint32_t firstRow = 0; // of the image
 };
 
-// Hands the values of the pixels, row by row, to `take` in pieces, with the number of each piece's first pixel. Throws
-// RenderError.
+// Hands the values of the pixels, row by row, to `take` in pieces, with the number of each piece's first pixel from
+// that of the first row. Throws RenderError.
 void runPixelPass(vulkan::VulkanContext& context, const Kernel& kernel, const PixelPass& pass,
                   const std::function<void(std::span<const float> values, std::size_t firstPixel)>& take);
 

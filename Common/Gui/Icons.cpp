@@ -21,7 +21,7 @@ class Pen {
 
     void line(std::initializer_list<ImVec2> points, bool isClosed = false) {
         for (const ImVec2& p : points) list_.PathLineTo(at(p));
-        list_.PathStroke(color_, isClosed ? 1 : 0, width_); // 1: closed, in every version of ImGui
+        list_.PathStroke(color_, isClosed ? ImDrawFlags_Closed : ImDrawFlags_None, width_);
     }
     void fill(std::initializer_list<ImVec2> points) {
         for (const ImVec2& p : points) list_.PathLineTo(at(p));

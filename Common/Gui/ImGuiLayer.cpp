@@ -115,6 +115,9 @@ void ImGuiLayer::applyStyle() {
     style_ = wanted_;
     ImGuiStyle style;
     applyTheme(style, style_.colorMode);
+#if IMGUI_VERSION_NUM >= 19280
+    style.Colors[ImGuiCol_CheckboxSelectedBg] = style.Colors[ImGuiCol_FrameBg];
+#endif
     style.ScaleAllSizes(style_.scale);
     ImGui::GetStyle() = style;
 
@@ -161,11 +164,13 @@ void divide(ImGuiID space, const Rect& area, const DockShares& shares, std::span
     ImGuiID center = space;
     ImGuiID side = ImGui::DockBuilderSplitNode(center, ImGuiDir_Left, shares.side, nullptr, &center);
     const ImGuiID header = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, shares.header, nullptr, &side);
+    const ImGuiID first = ImGui::DockBuilderSplitNode(side, ImGuiDir_Up, shares.first, nullptr, &side);
     const ImGuiID bottom = ImGui::DockBuilderSplitNode(center, ImGuiDir_Down, shares.bottom, nullptr, &center);
     for (const DockedWindow& window : windows) {
-        const ImGuiID node = window.place == DockedWindow::Place::Header ? header
-                             : window.place == DockedWindow::Place::Side ? side
-                                                                         : bottom;
+        const ImGuiID node = window.place == DockedWindow::Place::Header  ? header
+                             : window.place == DockedWindow::Place::First ? first
+                             : window.place == DockedWindow::Place::Side  ? side
+                                                                          : bottom;
         ImGui::DockBuilderDockWindow(window.title, node);
     }
     ImGui::DockBuilderFinish(space);

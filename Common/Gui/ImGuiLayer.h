@@ -32,14 +32,14 @@ void closeUndrawnPopups(std::span<const int> pressed);
 
 // A window that can be docked, by its title, and where it is until the user moves it.
 struct DockedWindow {
-    enum class Place { Header, Side, Bottom };
+    enum class Place { Header, First, Side, Bottom }; // First: at the side, below the header
     const char* title;
     Place place;
 };
 
 // Of the space that windows dock in, until the user divides it otherwise.
 struct DockShares {
-    float side, header, bottom; // header: of the side
+    float side, header, first, bottom; // header: of the side; first: of what the header leaves of it
 };
 
 extern const ImGuiWindowFlags kNeverDocks; // of windows with a place of their own

@@ -39,4 +39,20 @@ std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image:
     return rows;
 }
 
+std::vector<InspectedRow> stacked(const std::vector<InspectedRow>& rows) {
+    std::vector<InspectedRow> below;
+    for (const InspectedRow& row : rows) {
+        const InspectedRow& titles = rows.front();
+        const std::string& name = row.name.empty() ? titles.name : row.name;
+        if (row.held.empty()) {
+            below.push_back({name, row.picture, "", ""});
+        } else if (&row != &titles) {
+            below.push_back({name + ", " + titles.picture, row.picture, "", ""});
+            below.push_back({name + ", " + titles.held, row.held, "", ""});
+            below.push_back({name + ", " + titles.difference, row.difference, "", ""});
+        }
+    }
+    return below;
+}
+
 } // namespace rt::gui

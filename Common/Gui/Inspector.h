@@ -14,6 +14,9 @@ struct InspectedRow {
     std::string name, picture, held, difference;
 };
 
+// The same with no columns but name and picture, for narrow windows: what was beside each other stands below.
+std::vector<InspectedRow> stacked(const std::vector<InspectedRow>& rows);
+
 // `held`: the radiance of the pinned picture; null: there is none. Nothing where the pixel is outside of the picture.
 std::vector<InspectedRow> inspectPixel(const app::Picture& picture, const image::Image* held,
                                        const std::array<std::uint32_t, 2>& pixel);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <imgui.h>
@@ -124,20 +125,23 @@ Rect drawFixed(std::span<const Panel> panels, const Rect& area, float scale, con
     return rest;
 }
 
-// How the windows are docked at first.
+// How the windows are docked at first: those at the side as tabs, but for the first one, which is always seen.
 std::optional<Rect> dock(std::span<const Panel> panels, const Rect& area, float scale) {
-    constexpr float kHeaderHeight = 9.5f; // heights of the font
+    constexpr float kHeaderHeight = 9.5f, kFirstHeight = 11.5f; // heights of the font
     std::vector<DockedWindow> windows{{kHeaderTitle, DockedWindow::Place::Header}};
+    DockedWindow::Place side = DockedWindow::Place::First;
     for (const Panel& panel : panels) {
-        const bool isAtSide = panel.place == Panel::Place::Side;
-        windows.push_back({panel.title, isAtSide ? DockedWindow::Place::Side : DockedWindow::Place::Bottom});
+        if (panel.place == Panel::Place::Side)
+            windows.push_back({panel.title, std::exchange(side, DockedWindow::Place::Side)});
+        else
+            windows.push_back({panel.title, DockedWindow::Place::Bottom});
     }
     const auto share = [](float length, float of) { return std::min(0.5f, length / std::max(1.0f, of)); };
-    return showDockSpace(
-        area,
-        {share(kSideWidth * scale, area.width), share(kHeaderHeight * ImGui::GetFontSize(), area.height),
-         bottomHeight(area.height) / std::max(1.0f, area.height)},
-        windows);
+    const float header = kHeaderHeight * ImGui::GetFontSize(), first = kFirstHeight * ImGui::GetFontSize();
+    return showDockSpace(area,
+                         {share(kSideWidth * scale, area.width), share(header, area.height),
+                          share(first, area.height - header), bottomHeight(area.height) / std::max(1.0f, area.height)},
+                         windows);
 }
 
 } // namespace

@@ -90,8 +90,6 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode) {
     c[ImGuiCol_ScrollbarGrabHovered] = blend(p.line, p.accent, 0.4f);
     c[ImGuiCol_ScrollbarGrabActive] = p.accent;
     c[ImGuiCol_CheckMark] = p.accent;
-    c[ImGuiCol_SliderGrab] = p.accent;
-    c[ImGuiCol_SliderGrabActive] = blend(p.accent, p.text, 0.3f);
     c[ImGuiCol_Button] = blend(p.field, p.line, 0.35f);
     c[ImGuiCol_ButtonHovered] = contrast ? blend(p.window, p.accent, 0.5f) : blend(p.field, p.accent, 0.55f);
     c[ImGuiCol_ButtonActive] = contrast ? blend(p.window, p.accent, 0.65f) : blend(p.field, p.accent, 0.8f);
@@ -99,12 +97,17 @@ void applyTheme(ImGuiStyle& style, app::ColorMode mode) {
     c[ImGuiCol_HeaderHovered] = blend(p.field, p.accent, 0.35f);
     c[ImGuiCol_HeaderActive] = blend(p.field, p.accent, 0.5f);
     c[ImGuiCol_Separator] = faded(p.line, 0.7f);
-    c[ImGuiCol_Tab] = blend(p.window, p.field, 0.8f);
-    c[ImGuiCol_TabHovered] = blend(p.field, p.accent, 0.5f);
-    // Text is drawn over it.
+    // Text is drawn over these.
     c[ImGuiCol_PlotHistogram] = contrast                        ? ImVec4{0.0f, 0.33f, 0.72f, 1}
                                 : mode == app::ColorMode::Light ? blend(p.accent, p.window, 0.5f)
-                                                                : blend(p.accent, p.window, 0.25f);
+                                                                : blend(p.accent, p.window, 0.3f);
+    c[ImGuiCol_SliderGrab] = c[ImGuiCol_PlotHistogram];
+    c[ImGuiCol_SliderGrabActive] = blend(p.window, p.accent, 0.15f);
+    // Of docked windows; those without the keyboard are "unfocused".
+    c[ImGuiCol_Tab] = c[ImGuiCol_TabUnfocused] = blend(p.window, p.field, 0.8f);
+    c[ImGuiCol_TabHovered] = blend(p.field, p.accent, 0.5f);
+    c[ImGuiCol_TabActive] = c[ImGuiCol_PlotHistogram];
+    c[ImGuiCol_TabUnfocusedActive] = blend(p.field, p.accent, 0.3f);
     c[ImGuiCol_PlotLines] = p.accent;
     c[ImGuiCol_TableHeaderBg] = blend(p.window, p.field, 0.8f);
     c[ImGuiCol_TableBorderStrong] = c[ImGuiCol_TableBorderLight] = faded(p.line, 0.6f);

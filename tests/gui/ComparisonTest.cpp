@@ -1,4 +1,5 @@
 // The comparison in both windows, by the mouse, and what there is to see of it.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -99,6 +100,9 @@ class ComparisonTest : public WindowTest {
     }
 };
 INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
+
+class NightlyComparisonTest : public ComparisonTest {};
+INSTANTIATE_TEST_SUITE_P(, NightlyComparisonTest, kBothPrograms, nameOfProgram);
 
 // Two runs of equal work, which are compared, and one of another.
 TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
@@ -273,6 +277,33 @@ TEST_P(ComparisonTest, TheOtherEngineRendersTheSameAtOneClick) {
         return shot.at(826, 300) == 0xffffff && shot.at(826, 310) == 0xffffff;
     })) << std::hex
         << before;
+    expectCleanEnd();
+}
+
+// Its run, which the history has, is measured.
+TEST_P(NightlyComparisonTest, AReferenceOfOneProgramIsFoundByTheOther) {
+    environment_ = {{"XDG_CACHE_HOME", (folder_ / "cache").string()}};
+    const bool isGpu = std::string(GetParam()) == "ray-tracing-gpu";
+    const auto measured = [this](const std::string& program) {
+        app::RunHistory history(historyFile());
+        const std::vector<app::RunRecord> records = history.records();
+        return std::any_of(records.begin(), records.end(), [&](const app::RunRecord& record) {
+            return record.app == program && record.hasReference && record.referenceError > 0;
+        });
+    };
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    key("F3");
+    EXPECT_TRUE(clickUntil(1117, 536, [&] { return isAt(1230, 560, popupColor()); })) << log(); // Reference...
+    click(1123, 559);                                                                           // Render reference
+    EXPECT_TRUE(eventually([&] { return measured(GetParam()); })) << log(); // the picture's film has begun anew
+    expectCleanEnd();
+    EXPECT_FALSE(fs::is_empty(folder_ / "cache" / "ray-tracing" / "references"));
+    const std::string other = isGpu ? "ray-tracing-cpu" : "ray-tracing-gpu";
+    EXPECT_FALSE(measured(other));
+    Desktop::start(other, isGpu ? std::vector<std::string>{} : std::vector<std::string>{"--engine", "compute"});
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_TRUE(eventually([&] { return measured(other); })) << log();
     expectCleanEnd();
 }
 

@@ -1,6 +1,8 @@
 // What the inspector says of a pixel.
 #include <algorithm>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +50,27 @@ TEST(Inspector, TellsBothValuesAndTheirDifferenceBesideAPinnedPicture) {
     EXPECT_EQ(rows[2].difference, "+0.25  +0  -1");
     const image::Image small(1, 1);
     EXPECT_EQ(inspectPixel(picture, &small, {3, 1}).size(), 2u); // nothing to compare with there
+}
+
+TEST(Inspector, StandsBelowEachOtherWhereThereIsNoRoomBeside) {
+    app::Picture picture;
+    picture.radiance = uniform(0.5f, 1, 2);
+    picture.variance = uniform(0.25f, 0, 0);
+    const auto texts = [](const std::vector<InspectedRow>& rows) {
+        std::vector<std::string> lines;
+        for (const InspectedRow& row : stacked(rows)) {
+            lines.push_back(row.name + " = " + row.picture);
+            EXPECT_EQ(row.held + row.difference, "");
+        }
+        return lines;
+    };
+    using Lines = std::vector<std::string>;
+    EXPECT_EQ(texts(inspectPixel(picture, uniform(0.25f, 1, 3).get(), {3, 1})),
+              (Lines{"pixel = 3, 1", "radiance, B: picture = 0.5  1  2", "radiance, A: pinned = 0.25  1  3",
+                     "radiance, B - A = +0.25  +0  -1", "variance = 0.25  0  0"}));
+    EXPECT_EQ(texts(inspectPixel(picture, nullptr, {3, 1})),
+              (Lines{"pixel = 3, 1", "radiance = 0.5  1  2", "variance = 0.25  0  0"}));
+    EXPECT_TRUE(stacked({}).empty());
 }
 
 } // namespace

@@ -256,6 +256,7 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
         pause(2000);
         return pictureOf(screenshot()) != pictureOf(without);
     }));
+    int firstColumn = 373; // that is looked at: the picture's
     const auto boxAt = [&](int x, int y) {
         act("mousemove " + std::to_string(x) + " " + std::to_string(y));
         Box box;
@@ -263,7 +264,7 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
             box = Box();
             const Screenshot with = screenshot();
             for (int row = 70; row < 834; ++row)
-                for (int column = 373; column < kWidth; ++column) {
+                for (int column = firstColumn; column < kWidth; ++column) {
                     if (with.at(column, row) == without.at(column, row)) continue;
                     box.left = std::min(box.left, column), box.right = std::max(box.right, column);
                     box.top = std::min(box.top, row), box.bottom = std::max(box.bottom, row);
@@ -278,6 +279,31 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
     EXPECT_LT(inCorner.right, kWidth - 1);
     EXPECT_LT(inCorner.bottom, 833);
     EXPECT_GT(inCorner.bottom - inCorner.top, 0.9 * (inside.bottom - inside.top)); // as many lines
+    // Beside a pinned picture: the values of both, and their difference.
+    act("mousemove 375 40 key b");
+    EXPECT_TRUE(eventually([&] { return screenshot().at(826, 600) == 0xffffff; }));
+    pause(1000);
+    without = screenshot();
+    const Box ofBoth = boxAt(600, 300), ofBothInCorner = boxAt(1195, 815);
+    EXPECT_GT(ofBoth.right - ofBoth.left, 1.5 * (inside.right - inside.left));
+    EXPECT_LT(ofBothInCorner.right, kWidth - 1);
+    EXPECT_LT(ofBothInCorner.bottom, 833);
+    EXPECT_GT(ofBothInCorner.right - ofBothInCorner.left, 0.9 * (ofBoth.right - ofBoth.left));
+    // Whatever the window's width, its border is seen at both sides.
+    firstColumn = 0;
+    for (const int width : {700, 420, 240}) {
+        resize(width, 860);
+        act("mousemove 5 40");
+        pause(2000); // the panels have moved
+        without = screenshot();
+        const Box box = boxAt(width - 40, 450);
+        EXPECT_GE(box.left, 0) << width;
+        EXPECT_LE(box.right, width - 1) << width;
+        const Screenshot with = screenshot();
+        const int middle = (box.top + box.bottom) / 2;
+        EXPECT_EQ(with.at(box.left, middle), with.at(box.right, middle)) << width;
+        EXPECT_NE(with.at(box.left, middle), with.at(box.left + 3, middle)) << width;
+    }
     expectCleanEnd();
 }
 
@@ -306,10 +332,12 @@ TEST_P(PanelsTest, TheCamerasOfAModelCanBeChosen) {
     start({"--scene", model});
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually([&] { return isSeenFrom(nearby); })) << log(); // the first one
-    click(247, 218);                                                      // the list
-    pause(500);
-    click(247, 261); // the second one
-    EXPECT_TRUE(eventually([&] { return isSeenFrom(remote); })) << log();
+    EXPECT_TRUE(eventually([&] { // again where the machine was too busy to see it
+        click(247, 218);         // the list
+        pause(700);
+        click(247, 261); // the second one
+        return isSeenFrom(remote);
+    })) << log();
     act("keydown w sleep 0.5 keyup w");
     EXPECT_TRUE(eventually([&] { return !isSeenFrom(remote); })) << log();
     key("r"); // back to the one that was chosen

@@ -48,7 +48,7 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
 void expectStability(app::Engine& engine);
 
 // Asserts that the depth of a pixel is the mean over the samples that hit something: of a square before the sky, whose
-// edges go through pixels.
+// edges go through pixels; and that rows alone are those of the image.
 void expectDepthOfWhatIsHit(app::Engine& engine);
 
 // 32 square images of independent seeds and independent samples, for tests that compare images tile by tile.

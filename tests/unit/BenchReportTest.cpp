@@ -196,6 +196,8 @@ TEST(BenchReport, MarkdownAndHtmlShowTheRows) {
     const std::string html = toHtml(document, "t");
     EXPECT_NE(html.find("The &lt;first&gt;"), std::string::npos);
     EXPECT_NE(html.find("<svg"), std::string::npos);
+    EXPECT_NE(html.find(".wide{overflow-x:auto}"), std::string::npos); // wide tables scroll by themselves
+    EXPECT_NE(html.find("<div class=\"wide\"><table>"), std::string::npos);
     for (const char* loading : {"src=\"http", "href=", "url(", "<script", "@import"}) // nothing comes from elsewhere
         EXPECT_EQ(html.find(loading), std::string::npos) << loading;
 }

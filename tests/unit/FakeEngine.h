@@ -56,16 +56,17 @@ class FakeEngine : public Engine {
         if (std::exchange(filmFails, false)) throw RenderError("the film cannot be read");
         return film_;
     }
-    AovImages renderAovs(const AovRequest& request, std::uint32_t) override {
+    // What it finds tells of how many samples it is.
+    AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
         if (aovsFail) throw RenderError("no features");
-        const auto constant = [this](bool wanted, std::uint32_t channels, float value) {
+        const auto constant = [&](bool wanted, std::uint32_t channels, float value) {
             image::Image image;
             if (!wanted) return image;
-            image = image::Image(settings_.width, settings_.height, channels);
+            image = image::Image(settings_.width, request.rows > 0 ? request.rows : settings_.height, channels);
             image.data.assign(image.data.size(), value);
             return image;
         };
-        return {constant(request.albedo, 3, 0.25f), constant(request.normal, 3, -1.0f),
+        return {constant(request.albedo, 3, static_cast<float>(samples) / 64), constant(request.normal, 3, -1.0f),
                 constant(request.depth, 1, 8.0f)};
     }
     EngineReport report() const override { return report_; }

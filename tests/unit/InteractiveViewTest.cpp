@@ -1,5 +1,9 @@
 // What a window shows of a film besides its picture.
+#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +14,21 @@ namespace rt::app {
 namespace {
 
 class InteractiveViewTest : public InteractiveFixture {};
+
+// First hits take it so long that a view of them cannot have all samples at once.
+class CostlyEngine : public FakeEngine {
+  public:
+    inline static std::atomic<std::uint32_t> rowsAgain{0}; // rendered a few at a time
+
+    RenderStatus renderSome(const Budget& budget) override {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300)); // by which its speed is judged
+        return FakeEngine::renderSome(budget);
+    }
+    AovImages renderAovs(const AovRequest& request, std::uint32_t samples) override {
+        rowsAgain += request.rows;
+        return FakeEngine::renderAovs(request, samples);
+    }
+};
 
 TEST_F(InteractiveViewTest, ShowsFeaturesAndWhatAPixelHolds) {
     InteractiveSession session(setup(20));
@@ -33,6 +52,22 @@ TEST_F(InteractiveViewTest, ShowsFeaturesAndWhatAPixelHolds) {
     session.view({ViewMode::Error, 1, false}); // without a reference it is the picture
     EXPECT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.isDisplay; }));
     EXPECT_FALSE(session.state().picture.legend);
+    EXPECT_EQ(session.state().activity, Activity::Finished); // a view renders nothing anew
+}
+
+// As many as a film has, up to those of files.
+TEST_F(InteractiveViewTest, FeaturesGetAsManySamplesAsInTheirFiles) {
+    constexpr std::uint32_t kWidth = 300, kSpp = 4;
+    CostlyEngine::rowsAgain = 0;
+    InteractiveSession::Setup costly = setup(kSpp);
+    costly.makeEngine = [](const EngineChoice&) { return std::make_unique<CostlyEngine>(); };
+    costly.request.size.width = kWidth;
+    InteractiveSession session(costly);
+    ASSERT_TRUE(reaches(session, isFinished));
+    session.view({ViewMode::Albedo, 1, false});
+    const std::vector<float> wanted(kWidth * kWidth * 3, kSpp / 64.0f);
+    EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.picture.image->data == wanted; }));
+    EXPECT_EQ(CostlyEngine::rowsAgain, kWidth);
     EXPECT_EQ(session.state().activity, Activity::Finished); // a view renders nothing anew
 }
 

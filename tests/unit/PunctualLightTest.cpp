@@ -222,6 +222,22 @@ TEST_P(PunctualChoice, HasTheSumOfAllLightsAsItsMean) {
 
 INSTANTIATE_TEST_SUITE_P(Counts, PunctualChoice, testing::Values(24u, 60u, 400u));
 
+// As every tool shows an environment image: what is to the right in it is to the right of whoever looks about.
+TEST(Sky, IsNotMirroredAsSeenFromInside) {
+    using shared::vec3;
+    constexpr float kStep = 0.01f;
+    for (float azimuth = 0; azimuth < 6.28f; azimuth += 0.1f) {
+        const vec3 ahead = glm::normalize(vec3(std::cos(azimuth), 0.3f, std::sin(azimuth))), up(0, 1, 0);
+        const vec3 right = glm::normalize(glm::cross(ahead, up));
+        const shared::vec2 uv = shared::skyUv(ahead);
+        float toTheRight = shared::skyUv(glm::normalize(ahead + kStep * right)).x - uv.x;
+        if (toTheRight < -0.5f) toTheRight += 1; // across the image's edge
+        EXPECT_GT(toTheRight, 0) << azimuth;
+        EXPECT_LT(toTheRight, 2 * kStep / 6.28f) << azimuth;
+        EXPECT_LT(shared::skyUv(glm::normalize(ahead + kStep * up)).y, uv.y) << azimuth;
+    }
+}
+
 // A turned sky looks in the turned direction as it did before, and is sampled there.
 TEST(Sky, TurnsAboutTheVertical) {
     constexpr std::uint32_t width = 64, height = 32;

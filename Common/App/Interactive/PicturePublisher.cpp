@@ -23,6 +23,7 @@ constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval =
 constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
 constexpr double kFirstHitsPerPath = 6;  // that take as long as tracing a path, at least
+constexpr double kRefineSeconds = 0.04;  // that a few rows of such a view may take at a time
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
 constexpr std::uint32_t kMostPreviewSide = 4096; // pixels that every device draws; larger images are enlarged
 
@@ -33,6 +34,19 @@ double leastInterval(double age) {
 
 bool showsFeatures(ViewMode mode) {
     return aovsFor(mode).any() || mode == ViewMode::Heat;
+}
+
+std::uint32_t samplesInFiles(const FilmRun& film) {
+    return std::min(kAovSamples, film.settings().spp);
+}
+
+ViewImage costView(Engine& engine, const ViewRequest& view, std::uint32_t spp) {
+    const Cost cost = engine.knowsCost(view.cost) ? view.cost : Cost::Rays;
+    return showCost(cost, engine.renderCost(cost, spp), view.scale);
+}
+
+void copyRows(const image::Image& rows, std::uint32_t first, image::Image& all) {
+    if (!rows.data.empty()) std::copy(rows.data.begin(), rows.data.end(), all.pixel(0, first));
 }
 
 void put(const std::shared_ptr<const ViewImage>& view, Picture& picture) {
@@ -69,6 +83,8 @@ bool PicturePublisher::setView(const ViewRequest& view) {
 void PicturePublisher::discardViews() {
     featureView_ = nullptr;
     featureIsFull_ = false;
+    features_ = {};
+    fineRows_ = 0;
 }
 
 void PicturePublisher::begin() {
@@ -81,7 +97,10 @@ void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& fil
     Picture picture;
     picture.image = picture.radiance = std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
     if (showsFeatures(view_.mode)) {
-        ViewImage view = featureView(draft.engine(), 1);
+        Engine& engine = draft.engine();
+        ViewImage view = view_.mode == ViewMode::Heat
+                             ? costView(engine, view_, 1)
+                             : showFeatures(view_.mode, engine.renderAovs(aovsFor(view_.mode), 1));
         if (!view.image.data.empty()) {
             view.image = enlarge(view.image, film.width, film.height);
             featureView_ = std::make_shared<ViewImage>(std::move(view));
@@ -131,10 +150,23 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     sinceShown_ = {};
 }
 
-ViewImage PicturePublisher::featureView(Engine& engine, std::uint32_t spp) const {
-    if (view_.mode != ViewMode::Heat) return showFeatures(view_.mode, engine.renderAovs(aovsFor(view_.mode), spp));
-    const Cost cost = engine.knowsCost(view_.cost) ? view_.cost : Cost::Rays;
-    return showCost(cost, engine.renderCost(cost, spp), view_.scale);
+std::uint32_t PicturePublisher::featureRows() const {
+    return std::max({features_.albedo.height, features_.normal.height, features_.depth.height});
+}
+
+void PicturePublisher::refine(const FilmRun& film) {
+    AovRequest request = aovsFor(view_.mode);
+    request.firstRow = fineRows_;
+    request.rows = std::min(rowsAtATime_, featureRows() - fineRows_);
+    const Stopwatch watch;
+    const AovImages rows = film.engine().renderAovs(request, samplesInFiles(film));
+    const double fitting = request.rows * kRefineSeconds / std::max(watch.seconds(), 1e-6);
+    rowsAtATime_ = static_cast<std::uint32_t>(std::clamp(fitting, 1.0, 2.0 * request.rows));
+    copyRows(rows.albedo, fineRows_, features_.albedo);
+    copyRows(rows.normal, fineRows_, features_.normal);
+    copyRows(rows.depth, fineRows_, features_.depth);
+    fineRows_ += request.rows;
+    if (!isRefining()) featureView_ = std::make_shared<ViewImage>(showFeatures(view_.mode, features_));
 }
 
 // None where it is the radiance that is to be shown.
@@ -144,9 +176,17 @@ PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, cons
         // In full resolution once the camera rests.
         if (featureView_ && (featureIsFull_ || sinceBegin_.seconds() < kRestSeconds)) return featureView_;
         const bool isCost = view_.mode == ViewMode::Heat;
-        const std::uint32_t spp =
-            speed.sppIn(isCost ? kFeatureSeconds : kFirstHitsPerPath * kFeatureSeconds, film.settings(), kAovSamples);
-        ViewImage view = featureView(film.engine(), spp);
+        const std::uint32_t spp = speed.sppIn(isCost ? kFeatureSeconds : kFirstHitsPerPath * kFeatureSeconds,
+                                              film.settings(), isCost ? kAovSamples : samplesInFiles(film));
+        ViewImage view;
+        if (isCost) {
+            view = costView(film.engine(), view_, spp);
+        } else {
+            features_ = film.engine().renderAovs(aovsFor(view_.mode), spp);
+            view = showFeatures(view_.mode, features_);
+            fineRows_ = spp < samplesInFiles(film) ? 0 : featureRows();
+            rowsAtATime_ = 1;
+        }
         if (view.image.data.empty()) return nullptr;
         featureIsFull_ = true;
         return featureView_ = std::make_shared<ViewImage>(std::move(view));

@@ -31,6 +31,10 @@ class PicturePublisher {
 
     // The film so far, where it has no samples yet as the draft; without any, what was shown before stays.
     void show(const FilmRun& film, FilmReference& reference, const RenderSpeed& speed);
+    // A view of features is shown at once, with as many samples as there is time for, and then refined row by row until
+    // it has as many as its file.
+    bool isRefining() const { return fineRows_ < featureRows(); }
+    void refine(const FilmRun& film);
     bool isDue(const FilmRun& film, const RenderRequest& request) const;
     double secondsUntilDue(const RenderRequest& request) const; // at most; no less than a slice should take
 
@@ -43,7 +47,7 @@ class PicturePublisher {
     using ViewPointer = std::shared_ptr<const ViewImage>;
 
     double interval(const RenderRequest& request) const;
-    ViewImage featureView(Engine& engine, std::uint32_t spp) const;
+    std::uint32_t featureRows() const; // of features_; none where they are not shown
     ViewPointer viewOf(const FilmRun& film, const Picture& picture, const FilmReference& reference,
                        const RenderSpeed& speed);
     void recordLatency();
@@ -54,6 +58,9 @@ class PicturePublisher {
     ViewRequest view_;
     ViewPointer featureView_;    // of the film, for modes that samples do not change
     bool featureIsFull_ = false; // in the film's resolution
+    AovImages features_;         // that it shows then
+    std::uint32_t fineRows_ = 0; // of them, that have as many samples as in files
+    std::uint32_t rowsAtATime_ = 1;
     image::Image draft_;
     Preview preview_;
     Stopwatch sinceBegin_;

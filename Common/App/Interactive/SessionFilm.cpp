@@ -47,6 +47,8 @@ bool SessionFilm::goOn(const FilmSubject& subject) {
     if (wanted != run_->settings() || !run_->canTake(spp)) return false;
     wanted.sppIsKnown = isKnown;
     if (isMadeForSpp(wanted) != isMadeForSpp(run_->settings())) return false;
+    // The files of features have another number of samples then.
+    if (std::min(spp, run_->settings().spp) < kAovSamples && spp != run_->settings().spp) publisher.discardViews();
     if (spp != run_->settings().spp) run_->setSpp(spp);
     // What is left of the time; where it was used up, as much again.
     std::optional<double> seconds = subject.request.timeLimit;
@@ -88,6 +90,11 @@ void SessionFilm::show() {
 
 void SessionFilm::showIfDue(const RenderRequest& request) {
     if (!isStale_ && publisher.isDue(*run_, request)) show();
+}
+
+void SessionFilm::refine() {
+    publisher.refine(*run_);
+    if (!publisher.isRefining()) show();
 }
 
 RenderSettings SessionFilm::settingsFor(const FilmSubject& subject) const {

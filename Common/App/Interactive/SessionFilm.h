@@ -46,6 +46,8 @@ class SessionFilm {
     std::optional<StopReason> slice(const FilmSubject& subject);
     void show(); // unless it is stale
     void showIfDue(const RenderRequest& request);
+    bool isRefining() const { return !isStale_ && publisher.isRefining(); } // what is shown
+    void refine();
 
     // Of the view that the present film has; `how` it was had.
     void setReference(const image::Film& film, const std::string& how);

@@ -33,7 +33,7 @@ std::vector<std::string> SessionThread::run() {
             // one.
             if (isReady() && !requests.moveCameraAlone()) film_.beginPostponed(subject());
             apply(std::move(requests));
-            if (hasWork()) isPreviewing() ? renderPreview() : renderSlice();
+            if (hasWork()) isPreviewing() ? renderPreview() : renderFilm();
         } catch (...) {
             state_.fail(std::current_exception());
             state_.setStage("");
@@ -217,7 +217,9 @@ void SessionThread::setActivity(Activity activity) {
     state_.update([activity](SessionState& state) { state.activity = activity; });
 }
 
-void SessionThread::renderSlice() {
+void SessionThread::renderFilm() {
+    if (film_.isRefining()) film_.refine();
+    if (!isActive()) return;
     const auto ended = film_.slice(subject());
     writeWaiting();
     ended ? finish(*ended) : film_.showIfDue(request_);

@@ -34,10 +34,10 @@ class SessionThread {
     bool isReady() const { return engine_ && loaded_.scene; }
     bool isActive() const { return activity_ == Activity::Rendering; }
     bool isPreviewing() const { return previewIsWanted_ && engine_ && engine_->canPreview(); }
-    bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive()); }
+    bool hasWork() const { return isReady() && (isPreviewing() ? previewIsStale_ : isActive() || film_.isRefining()); }
 
     FilmSubject subject() const { return {*engine_, *loaded_.scene, camera_, request_}; } // requires isReady()
-    void renderSlice();
+    void renderFilm();
     void showFilm();
     void renderPreview();
     void finish(StopReason reason);

@@ -87,10 +87,11 @@ inline constexpr Named<bool> kSpecularConnections[] = {
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
-// dashes it is the flag. Of one RenderSettings, or of several side by side.
+// dashes it is the flag. The title, without "Sampling strategy for", fits the windows' column of labels. Of one
+// RenderSettings, or of several side by side.
 template <typename Visit, typename... Settings>
 void forEachMethod(const Visit& visit, Settings&... settings) {
-    visit("light_sampling", "Direct-lighting estimator", "how light is found", kLightSamplings,
+    visit("light_sampling", "Direct lighting", "direct-lighting estimator: how light is found", kLightSamplings,
           settings.lightSampling...);
     visit("light_selection", "Light selection", "how one of the lights is chosen", kLightSelections,
           settings.lightSelection...);
@@ -100,10 +101,10 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.quadLight...);
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);
-    visit("specular_connections", "Lights through glass spheres", "how light through spheres of glass is found",
-          kSpecularConnections, settings.specularConnections...);
+    visit("specular_connections", "Through glass", "how light through spheres of glass is found", kSpecularConnections,
+          settings.specularConnections...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
-    visit("adaptive", "Samples over the image", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
+    visit("adaptive", "Sample density", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }
 
 // "--light-sampling" of "light_sampling".

@@ -83,8 +83,9 @@ struct EngineReport {
 // First-hit features averaged over some samples of each pixel; empty unless asked for.
 struct AovRequest {
     bool albedo = false;
-    bool normal = false; // world space, shading normal facing the camera
-    bool depth = false;  // distance along the ray, of the samples that hit something; 0 where none did
+    bool normal = false;                  // world space, shading normal facing the camera
+    bool depth = false;                   // distance along the ray, of the samples that hit something; 0 where none did
+    std::uint32_t firstRow = 0, rows = 0; // that the images are to have, and no others; 0: all
     bool any() const { return albedo || normal || depth; }
 };
 inline constexpr std::uint32_t kAovSamples = 16; // of each pixel in files, or fewer when the render has fewer
@@ -139,6 +140,7 @@ struct Engine {
     virtual TilesToPack takeTiles(const image::TileList& tiles);
     // film() resolved, but for rounding; it may cost far less than the film on the host.
     virtual Snapshot snapshot();
+    // Averages over the first `samples` samples of each pixel.
     virtual AovImages renderAovs(const AovRequest& request, std::uint32_t samples) = 0;
     // What each pixel costs, averaged over the first `samples` samples; one channel. The film stays as it is. An engine
     // that does not know the cost returns an image without pixels.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <vector>
 
 #include "Common/Gui/Icons.h"
 #include "Common/Gui/Panels/Panels.h"
@@ -48,26 +49,58 @@ void drawError(Gui& gui, const Rect& area, float y) {
     ImGui::End();
 }
 
-// A table at the pointer, or above and to the left of it where the window ends.
+bool hasHeld(const std::vector<InspectedRow>& rows) {
+    return std::any_of(rows.begin(), rows.end(), [](const InspectedRow& row) { return !row.held.empty(); });
+}
+
+// Of a tooltip with a table of them.
+float tableWidth(const std::vector<InspectedRow>& rows) {
+    float name = 0, picture = 0, held = 0, difference = 0;
+    for (const InspectedRow& row : rows) {
+        name = std::max(name, textWidth(row.name));
+        picture = std::max(picture, textWidth(row.picture));
+        held = std::max(held, textWidth(row.held));
+        difference = std::max(difference, textWidth(row.difference));
+    }
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float columns = hasHeld(rows) ? 4 : 2;
+    return name + picture + held + difference + 2 * columns * style.CellPadding.x + 2 * style.WindowPadding.x;
+}
+
+void drawInspectedTable(const std::vector<InspectedRow>& rows) {
+    const bool all = hasHeld(rows);
+    if (!ImGui::BeginTable("##inspected", all ? 4 : 2, ImGuiTableFlags_SizingFixedFit)) return;
+    const auto cell = [](const std::string& text) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(text.c_str());
+    };
+    for (const InspectedRow& row : rows) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", row.name.c_str());
+        if (all) cell(row.held);
+        cell(row.picture);
+        if (all) cell(row.difference);
+    }
+    ImGui::EndTable();
+}
+
+// At the pointer, or above and to the left of it where the window ends. What a narrow window has no room for beside each
+// other stands below each other.
 void drawInspector(const Gui& gui) {
     if (gui.inspected.empty()) return;
-    const bool hasHeld = std::any_of(gui.inspected.begin(), gui.inspected.end(),
-                                     [](const InspectedRow& row) { return !row.held.empty(); });
+    const float room = ImGui::GetMainViewport()->Size.x;
+    const std::vector<InspectedRow> rows = tableWidth(gui.inspected) <= room ? gui.inspected : stacked(gui.inspected);
     ImGui::BeginTooltip();
-    if (ImGui::BeginTable("##inspected", hasHeld ? 4 : 2, ImGuiTableFlags_SizingFixedFit)) {
-        const auto cell = [](const std::string& text) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(text.c_str());
-        };
-        for (const InspectedRow& row : gui.inspected) {
-            ImGui::TableNextRow();
-            ImGui::TableNextColumn();
+    if (tableWidth(rows) <= room) {
+        drawInspectedTable(rows);
+    } else {
+        ImGui::PushTextWrapPos(std::max(1.0f, room - ImGui::GetStyle().WindowPadding.x));
+        for (const InspectedRow& row : rows) {
             ImGui::TextDisabled("%s", row.name.c_str());
-            if (hasHeld) cell(row.held);
-            cell(row.picture);
-            if (hasHeld) cell(row.difference);
+            ImGui::TextUnformatted(row.picture.c_str());
         }
-        ImGui::EndTable();
+        ImGui::PopTextWrapPos();
     }
     ImGui::EndTooltip();
 }

@@ -80,10 +80,8 @@ void drawEngineCell(Gui& gui, const RunRow& row) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     // In another colour than rows that are compared.
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
-    if (ImGui::Selectable("##run", gui.runs.isSelected(r),
-                          ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap)) {
+    if (ImGui::Selectable("##run", gui.runs.isSelected(r), ImGuiSelectableFlags_SpanAllColumns))
         gui.runs.select(r, ImGui::GetIO().KeyCtrl);
-    }
     ImGui::PopStyleColor();
     if (ImGui::IsItemHovered()) gui.runs.hover(r);
     tooltip((runDetails(r) + "\nClick: select; with Ctrl: also").c_str());
