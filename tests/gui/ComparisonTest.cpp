@@ -64,10 +64,6 @@ class ComparisonTest : public WindowTest {
         for (const app::RunRecord& record : history.records()) count += record.app != GetParam();
         return count;
     }
-    void click(int x, int y) {
-        act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
-            " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
-    }
     // Again where the machine was too busy to see it: each time only while the condition does not hold.
     bool clickUntil(int x, int y, const std::function<bool()>& condition) {
         return eventually([&] {

@@ -40,10 +40,6 @@ class PanelsTest : public WindowTest {
         const Screenshot shot = screenshot();
         return shot.at(110, samplesRow() - 4) != shot.at(130, samplesRow() - 4);
     }
-    void click(int x, int y) {
-        act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
-            " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
-    }
 };
 INSTANTIATE_TEST_SUITE_P(, PanelsTest, kBothPrograms, nameOfProgram);
 

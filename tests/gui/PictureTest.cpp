@@ -29,10 +29,6 @@ bool isNear(std::uint32_t color, std::uint32_t wanted, int tolerance) {
 
 class PictureTest : public WindowTest {
   protected:
-    void click(int x, int y) {
-        act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
-            " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
-    }
     void closeFirstSteps() const { // the hint of the first run
         fs::create_directories(folder_ / "config" / "ray-tracing");
         store({{"saw_first_steps", true}});

@@ -25,6 +25,11 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
         ASSERT_TRUE(isRunning()) << log();
         EXPECT_EQ(quit(), 0) << log(); // 1 where validation had something to say
     }
+    // As slowly as a person does, so that a busy program sees it.
+    void click(int x, int y) {
+        act("mousemove " + std::to_string(x) + " " + std::to_string(y) +
+            " sleep 0.3 mousedown 1 sleep 0.2 mouseup 1 sleep 0.3");
+    }
     nlohmann::json settings() const {
         std::ifstream in(folder_ / "config" / "ray-tracing" / (std::string(GetParam()) + ".json"));
         const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
