@@ -13,7 +13,8 @@ function(add_suite suite cases)
         set(tier nightly)
     endif()
     math(EXPR cost "${cases} * ${milliseconds}")
-    if(suite MATCHES "StabilityTest$") # whose one case renders all light shapes: begun late it ends alone
+    # Whose few cases compile many shaders: begun late they end alone.
+    if(folder STREQUAL "cross" AND suite MATCHES "(Agreement|Analytic|Estimators|Stability|Superset)")
         math(EXPR cost "${cost} * 16")
     endif()
     add_test(${folder}.${suite} ${program} --gtest_brief=1 --gtest_filter=${suite}.*)
