@@ -1,5 +1,7 @@
 #include "RayTracingGPU/SpecializationConstants.h"
 
+#include "Common/Shared/Path/DirectLight.h"
+
 namespace rt::gpu {
 namespace {
 
@@ -62,9 +64,11 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
 
 SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
                                                     std::uint32_t lights, const TraversalShape& traversal) {
+    const bool usesLights = params.lightSampling == shared::kSampleMixture || shared::samplesLights(features, params);
+    const bool isWeighed = usesLights && lights <= shared::kContributionLights;
     return {features,           params.lightSampling,   params.lightSelection,
             params.sphereLight, params.quadLight,       params.triangleLight,
-            params.samplerKind, params.russianRoulette, lights <= shared::kContributionLights ? lights : 0,
+            params.samplerKind, params.russianRoulette, isWeighed ? lights : 0,
             traversal};
 }
 

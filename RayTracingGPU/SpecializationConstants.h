@@ -37,7 +37,7 @@ struct SpecializationConstants {
     std::uint32_t triangleLight = 0;
     std::uint32_t samplerKind = 0;
     std::uint32_t russianRoulette = 0;
-    std::uint32_t lightCount = 0; // of a table that is weighed light by light, otherwise 0
+    std::uint32_t lightCount = 0; // of a table that is weighed light by light, otherwise 0, if any is used
     TraversalShape traversal;     // of the compute engine
     bool operator==(const SpecializationConstants&) const = default;
 };

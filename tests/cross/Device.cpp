@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/cross/SharedPipelines.h"
+
 namespace rt::test {
 namespace {
 
@@ -19,7 +21,7 @@ const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new NoValid
 
 vulkan::VulkanContext& device() {
     const char* chosen = std::getenv("RT_DEVICE");
-    static vulkan::VulkanContext context({chosen != nullptr ? chosen : "", true});
+    static SharingContext context({chosen != nullptr ? chosen : "", true});
     return context;
 }
 

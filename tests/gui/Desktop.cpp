@@ -167,7 +167,7 @@ void Desktop::type(const std::string& text) {
 }
 
 std::string Desktop::title() {
-    return output("DISPLAY=" + display_ + " xdotool getwindowname " + window_);
+    return windowTitle(display_, std::stoul(window_));
 }
 
 void Desktop::resize(int width, int height) {

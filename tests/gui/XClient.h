@@ -1,5 +1,5 @@
-// What xdotool cannot do: another program that files are dragged from, a window manager's part in minimising, and
-// violence.
+// What xdotool cannot do, or not as quickly: another program that files are dragged from, a window manager's part in
+// minimising, violence, and a look at the title.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -14,6 +14,9 @@ bool dropFiles(const std::string& display, unsigned long window, const std::vect
 void setMinimised(const std::string& display, unsigned long window, bool minimised);
 
 void destroyWindow(const std::string& display, unsigned long window);
+
+// Empty where there is no such window. Asked again and again, a process each time would cost more than what is awaited.
+std::string windowTitle(const std::string& display, unsigned long window);
 
 // All that is on the screen.
 struct Screenshot {
