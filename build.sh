@@ -88,11 +88,11 @@ open_window() {
     "build/bin/ray-tracing-$1"
 }
 
-# run_tests [--all]: one more at a time than there are cores, as tests of windows often wait.
+# run_tests [--all]
 run_tests() {
     local log=build/test.log status=0 tier=(--label-exclude nightly)
     [[ ${1:-} != --all ]] || tier=()
-    ctest --test-dir build --output-on-failure --no-label-summary --parallel $(($(nproc) + 1)) "${tier[@]}" 2>&1 | tee $log ||
+    ctest --test-dir build --output-on-failure --no-label-summary --parallel "$(nproc)" "${tier[@]}" 2>&1 | tee $log ||
         status=$?
     grep 'tests passed' $log || echo "No test ran"
     return $status
