@@ -16,8 +16,8 @@ struct Pass {
     std::uint32_t nextSlot = 0;    // of each of the region's bands: the first that it has not launched
 };
 
-// From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples; of `wanted` samples
-// in all, or more where few would do.
+// From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples; of `wanted`
+// samples in all, or more where that is less than two launches.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
               std::uint64_t wanted);
 

@@ -14,7 +14,7 @@ struct InspectedRow {
     std::string name, picture, held, difference;
 };
 
-// The same with no columns but name and picture, for narrow windows: what was beside each other stands below.
+// Rows with no columns but name and picture, for narrow windows: what stood side by side stands below each other.
 std::vector<InspectedRow> stacked(const std::vector<InspectedRow>& rows);
 
 // `held`: the radiance of the pinned picture; null: there is none. Nothing where the pixel is outside of the picture.

@@ -168,7 +168,7 @@ SharingContext::~SharingContext() {
 
 } // namespace rt::test
 
-// These stand in for the loader's functions of the same names in all that is linked into the program.
+// Stand in for the loader's functions of these names in all that is linked into the program.
 using rt::test::ofDevice;
 using rt::test::SharedPipelines;
 

@@ -85,8 +85,8 @@ void drawInspectedTable(const std::vector<InspectedRow>& rows) {
     ImGui::EndTable();
 }
 
-// At the pointer, or above and to the left of it where the window ends. What a narrow window has no room for beside each
-// other stands below each other.
+// At the pointer, or above and to the left of it where the window ends. In a narrow window stands below each other what
+// there is no room for side by side.
 void drawInspector(const Gui& gui) {
     if (gui.inspected.empty()) return;
     const float room = ImGui::GetMainViewport()->Size.x;
