@@ -187,9 +187,9 @@ std::uint32_t Flattener::depthBelow(const SceneTree& tree, const BvhNode& leaf) 
     return 1 + depths_[input_.instances[tree.items.index(item)].geometry];
 }
 
-// Of a tree whose root is no leaf; childrenOf(node of the binary tree): which of its descendants become children. Depth
-// first, so that what is visited together lies together. A traversal remembers all children but one of every node on its
-// way down.
+// Of a tree whose root is no leaf; childrenOf(node of the binary tree): which of its descendants become children.
+// Depth first, so that what is visited together lies together. A traversal remembers all children but one of every node
+// on its way down.
 template <class Node, class Children>
 void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const Children& childrenOf) {
     const std::vector<BvhNode>& binary = tree.bvh.nodes;

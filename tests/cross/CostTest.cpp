@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Vulkan/Check.h"
-#include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/Device.h"
 
@@ -19,18 +17,13 @@ constexpr std::uint32_t kSide = 20, kSamples = 8;
 
 class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
   protected:
-    // Seen from so far that the box is surrounded by nothing. False where the device does not serve the engine, which
-    // must refuse it then.
+    // Seen from so far that the box is surrounded by nothing. False where the device lacks the engine.
     bool start(const app::RenderSettings& settings) {
-        const gpu::GpuEngineOptions options{.pipelineCache = false, .engine = GetParam()};
-        if (!device().info().serves(gpu::neededBy(GetParam()))) {
-            EXPECT_THROW(gpu::makeGpuEngine(device(), options), vulkan::NoDeviceError);
-            return false;
-        }
+        if (lacks(GetParam())) return false;
         const auto scene = app::compile(app::loadScene("next-week-cornell-box"), true);
         scene::CameraDesc camera = scene->camera;
         camera.verticalFov *= 1.6;
-        engine_ = gpu::makeGpuEngine(device(), options);
+        engine_ = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});
         engine_->setScene(scene, nullptr);
         engine_->reset(camera, settings);
         return true;

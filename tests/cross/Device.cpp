@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/Vulkan/Check.h"
+#include "RayTracingGPU/EngineChoice.h"
+#include "RayTracingGPU/GpuEngine.h"
 #include "tests/cross/SharedPipelines.h"
 
 namespace rt::test {
@@ -23,6 +26,12 @@ vulkan::VulkanContext& device() {
     const char* chosen = std::getenv("RT_DEVICE");
     static SharingContext context({chosen != nullptr ? chosen : "", true});
     return context;
+}
+
+bool lacks(app::GpuEngineKind engine) {
+    if (device().info().serves(gpu::neededBy(engine))) return false;
+    EXPECT_THROW(gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = engine}), vulkan::NoDeviceError);
+    return true;
 }
 
 } // namespace rt::test

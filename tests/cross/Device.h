@@ -12,6 +12,9 @@ namespace rt::test {
 // With validation, synchronization included; lives as long as the program.
 vulkan::VulkanContext& device();
 
+// Whether it lacks that engine; the test asserts that it is refused then.
+bool lacks(app::GpuEngineKind engine);
+
 // Both ways to trace rays on it, as parameters of tests.
 inline const auto kBothEngines = ::testing::Values(app::GpuEngineKind::Pipeline, app::GpuEngineKind::Compute);
 

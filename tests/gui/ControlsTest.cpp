@@ -160,8 +160,7 @@ TEST_P(ControlsTest, AButtonOfTheToolbarHidesThePanels) {
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(settings()["saw_first_steps"].is_null() || settings()["saw_first_steps"] == true);
     pause(500);
-    act("mousemove " + std::to_string(kWidth - kFromTheRight) + " " + std::to_string(kMiddle) +
-        " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1");
+    click(kWidth - kFromTheRight, kMiddle);
     EXPECT_TRUE(eventually([&] { return settings()["show_panels"] == false; })) << settings();
     expectCleanEnd();
     EXPECT_EQ(settings()["saw_first_steps"], true); // the hint does not come back

@@ -40,11 +40,6 @@ std::uint32_t samplesInFiles(const FilmRun& film) {
     return std::min(kAovSamples, film.settings().spp);
 }
 
-ViewImage costView(Engine& engine, const ViewRequest& view, std::uint32_t spp) {
-    const Cost cost = engine.knowsCost(view.cost) ? view.cost : Cost::Rays;
-    return showCost(cost, engine.renderCost(cost, spp), view.scale);
-}
-
 void copyRows(const image::Image& rows, std::uint32_t first, image::Image& all) {
     if (!rows.data.empty()) std::copy(rows.data.begin(), rows.data.end(), all.pixel(0, first));
 }
@@ -97,10 +92,8 @@ void PicturePublisher::showDraft(const FilmRun& draft, const RenderSettings& fil
     Picture picture;
     picture.image = picture.radiance = std::make_shared<image::Image>(enlarge(draft_, film.width, film.height));
     if (showsFeatures(view_.mode)) {
-        Engine& engine = draft.engine();
-        ViewImage view = view_.mode == ViewMode::Heat
-                             ? costView(engine, view_, 1)
-                             : showFeatures(view_.mode, engine.renderAovs(aovsFor(view_.mode), 1));
+        AovImages features;
+        ViewImage view = featureView(draft.engine(), 1, features);
         if (!view.image.data.empty()) {
             view.image = enlarge(view.image, film.width, film.height);
             featureView_ = std::make_shared<ViewImage>(std::move(view));
@@ -150,6 +143,15 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     sinceShown_ = {};
 }
 
+ViewImage PicturePublisher::featureView(Engine& engine, std::uint32_t spp, AovImages& features) const {
+    if (view_.mode != ViewMode::Heat) {
+        features = engine.renderAovs(aovsFor(view_.mode), spp);
+        return showFeatures(view_.mode, features);
+    }
+    const Cost cost = engine.knowsCost(view_.cost) ? view_.cost : Cost::Rays;
+    return showCost(cost, engine.renderCost(cost, spp), view_.scale);
+}
+
 std::uint32_t PicturePublisher::featureRows() const {
     return std::max({features_.albedo.height, features_.normal.height, features_.depth.height});
 }
@@ -178,15 +180,9 @@ PicturePublisher::ViewPointer PicturePublisher::viewOf(const FilmRun& film, cons
         const bool isCost = view_.mode == ViewMode::Heat;
         const std::uint32_t spp = speed.sppIn(isCost ? kFeatureSeconds : kFirstHitsPerPath * kFeatureSeconds,
                                               film.settings(), isCost ? kAovSamples : samplesInFiles(film));
-        ViewImage view;
-        if (isCost) {
-            view = costView(film.engine(), view_, spp);
-        } else {
-            features_ = film.engine().renderAovs(aovsFor(view_.mode), spp);
-            view = showFeatures(view_.mode, features_);
-            fineRows_ = spp < samplesInFiles(film) ? 0 : featureRows();
-            rowsAtATime_ = 1;
-        }
+        ViewImage view = featureView(film.engine(), spp, features_);
+        fineRows_ = spp < samplesInFiles(film) ? 0 : featureRows();
+        rowsAtATime_ = 1;
         if (view.image.data.empty()) return nullptr;
         featureIsFull_ = true;
         return featureView_ = std::make_shared<ViewImage>(std::move(view));

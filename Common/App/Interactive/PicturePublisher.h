@@ -47,6 +47,8 @@ class PicturePublisher {
     using ViewPointer = std::shared_ptr<const ViewImage>;
 
     double interval(const RenderRequest& request) const;
+    // The features that it shows are left in `features`; what pixels cost is none of them.
+    ViewImage featureView(Engine& engine, std::uint32_t spp, AovImages& features) const;
     std::uint32_t featureRows() const; // of features_; none where they are not shown
     ViewPointer viewOf(const FilmRun& film, const Picture& picture, const FilmReference& reference,
                        const RenderSpeed& speed);
