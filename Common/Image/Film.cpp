@@ -8,6 +8,7 @@
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Parallel.h"
+#include "Common/Core/SystemMemory.h"
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/FilmTiles.h"
 
@@ -24,7 +25,7 @@ namespace {
 template <class T>
 void allocate(std::vector<T>& values, std::size_t count, const FilmDesc& desc) {
     try {
-        values.resize(count);
+        resizeLarge(values, count);
     } catch (const std::bad_alloc&) {
         throwOutOfMemory(desc);
     } catch (const std::length_error&) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/SystemMemory.h"
 
 namespace rt::image {
 namespace {
@@ -115,7 +116,7 @@ std::uint64_t totalSamples(const Film& film, std::span<const std::uint32_t> tile
 }
 
 TilePacker::TilePacker(std::size_t bytes) {
-    bytes_.reserve(bytes + kRoom);
+    reserveLarge(bytes_, bytes + kRoom);
 }
 
 std::size_t TilePacker::packedSize(const Film::TileState& state) {
