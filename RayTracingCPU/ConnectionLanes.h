@@ -1,5 +1,6 @@
-// Connections through spheres of glass for sixteen paths: what a path's sphere and light are is found slot by slot, the
-// paths between their ends in the lanes of vectors. The values are those of one path alone (Connection.h), bit for bit.
+// Connections through spheres of glass, sixteen at a time: what a path's sphere and light are is found slot by slot,
+// the paths between their ends in the lanes of vectors. The values are those of one path alone (Connection.h), bit for
+// bit.
 // Included by one translation unit per instruction set; all it defines has internal linkage.
 #pragma once
 #include "RayTracingCPU/PathLanes.h"
@@ -34,9 +35,16 @@ namespace {
 
 using namespace rt::shared;
 
+// Connections that paths attempt. Few do at a time: they wait until every lane has one.
 struct ConnectionLanes {
-    uint sphere[kLanes]; // of the paths that attempt a connection
-    Vec3Lanes centers;   // of it
+    uint count;          // of lanes in use
+    uint sample[kLanes]; // of TileSamples, whose path it is
+    uint sphere[kLanes];
+    Vertex vertex[kLanes];
+    vec3 throughput[kLanes];
+    float time[kLanes];
+    Vec3Lanes normals; // of the vertices
+    Vec3Lanes centers; // of the spheres
     FloatLanes radii;
     FloatLanes u; // draws one of the paths
     RecordLanes<LightEnd> ends;
@@ -55,17 +63,19 @@ RT_CALL void addWeights(const CpuScene& scene, const RenderParams& params, const
     for (uint k = 0u; k < params.connectedSpheres; ++k) {
         const SmoothSphere& sphere = scene.smoothSpheres[k];
         Vec3Lanes along;
+        FloatLanes near;
         Vec2Lanes reach;
         UintLanes isNear;
         for (uint i = 0u; i < kLanes; ++i) {
-            const SphereView view = viewSphere(sphere, get(positions, i), lanes.time.at[i]);
+            const SphereView view = seeSphere(sphere, get(positions, i), lanes.time.at[i]);
             set(along, i, view.along);
-            set(reach, i, view.reach);
+            near.at[i] = view.near;
             isNear.at[i] = view.isNear ? 1u : 0u;
         }
-        uint near = 0u;
-        for (uint i = 0u; i < kLanes; ++i) near |= isNear.at[i];
-        if (near == 0u) continue;
+        uint any = 0u;
+        for (uint i = 0u; i < kLanes; ++i) any |= isNear.at[i];
+        if (any == 0u) continue;
+        for (uint i = 0u; i < kLanes; ++i) set(reach, i, reachAt(sphere, near.at[i]));
         FloatLanes sums{};
         for (uint l = 0u; l < count; ++l) {
             const SphereReach light = scene.sphereReaches[k * count + l];
@@ -92,9 +102,14 @@ RT_FN void findAngles(uint kind, ConnectionLanes& c) {
     }
 }
 
+// Nothing has to be halved where all turns rise throughout, as those to distant points do.
 RT_FN void findRoots(ConnectionLanes& c) {
-    for (uint i = 0u; i < kLanes; ++i) set(c.least, i, vec2(0.0f, 1.0f));
-    for (uint k = 0u; k < kLeastSteps; ++k) {
+    uint falling = 0u;
+    for (uint i = 0u; i < kLanes; ++i) {
+        set(c.least, i, vec2(0.0f, 1.0f));
+        falling |= risesThroughout(get(lanesOf<&ConnectionPair::angles>(c.pairs), i)) ? 0u : 1u;
+    }
+    for (uint k = 0u; k < kLeastSteps && falling != 0u; ++k) {
         for (uint i = 0u; i < kLanes; ++i) {
             const RefractionPair p = get(lanesOf<&ConnectionPair::angles>(c.pairs), i);
             set(c.least, i, halvedLeast(p, get(c.least, i)));
@@ -106,12 +121,12 @@ RT_FN void findRoots(ConnectionLanes& c) {
     }
 }
 
-// All paths between the ends of the connections `attempted`.
-RT_CALL void findPaths(const PathLanes& lanes, uint attempted, ConnectionLanes& c) {
+// All paths between the ends of the connections.
+RT_CALL void findPaths(ConnectionLanes& c) {
     findRoots(c);
     for (uint kind = 0u; kind < kRefractedPaths; ++kind) {
         uint exist = 0u;
-        eachLane(attempted, [&](uint i) { exist |= hasPath(get(c.roots, i), kind) ? 1u : 0u; });
+        for (uint i = 0u; i < c.count; ++i) exist |= hasPath(get(c.roots, i), kind) ? 1u : 0u;
         if (exist == 0u) {
             lanesOf<&SpherePath::share>(c.paths[kind]) = FloatLanes{};
             continue;
@@ -121,58 +136,120 @@ RT_CALL void findPaths(const PathLanes& lanes, uint attempted, ConnectionLanes& 
             const bool exists = hasPath(get(c.roots, i), kind);
             set(c.paths[kind], i,
                 pathAt(get(c.pairs, i), kind, exists, get(c.angles, i), c.radii.at[i], get(c.centers, i),
-                       get(c.ends, i), get(lanesOf<&Vertex::shading>(lanes.vertices), i)));
+                       get(c.ends, i), get(c.normals, i)));
         }
     }
 }
 
-// connectLight() for the paths `lit`, whose time and throughput are in lanes: passages, and what goes into the chain of
-// each of them. Returns those that have a passage.
+// Probabilities of connections from all vertices, and their rates. Returns the paths that attempt one.
 template <uint kFeatures>
-RT_CALL uint connectLights(const CpuScene& scene, const RenderParams& params, uint lit, const PathLanes& lanes,
-                           FloatLanes& rates, Passage* passages) {
-    FloatLanes totals;
+RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, FloatLanes& totals,
+                          FloatLanes& chances, FloatLanes& rates) {
     addWeights(scene, params, lanes, totals);
-    uint attempted = 0u;
-    ConnectionLanes c{};
-    eachLane(lit, [&](uint i) {
-        rates.at[i] = 0.0f;
+    UintLanes attempts;
+    for (uint i = 0u; i < kLanes; ++i) {
+        const Vertex v = get(lanes.vertices, i);
         const float total = totals.at[i];
-        if (!(total > 0.0f)) return;
-        const Vertex v = vertexIn<kFeatures>(lanes, i);
-        if (!connects(kFeatures, params, v)) return;
-        const float chance = connectionChance(total, lanes.total.at[i], get(lanes.throughput, i) * v.bsdf.albedo);
-        rates.at[i] = chance / total;
-        const float u = lanesOf<&VertexSamples::roulette>(lanes.u).y.at[i];
-        if (!(u < chance)) return;
-        const float time = lanes.time.at[i];
-        const ConnectionChoice choice = chooseConnection(scene, params, v.origin, time, u / chance * total);
-        if (!(choice.weight > 0.0f)) return;
-        const SmoothSphere& sphere = scene.smoothSpheres[choice.sphere];
-        const SphereView view = viewSphere(sphere, v.origin, time);
-        const LightEnd end = sampleEnd(kFeatures, scene, params, choice, view.center, time, rates.at[i],
-                                       connectionSample(get(lanes.samplers, i), v));
-        if (!(end.density > 0.0f)) return;
-        c.sphere[i] = choice.sphere;
-        c.radii.at[i] = sphere.radius;
-        c.u.at[i] = choice.u;
-        set(c.centers, i, view.center);
-        set(c.ends, i, end);
-        set(c.pairs, i, connectionPair(sphere, view, end.point));
-        attempted |= 1u << i;
-    });
-    if (attempted == 0u) return 0u;
-    findPaths(lanes, attempted, c);
-    uint connected = 0u;
-    eachLane(attempted, [&](uint i) {
-        const SpherePath path = pickPath(get(c.paths[0], i), get(c.paths[1], i), get(c.paths[2], i), c.u.at[i]);
-        if (!(path.share > 0.0f)) return;
-        passages[i] = weighPassage(kFeatures, params, scene.smoothSpheres[c.sphere[i]], get(c.centers, i), path,
-                                   get(c.ends, i), vertexIn<kFeatures>(lanes, i), get(lanes.throughput, i));
-        if (passages[i].segments != 0u) connected |= 1u << i;
-    });
-    return connected;
+        const bool isPossible = total > 0.0f && connects(kFeatures, params, v);
+        const vec3 throughput = get(lanes.throughput, i) * v.bsdf.albedo;
+        const float chance = connectionChance(max(total, 1.0e-30f), lanes.total.at[i], throughput);
+        chances.at[i] = isPossible ? chance : 0.0f;
+        rates.at[i] = chances.at[i] / max(total, 1.0e-30f);
+        attempts.at[i] = get(lanes.u, i).roulette.y < chances.at[i] ? 1u : 0u;
+    }
+    uint attempted = 0u;
+    for (uint i = 0u; i < kLanes; ++i) attempted |= attempts.at[i] << i;
+    return attempted;
 }
+
+// Without connections.
+template <uint kFeatures, bool kConnects = (kFeatures & kFeatureConnections) != 0u>
+class Connections {
+  public:
+    Connections(const CpuScene&, const RenderParams&, KernelCounters&) {}
+    vec3 radiance(uint) const { return vec3(0.0f); }
+    void finish() {}
+};
+
+// The connections of the samples of a packet. What they bring to a sample is summed apart from its path, in the order
+// of its vertices: the sum does not depend on how long a connection waits for others.
+template <uint kFeatures>
+class Connections<kFeatures, true> {
+  public:
+    Connections(const CpuScene& scene, const RenderParams& params, KernelCounters& counters)
+        : scene_(scene), params_(params), counters_(counters) {}
+
+    // connectLight() for the paths `lit`, whose time and throughput are in lanes, up to the light's end. `rates` is
+    // what goes into their chains; sampleOf(i) the sample of a path.
+    template <class SampleOf>
+    void attempt(uint lit, const PathLanes& lanes, FloatLanes& rates, const SampleOf& sampleOf) {
+        FloatLanes totals, chances;
+        const uint attempted = drawAttempts<kFeatures>(scene_, params_, lanes, totals, chances, rates);
+        eachLane(lit & attempted, [&](uint i) {
+            const float target = lanesOf<&VertexSamples::roulette>(lanes.u).y.at[i] / chances.at[i] * totals.at[i];
+            if (add(lanes, i, target, rates.at[i])) c_.sample[c_.count++] = sampleOf(i);
+            if (c_.count == kLanes) finish();
+        });
+    }
+
+    // All that still wait.
+    void finish() {
+        if (c_.count == 0u) return;
+        findPaths(c_);
+        for (uint i = 0u; i < c_.count; ++i) {
+            const SpherePath path = pickPath(get(c_.paths[0], i), get(c_.paths[1], i), get(c_.paths[2], i), c_.u.at[i]);
+            if (path.share > 0.0f) trace(i, path);
+        }
+        c_.count = 0u;
+    }
+
+    // What connections bring to a sample.
+    vec3 radiance(uint sample) const { return radiances_[sample]; }
+
+  private:
+    // False: there is nothing to connect to after all.
+    [[gnu::noinline]] bool add(const PathLanes& lanes, uint i, float target, float rate) {
+        const Vertex v = vertexIn<kFeatures>(lanes, i);
+        const float time = lanes.time.at[i];
+        const ConnectionChoice choice = chooseConnection(scene_, params_, v.origin, time, target);
+        if (!(choice.weight > 0.0f)) return false;
+        const SmoothSphere& sphere = scene_.smoothSpheres[choice.sphere];
+        const SphereView view = viewSphere(sphere, v.origin, time);
+        const LightEnd end = sampleEnd(kFeatures, scene_, params_, choice, view.center, time, rate,
+                                       connectionSample(get(lanes.samplers, i), v));
+        if (!(end.density > 0.0f)) return false;
+        const uint n = c_.count;
+        c_.sphere[n] = choice.sphere;
+        c_.vertex[n] = v;
+        c_.throughput[n] = get(lanes.throughput, i);
+        c_.time[n] = time;
+        c_.radii.at[n] = sphere.radius;
+        c_.u.at[n] = choice.u;
+        set(c_.normals, n, v.shading);
+        set(c_.centers, n, view.center);
+        set(c_.ends, n, end);
+        set(c_.pairs, n, connectionPair(sphere, view, end.point));
+        return true;
+    }
+
+    // Adds what comes along the path if its segments are free.
+    void trace(uint i, const SpherePath& path) {
+        Passage passage = weighPassage(kFeatures, params_, scene_.smoothSpheres[c_.sphere[i]], get(c_.centers, i), path,
+                                       get(c_.ends, i), c_.vertex[i], c_.throughput[i]);
+        while (passage.segments != 0u) {
+            ++counters_.shadow;
+            float tMax;
+            const Ray ray = passageRay(passage, c_.time[i], tMax);
+            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, radiances_[c_.sample[i]]);
+        }
+    }
+
+    const CpuScene& scene_;
+    const RenderParams& params_;
+    KernelCounters& counters_;
+    ConnectionLanes c_{};
+    vec3 radiances_[kBatchSamples]{}; // by sample
+};
 
 } // namespace
 } // namespace rt::cpu

@@ -22,7 +22,6 @@ struct PathSlot {
 struct ActiveSlots {
     uint arrived = 0u;    // at a vertex
     uint lit = 0u;        // of these, where a light is chosen
-    uint connected = 0u;  // of these, where it is connected to through a sphere
     uint principled = 0u; // where the material is
     uint layered = 0u;    // of these, where there is more than diffuse and specular reflection
 };
@@ -148,23 +147,25 @@ class PathPacket {
           cancel_(cancel),
           samples_(context, tasks),
           radiances_(radiances),
-          counters_(counters) {}
+          counters_(counters),
+          connections_(scene_, params_, counters) {}
 
     // Traces the paths of all samples. False: cancelled.
     bool trace() {
         for (;;) {
             if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return false;
             ActiveSlots active = arriveAll();
-            if (active.arrived == 0u) return true;
+            if (active.arrived == 0u) break;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
-            if (has(kFeatures, kFeatureConnections) && active.lit != 0u && params_.connectedSpheres != 0u)
-                active.connected = connectLights(active.lit);
+            if constexpr ((kFeatures & kFeatureConnections) != 0u) connectLights(active.lit);
             if (active.principled != active.arrived) sampleDiffuse(lanes_);
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
         }
+        addConnections();
+        return true;
     }
 
   private:
@@ -224,24 +225,18 @@ class PathPacket {
         if (samplesLights(kFeatures, params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
     }
 
-    // Connects the paths `lit`, and returns those that are connected: passages_.
-    uint connectLights(uint lit) {
+    // Attempts connections of the paths `lit`.
+    void connectLights(uint lit) {
+        if (lit == 0u || params_.connectedSpheres == 0u) return;
         FloatLanes rates;
-        const uint connected = rt::cpu::connectLights<kFeatures>(scene_, params_, lit, lanes_, rates, passages_);
+        connections_.attempt(lit, lanes_, rates, [&](uint i) { return slots_[i].sample; });
         eachLane(lit, [&](uint i) { slots_[i].path.chain.rate = rates.at[i]; });
-        return connected;
     }
 
-    // Adds the passage of slot i if its segments are free.
-    void tracePassage(uint i) {
-        Passage& passage = passages_[i];
-        PathState& path = slots_[i].path;
-        while (passage.segments != 0u) {
-            ++counters_.shadow;
-            float tMax;
-            const Ray ray = passageRay(passage, path.ray.time, tMax);
-            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, path);
-        }
+    void addConnections() {
+        if (!has(kFeatures, kFeatureConnections) || params_.connectedSpheres == 0u) return;
+        connections_.finish();
+        for (uint i = 0u; i < samples_.count(); ++i) radiances_[i] += connections_.radiance(i);
     }
 
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
@@ -255,7 +250,6 @@ class PathPacket {
         const bool isSampled = isLit && samplesLights(kFeatures, params_);
         const DirectLight direct = isSampled ? get(lanes_.direct, i) : noDirectLight();
         addUnshadowed(direct, path);
-        if (has(kFeatures, kFeatureConnections) && (active.connected >> i & 1u) != 0u) tracePassage(i);
         BsdfSample b = sampleScattering<kFeatures>(lanes_, i, v);
         if (isLit && usesMixture(kFeatures, params_, scene_.globals, v)) {
             const LightChoice choice = get(lanes_.choices, i);
@@ -308,7 +302,7 @@ class PathPacket {
     KernelCounters& counters_;
     PathSlot slots_[kLanes]{};
     PathLanes lanes_{};
-    Passage passages_[kLanes]; // of the paths that are connected
+    Connections<kFeatures> connections_;
 };
 
 } // namespace

@@ -17,6 +17,8 @@ class TileSamples {
         for (const TileTask& task : tasks) count_ += task.samples();
     }
 
+    uint count() const { return count_; }
+
     // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is
     // left.
     template <uint kFeatures>

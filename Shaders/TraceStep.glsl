@@ -52,7 +52,7 @@ void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight
     if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) {
         float tMax;
         Ray ray = passageRay(passage, path.ray.time, tMax);
-        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, passage, path);
+        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, passage, path.radiance);
         return;
     }
 #endif

@@ -49,6 +49,7 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
     const CpuScene& scene = *context.scene;
     PathState path =
         startPath(cameraRay(kFeatureAll, context.params, context.camera, pixel, cameraSamples(kFeatureAll, smp)));
+    vec3 connected(0.0f); // summed apart, as packets do
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
         Passage passage = noPassage();
@@ -58,7 +59,7 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
             ++counters.shadow;
             float tMax;
             const Ray ray = passageRay(passage, path.ray.time, tMax);
-            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, passage, path);
+            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, passage, connected);
         }
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
@@ -68,7 +69,7 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         }
     }
     counters.scattered += path.vertex - 1u;
-    return path.radiance;
+    return path.radiance + connected;
 }
 
 std::vector<vec3> traceOneByOne(const KernelContext& context, const TileTask& task, KernelCounters& counters) {

@@ -13,7 +13,10 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastIor = 1.01; // below it a sphere focuses nothing
+constexpr double kLeastIor = 1.01;   // below it a sphere focuses nothing
+constexpr double kUsedFlux = 0.9;    // of what falls on a sphere; what passes near its rim is spread widely
+constexpr double kLeastGain = 0.004; // of the irradiance at a sphere; less is not worth a connection
+constexpr double kMostGain = 4;
 
 shared::vec2 cosineAndSine(double angle) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
@@ -63,7 +66,7 @@ shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::Li
 }
 
 // Greatest angle, seen from the centre, between where a point is and where it would be opposite an end of the path at
-// which `near` is at most nearY: over the paths that pass the centre on that side.
+// which `near` is at most nearY: over all paths but those near the rim that pass the centre on the other side.
 double reachAngle(double inverseEta, double nearX, double nearY) {
     constexpr int kSteps = 1000;
     double most = 0;
@@ -71,26 +74,55 @@ double reachAngle(double inverseEta, double nearX, double nearY) {
         const double incident = std::numbers::pi / 2 * k / kSteps, sine = std::sin(incident);
         const double turn =
             2 * (incident - std::asin(inverseEta * sine)) - std::asin(nearX * sine) - std::asin(nearY * sine);
-        most = std::max(most, -turn);
+        most = std::max(most, sine * sine < kUsedFlux ? std::abs(turn) : -turn);
     }
     return most;
 }
 
-// Fills `reach` and `nearest`, given how near the nearest light is.
-void boundReach(shared::SmoothSphere& sphere, double nearY, double widest) {
+// Mean irradiance where light from a distance of radius / nearY falls at one of radius / nearX, over that at the centre:
+// as if it fell evenly on a disc. `spread` is 1 less the cosine of the light's extent.
+double meanGain(double inverseEta, double nearX, double nearY, double spread) {
+    constexpr int kSteps = 64;
+    double flux = 0, bent = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        const double sine = std::sqrt((k + 0.5) / kSteps), incident = std::asin(sine);
+        const double refracted = std::asin(inverseEta * sine);
+        const double turn = 2 * (incident - refracted) - std::asin(nearX * sine) - std::asin(nearY * sine);
+        const double across = std::sin(incident - refracted) / std::sin(incident + refracted);
+        const double along = std::tan(incident - refracted) / std::tan(incident + refracted);
+        const double entered = 1 - 0.5 * (across * across + along * along);
+        flux += entered * entered / kSteps;
+        bent += entered * entered * (1 - std::cos(turn)) / kSteps;
+    }
+    return std::min(flux * nearX * nearX / (2 * (2 * bent / flux + spread)), kMostGain);
+}
+
+// What the lights that a sphere sees have in common.
+struct LightsSeen {
+    double nearest = 0;  // greatest radius of the sphere over distance of a light
+    double widest = 0;   // angle
+    double meanNear = 0; // of that ratio, by weight
+    double spread = 0;   // likewise, 1 less the cosine of the extent
+};
+
+// Fills `reach` and `nearest`.
+void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
     const double inverseEta = static_cast<double>(sphere.inverseEta);
     sphere.nearest = 1;
     for (std::uint32_t step = shared::kReachSteps; step-- > 0;) {
         const double nearX = std::min((step + 1.0) / shared::kReachSteps, 1.0);
-        const double angle = std::min(reachAngle(inverseEta, nearX, nearY), std::numbers::pi - widest);
-        sphere.reach[step] = cosineAndSine(angle);
-        if (angle > 0) sphere.nearest = static_cast<float>(step) / shared::kReachSteps;
+        const double angle = std::min(reachAngle(inverseEta, nearX, lights.nearest), std::numbers::pi - lights.widest);
+        const double middle = (step + 0.5) / shared::kReachSteps;
+        const double gain = meanGain(inverseEta, middle, lights.meanNear, lights.spread);
+        sphere.reach[step] = {static_cast<float>(std::cos(angle)), static_cast<float>(gain)};
+        if (angle > 0 && gain > kLeastGain) sphere.nearest = static_cast<float>(step) / shared::kReachSteps;
     }
 }
 
 void addSphere(std::uint32_t index, CompiledScene& out) {
     shared::SmoothSphere sphere = smoothSphere(out, index);
-    double nearY = 0, widest = 0;
+    LightsSeen lights;
+    double sum = 0;
     for (std::size_t i = 0; i < out.globals.lightCount; ++i) {
         const shared::SphereReach reach = reachOf(sphere, out.lights[i], out.lightBounds[i]);
         out.sphereReaches.push_back(reach);
@@ -99,10 +131,16 @@ void addSphere(std::uint32_t index, CompiledScene& out) {
         const double distance = glm::length(bound.center - middleOf(sphere));
         const double nearest = std::max(distance - static_cast<double>(bound.radius), 0.0);
         const double radius = static_cast<double>(sphere.radius);
-        nearY = std::max(nearY, radius / std::max(nearest, radius));
-        widest = std::max(widest, std::acos(static_cast<double>(reach.extent.x)));
+        lights.nearest = std::max(lights.nearest, radius / std::max(nearest, radius));
+        lights.widest = std::max(lights.widest, std::acos(static_cast<double>(reach.extent.x)));
+        const double weight = static_cast<double>(reach.weight);
+        sum += weight;
+        lights.meanNear += weight * radius / std::max<double>(distance, radius);
+        lights.spread += weight * (1 - static_cast<double>(reach.extent.x));
     }
-    boundReach(sphere, nearY, widest);
+    lights.meanNear /= sum;
+    lights.spread /= sum;
+    boundReach(lights, sphere);
     out.smoothSpheres.push_back(sphere);
 }
 

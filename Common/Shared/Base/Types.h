@@ -214,9 +214,9 @@ struct SmoothSphere {
     float inverseEta;        // index outside over inside, < 1
     vec3 tint;               // of light that has entered and left
     uint primitive;          // into spheres
-    float nearest;           // least radius over distance at which light is thought to converge; 1: nowhere
-    vec2 reach[kReachSteps]; // cosine and sine of how far, seen from the centre, such a point may be from opposite a
-                             // light, by that ratio
+    float nearest;           // least radius over distance at which light through it is thought to matter; 1: nowhere
+    vec2 reach[kReachSteps]; // by that ratio: cosine of how far, seen from the centre, a point may be from opposite
+                             // a light, and irradiance there over that at the centre
 };
 
 // A light as one of these spheres sees it. kConnectedSpheres rows of them, an element for each light.

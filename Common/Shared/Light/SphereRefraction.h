@@ -95,9 +95,13 @@ RT_FN vec2 halvedLeast(RT_IN(RefractionPair) p, vec2 interval) {
     return vec2(falls ? t : interval.x, falls ? interval.y : t);
 }
 
+// Whether the turn rises from the first angle on; the interval does not matter then.
+RT_FN bool risesThroughout(RT_IN(RefractionPair) p) {
+    return 2.0f - 2.0f * p.inverseEta - p.nearX - p.nearY >= 0.0f;
+}
+
 RT_FN vec2 leastWithin(RT_IN(RefractionPair) p, vec2 interval) {
-    bool rises = 2.0f - 2.0f * p.inverseEta - p.nearX - p.nearY >= 0.0f;
-    return angleOfHalfTangent(rises ? 0.0f : 0.5f * (interval.x + interval.y));
+    return angleOfHalfTangent(risesThroughout(p) ? 0.0f : 0.5f * (interval.x + interval.y));
 }
 
 RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {

@@ -43,7 +43,8 @@ struct SphereView {
 // Beyond it a point lies on the sphere, or within.
 const float kNearestToSphere = 0.999f;
 
-RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+// All but the reach.
+RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
     SphereView view;
     view.center = sphere.center + sphere.motion * time;
     vec3 toCenter = view.center - x;
@@ -51,14 +52,25 @@ RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
     view.along = toCenter * inverse;
     view.near = sphere.radius * inverse;
     view.isNear = view.near > sphere.nearest && view.near < kNearestToSphere;
-    view.reach = sphere.reach[uint(min(view.near * float(kReachSteps), float(kReachSteps - 1u)))];
+    view.reach = vec2(0.0f);
     return view;
 }
 
-// What the choice of a light through the sphere is proportional to.
+RT_FN vec2 reachAt(RT_IN(SmoothSphere) sphere, float near) {
+    return sphere.reach[uint(min(near * float(kReachSteps), float(kReachSteps - 1u)))];
+}
+
+RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+    SphereView view = seeSphere(sphere, x, time);
+    view.reach = reachAt(sphere, view.near);
+    return view;
+}
+
+// What the choice of a light through the sphere is proportional to: an estimate of the irradiance that it brings.
 RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
-    float limit = view.reach.x * light.extent.x - view.reach.y * light.extent.y;
-    return view.isNear && dot(light.axis, view.along) > limit ? light.weight : 0.0f;
+    float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
+    float limit = view.reach.x * light.extent.x - sine * light.extent.y;
+    return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
 }
 
 // Sum of the weights of all lights through one sphere.
@@ -86,10 +98,12 @@ RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) 
 
 // Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
 // directly contribute `direct`, by a path of this throughput: as much as it can matter.
-const float kConnectionGain = 4.0f;
+const float kConnectionGain = 2.0f;
+const float kLeastChance = 0.25f; // what is rarer is left to scattering
 
 RT_FN float connectionChance(float total, float direct, vec3 throughput) {
-    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
+    float chance = min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
+    return chance < kLeastChance ? 0.0f : chance;
 }
 
 struct ConnectionChoice {
@@ -337,16 +351,16 @@ RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
     return ray;
 }
 
-// What becomes of the passage when its next segment has been traced.
+// What becomes of the passage when its next segment has been traced; the last one adds to `radiance`.
 RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax, RT_INOUT(Passage) p,
-                      RT_INOUT(PathState) s) {
+                      RT_INOUT(vec3) radiance) {
     if (!isFree) {
         p.segments = 0u;
         return;
     }
     p.radiance *= rayTransmittance(features, scene, ray, tMax);
     p.segments -= 1u;
-    if (p.segments == 0u) s.radiance += p.radiance;
+    if (p.segments == 0u) radiance += p.radiance;
 }
 
 // ---- the path's side -----------------------------------------------------------------------------------------------
@@ -384,9 +398,9 @@ RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s
     s.chain.state = state;
 }
 
-// Weight of emission at y that the path of s hit beyond a sphere, against connections.
-RT_FN float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
-                          vec3 y, vec3 normal) {
+// Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
+RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
+                            vec3 y, vec3 normal) {
     RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, s.chain.inside);
     SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
     uint count = loadGlobals(scene).lightCount;
