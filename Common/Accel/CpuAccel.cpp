@@ -16,15 +16,10 @@
 namespace rt::accel {
 namespace {
 
-constexpr std::size_t kLeafChunk = 1u << 10;      // leaves whose blocks are filled at a time
+constexpr std::size_t kBlockChunk = 1u << 9;      // blocks that a thread fills at a time
+constexpr std::size_t kBlockSlice = 1u << 15;     // blocks after which it is worth to give back what told their lanes
 constexpr std::size_t kLargeBytes = 1u << 20;     // of a tree that traversal fetches ahead
 constexpr std::size_t kManyPrimitives = 1u << 16; // beside whose memory it is worth a millisecond to give some back
-
-// One geometry's tree between its construction and the filling of its leaf blocks.
-struct BuiltTree {
-    TreeItems items;
-    LeafFilling filling;
-};
 
 template <class Block>
 LinearList<Block> fillList(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
@@ -39,13 +34,26 @@ LinearList<Block> fillList(LargeArray<Block>& blocks, const AccelInput& input, s
     return {blocks.data(), (count + kWidth - 1) / kWidth};
 }
 
+// Lanes go as blocks come: these are the last large arrays, and nothing else is as much memory as they are.
 template <class Block>
-void fillLeaf(const LargeArray<Block>& blocks, const LeafItems& leaf, const BuiltTree& tree, const AccelInput& input) {
-    for (std::uint32_t i = 0; i < leaf.count; ++i) {
-        Block& block = blocks[leaf.firstBlock + i / kWidth];
-        if (i % kWidth == 0) block = emptyBlock<Block>();
-        fillLane(block, i % kWidth, input, tree.items.index(tree.filling.items[leaf.firstItem + i]));
+LargeArray<Block> fillBlocks(std::vector<std::uint32_t> lanes, const AccelInput& input, std::size_t threads) {
+    LargeArray<Block> blocks(lanes.size() / kWidth);
+    const auto fill = [&](std::size_t i) {
+        blocks[i] = emptyBlock<Block>();
+        for (std::uint32_t lane = 0; lane < kWidth; ++lane) {
+            const std::uint32_t primitive = lanes[i * kWidth + lane];
+            if (primitive != shared::kNone) fillLane(blocks[i], lane, input, primitive);
+        }
+    };
+    const Chunks slices(blocks.size(), kBlockSlice);
+    for (std::size_t slice = 0; slice < slices.count; ++slice) {
+        const std::size_t first = slices.begin(slice), count = slices.end(slice) - first;
+        parallelChunks(threads, count, kBlockChunk, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = first + begin; i < first + end; ++i) fill(i);
+        });
+        if (count == kBlockSlice) discard(&lanes[first * kWidth], count * kWidth * sizeof(lanes[0]));
     }
+    return blocks;
 }
 
 class Assembly {
@@ -61,7 +69,7 @@ class Assembly {
     const QuantizationGrid& quantizationGrid() const { return quantized_.grid; }
 
   private:
-    void fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const;
+    LargeArray<PlacedGeometry> placeInstances() const;
 
     const AccelInput& input_;
     const BuildSettings& settings_;
@@ -69,8 +77,7 @@ class Assembly {
     std::atomic<std::uint64_t>* primitivesDone_;
     std::vector<WideNode> nodes_;
     QuantizedBvh quantized_; // the world, if it gains from that
-    BlockCounts blocks_;
-    std::vector<BuiltTree> trees_;
+    BlockLanes lanes_;
     std::vector<Reference> roots_; // of each geometry
     bool hasWorld_ = false;
 };
@@ -78,8 +85,7 @@ class Assembly {
 bool Assembly::buildTrees() {
     roots_.resize(input_.geometries.size());
     return buildSceneTrees(input_, settings_.tree, cancel_, primitivesDone_, [this](SceneTree tree) {
-        LeafFilling filling;
-        LeafMaker leafMaker(tree.bvh, tree.kinds, blocks_, filling);
+        LeafMaker leafMaker(tree.bvh, tree.items, lanes_);
         if (input_.instances.empty() && gainsFromQuantization(tree.bvh)) {
             quantized_ = quantize(tree.bvh, leafMaker);
         } else {
@@ -87,56 +93,35 @@ bool Assembly::buildTrees() {
         }
         leafMaker.finish();
         hasWorld_ = hasWorld_ || tree.geometry == 0;
-        trees_.push_back({std::move(tree.items), std::move(filling)});
     });
 }
 
-void Assembly::fillLeaves(const BuiltTree& tree, const AccelStorage& storage) const {
-    const std::size_t leaves = tree.filling.leaves.size();
-    parallelChunks(settings_.tree.threads, leaves, kLeafChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const LeafItems& leaf = tree.filling.leaves[i];
-            switch (leaf.kind) {
-                case LeafKind::Sphere:
-                    fillLeaf(storage.spheres, leaf, tree, input_);
-                    break;
-                case LeafKind::MovingSphere:
-                    fillLeaf(storage.movingSpheres, leaf, tree, input_);
-                    break;
-                case LeafKind::Quad:
-                    fillLeaf(storage.quads, leaf, tree, input_);
-                    break;
-                case LeafKind::Triangle:
-                    fillLeaf(storage.triangles, leaf, tree, input_);
-                    break;
-                case LeafKind::Instance: {
-                    const std::uint32_t index = tree.items.index(tree.filling.items[leaf.firstItem]);
-                    const shared::Instance& instance = input_.instances[index];
-                    PlacedGeometry& placed = storage.instances[leaf.firstBlock];
-                    std::copy(std::begin(instance.toObject), std::end(instance.toObject), placed.toObject);
-                    placed.root = roots_[instance.geometry];
-                    placed.instance = index;
-                    break;
-                }
-            }
-        }
-    });
+LargeArray<PlacedGeometry> Assembly::placeInstances() const {
+    const std::vector<std::uint32_t>& order = lanes_.of[static_cast<std::uint32_t>(LeafKind::Instance)];
+    LargeArray<PlacedGeometry> placed(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const shared::Instance& instance = input_.instances[order[i]];
+        std::copy(std::begin(instance.toObject), std::end(instance.toObject), placed[i].toObject);
+        placed[i].root = roots_[instance.geometry];
+        placed[i].instance = order[i];
+    }
+    return placed;
 }
 
 void Assembly::fill(AccelStorage& storage) {
-    const auto blocks = [&](LeafKind kind) { return blocks_.of[static_cast<std::uint32_t>(kind)]; };
     storage.nodes = LargeArray<WideNode>(std::exchange(nodes_, {}));
     storage.quantizedNodes = LargeArray<QuantizedNode>(std::exchange(quantized_.nodes, {}));
     // That of the trees, which were copied, and of what it took to build them.
     if (input_.spheres.size() + input_.quads.size() + input_.triangles.size() > kManyPrimitives) releaseFreedMemory();
-    storage.spheres = LargeArray<SphereBlock>(blocks(LeafKind::Sphere));
-    storage.movingSpheres = LargeArray<MovingSphereBlock>(blocks(LeafKind::MovingSphere));
-    storage.quads = LargeArray<QuadBlock>(blocks(LeafKind::Quad));
-    storage.triangles = LargeArray<TriangleBlock>(blocks(LeafKind::Triangle));
-    storage.instances = LargeArray<PlacedGeometry>(blocks(LeafKind::Instance));
-    for (const BuiltTree& tree : trees_) {
-        fillLeaves(tree, storage);
-    }
+    const auto fillKind = [&]<class Block>(LargeArray<Block>& blocks, LeafKind kind) {
+        blocks =
+            fillBlocks<Block>(std::move(lanes_.of[static_cast<std::uint32_t>(kind)]), input_, settings_.tree.threads);
+    };
+    fillKind(storage.spheres, LeafKind::Sphere);
+    fillKind(storage.movingSpheres, LeafKind::MovingSphere);
+    fillKind(storage.quads, LeafKind::Quad);
+    fillKind(storage.triangles, LeafKind::Triangle);
+    storage.instances = placeInstances();
 }
 
 std::uint32_t featuresOf(const AccelInput& input) {

@@ -31,6 +31,10 @@ void release(std::vector<T>& values) {
     std::vector<T>().swap(values);
 }
 
+// Gives the pages back that lie within memory whose contents nobody needs any more; may do nothing. What is in it
+// afterwards is not known.
+void discard(void* memory, std::size_t bytes) noexcept;
+
 // Gives memory that was freed back to the system, where its allocator keeps that of small and middling pieces.
 void releaseFreedMemory();
 

@@ -53,6 +53,16 @@ std::string read(const fs::path& file) {
     return text.str();
 }
 
+// Of a process or a thread, from its folder of /proc.
+std::pair<char, int> stateAndParent(const fs::path& folder) {
+    // "pid (name) state parent ...": the name may hold anything.
+    const std::string stat = read(folder / "stat");
+    const std::size_t end = stat.rfind(')');
+    std::pair<char, int> found{};
+    if (end != std::string::npos) std::istringstream(stat.substr(end + 1)) >> found.first >> found.second;
+    return found;
+}
+
 // An exit code, or 128 and the signal's number.
 int waitFor(int process) {
     int status = 0;
@@ -208,23 +218,27 @@ std::uint64_t Desktop::residentBytes() const {
     return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
+bool Desktop::isBusy() const {
+    std::error_code none;
+    const fs::path threads = fs::path("/proc") / std::to_string(program_) / "task";
+    for (const fs::directory_entry& thread : fs::directory_iterator(threads, none)) {
+        const char state = stateAndParent(thread.path()).first;
+        if (state == 'R' || state == 'D') return true;
+    }
+    return false;
+}
+
 bool Desktop::hasChild() const {
     std::error_code none;
     for (const fs::directory_entry& process : fs::directory_iterator("/proc", none)) {
-        // "pid (name) state parent ...": the name may hold anything.
-        const std::string stat = read(process.path() / "stat");
-        const std::size_t end = stat.rfind(')');
-        if (end == std::string::npos) continue;
-        char state = 0;
-        int parent = 0;
-        std::istringstream(stat.substr(end + 1)) >> state >> parent;
+        const auto [state, parent] = stateAndParent(process.path());
         if (parent == program_ && state != 'Z') return true;
     }
     return false;
 }
 
-bool Desktop::eventually(const std::function<bool()>& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(90);
+bool Desktop::eventually(const std::function<bool()>& condition, std::chrono::seconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
     while (std::chrono::steady_clock::now() < end) {
         if (condition()) return true;
         pause(50);

@@ -1,5 +1,6 @@
 // A screen of its own (Xvfb) with one of the programs on it, driven by keyboard and mouse (xdotool).
 #pragma once
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -46,11 +47,13 @@ class Desktop : public testing::Test {
     // Drops files on the window as another program would; whether they were taken.
     bool drop(const std::vector<std::string>& files);
     std::uint64_t residentBytes() const;
+    bool isBusy() const; // whether any of its threads runs, or would on a machine with less to do
     Screenshot screenshot() const { return takeScreenshot(display_); }
     bool hasChild() const; // whether the program runs another one
 
     // Waits for what takes a while on a busy machine; the time only ends a test that fails.
-    static bool eventually(const std::function<bool()>& condition);
+    static bool eventually(const std::function<bool()>& condition,
+                           std::chrono::seconds patience = std::chrono::seconds(90));
     static void pause(int milliseconds);
 
     std::filesystem::path folder_; // of this test: settings, pictures, files

@@ -1,6 +1,7 @@
 // A library to preload that lets allocations fail. RT_ALLOCATION_FAULT is the number of one, counted from the beginning
 // of main: "120" makes the 120th fail; after "120+4096" memory is full from there on but for 4096 bytes and what is
-// freed. RT_ALLOCATION_COUNT names a file that gets the number of all when the program ends.
+// freed. RT_ALLOCATION_COUNT names a file that gets the number of all when the program ends, and how many bytes were in
+// use at most.
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -25,7 +26,7 @@ void __libc_free(void* memory);
 namespace {
 
 std::atomic<bool> isCounting{false};
-std::atomic<long> allocations{0}, bytesInUse{0}, mostBytes{LONG_MAX};
+std::atomic<long> allocations{0}, bytesInUse{0}, peakBytes{0}, mostBytes{LONG_MAX};
 long faulty = 0;     // the number of the allocation that fails
 long bytesLeft = -1; // from then on; -1: as many as ever
 
@@ -41,7 +42,9 @@ bool hasRoom(std::size_t bytes) {
 }
 
 void* counted(void* memory) {
-    if (memory != nullptr) bytesInUse += static_cast<long>(malloc_usable_size(memory));
+    if (memory == nullptr) return memory;
+    const long bytes = bytesInUse += static_cast<long>(malloc_usable_size(memory));
+    for (long peak = peakBytes; bytes > peak && !peakBytes.compare_exchange_weak(peak, bytes);) continue;
     return memory;
 }
 
@@ -66,7 +69,7 @@ __attribute__((destructor)) void writeCount() {
     isCounting = false;
     const char* const file = std::getenv("RT_ALLOCATION_COUNT");
     const int descriptor = file != nullptr ? open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600) : -1;
-    if (descriptor >= 0) dprintf(descriptor, "%ld\n", allocations.load());
+    if (descriptor >= 0) dprintf(descriptor, "%ld %ld\n", allocations.load(), peakBytes.load());
 }
 
 } // namespace

@@ -1,6 +1,10 @@
 // Too little memory, in steps from none to enough: whatever it suffices for is done, and what it does not suffice for
 // ends with one line and the documented exit code.
+#include <cmath>
+#include <sstream>
+
 #include "tests/program/Program.h"
+#include "tests/unit/GltfBuilder.h"
 
 #if !defined(_WIN32) && !defined(__APPLE__) && !defined(RT_SANITIZED) // sanitizers reserve terabytes
 
@@ -71,6 +75,76 @@ TEST_F(Memory, ASceneFileThatDoesNotFit) {
     }
     EXPECT_GT(refused, 3);
 }
+
+#if defined(RT_FAULT_ALLOCATIONS)
+
+class MeshMemory : public Memory {
+  protected:
+    static constexpr std::size_t kSide = 500; // vertices of a mesh, by as many
+
+    // A scene of so many bumpy squares; of none: a triangle.
+    void save(const std::string& name, std::size_t squares) const {
+        scene::GltfBuilder file;
+        for (std::size_t n = 0; n < squares; ++n) file.addNode({{"mesh", file.addMesh(square(n, file))}});
+        if (squares == 0) file.addNode({{"mesh", file.addMesh(file.triangle())}});
+        file.save(path(name));
+    }
+    // The bytes that are allocated together at most while a scene is read, compiled and rendered.
+    std::size_t peakOf(const std::string& scene) const {
+        const Outcome outcome = cpu({"-q", "--no-config", "--threads", "2", "--width", "8", "--height", "8", "--spp",
+                                     "1", "--scene", scene, "-o", "a.pfm", "--stats", "s.json"},
+                                    {{"LD_PRELOAD", RT_FAULT_ALLOCATIONS}, {"RT_ALLOCATION_COUNT", path("count")}});
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        std::istringstream counts(bytesOf("count"));
+        std::size_t number = 0, peak = 0;
+        counts >> number >> peak;
+        return peak;
+    }
+    // What kernels read of the scene that was rendered last: arrays of the compiled scene, and the engine's.
+    std::size_t kernelBytes(std::size_t squares) const {
+        const std::size_t vertices = squares * kSide * kSide, triangles = squares * 2 * (kSide - 1) * (kSide - 1);
+        constexpr std::size_t kVertex = (3 + 3 + 2) * sizeof(float), kTriangle = (3 + 1) * sizeof(std::uint32_t);
+        const std::size_t engine = jsonOf("s.json")["memory"]["device_bytes"];
+        return vertices * kVertex + triangles * kTriangle + engine;
+    }
+
+  private:
+    static nlohmann::json square(std::size_t number, scene::GltfBuilder& file) {
+        std::vector<float> positions, normals, uvs;
+        std::vector<std::uint32_t> corners;
+        for (std::size_t i = 0; i < kSide * kSide; ++i) {
+            const float x = static_cast<float>(i % kSide) / (kSide - 1),
+                        y = static_cast<float>(i / kSide) / (kSide - 1);
+            const float z = 0.05f * std::sin(20 * x) * std::sin(30 * y);
+            positions.insert(positions.end(), {x, y, z + static_cast<float>(number)});
+            normals.insert(normals.end(), {0, 0, 1});
+            uvs.insert(uvs.end(), {x, y});
+            if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
+            const auto a = static_cast<std::uint32_t>(i), b = a + static_cast<std::uint32_t>(kSide);
+            corners.insert(corners.end(), {a, a + 1, b, b, a + 1, b + 1});
+        }
+        return {{"attributes",
+                 {{"POSITION", file.addAccessor(positions, "VEC3")},
+                  {"NORMAL", file.addAccessor(normals, "VEC3")},
+                  {"TEXCOORD_0", file.addAccessor(uvs, "VEC2")}}},
+                {"indices", file.addAccessor(corners, "SCALAR")}};
+    }
+};
+
+// Of one mesh compiling takes most, of many building the tree does. A scene of a triangle stands for what everything
+// else takes.
+TEST_F(MeshMemory, IsLittleMoreThanWhatKernelsRead) {
+    save("least.glb", 0);
+    const std::size_t least = peakOf("least.glb");
+    ASSERT_GT(least, 0u);
+    for (const auto& [squares, bound] : {std::pair{1, 1.3}, std::pair{4, 1.2}}) {
+        save("scene.glb", static_cast<std::size_t>(squares));
+        const auto peak = static_cast<double>(peakOf("scene.glb") - least);
+        EXPECT_LT(peak, bound * static_cast<double>(kernelBytes(static_cast<std::size_t>(squares)))) << squares;
+    }
+}
+
+#endif
 
 } // namespace
 } // namespace rt::test

@@ -24,18 +24,6 @@ BinSums::BinSums(std::uint32_t count) : count_(count) {
     }
 }
 
-void BinSums::add(const ItemBox* items, std::size_t count, const Binning& binning) {
-    for (std::size_t i = 0; i < count; ++i) {
-        std::int32_t bin[4];
-        binning.bins(items[i], bin);
-        const Bounds b = items[i].bounds();
-        for (int a = 0; a < 3; ++a) {
-            bounds_[a][bin[a]].add(b);
-            ++items_[a][bin[a]];
-        }
-    }
-}
-
 void BinSums::add(const BinSums& other) {
     for (int a = 0; a < 3; ++a) {
         for (std::uint32_t i = 0; i < count_; ++i) {

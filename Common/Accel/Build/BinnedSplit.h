@@ -21,6 +21,12 @@ struct alignas(32) ItemBox {
     Float4 center() const { return Float4::load3(lower) + Float4::load3(upper); }
 };
 
+// Likewise of boxes alone; what would be in the fourth lanes is 0.
+inline Bounds boundsOf(const Box& box) {
+    static_assert(sizeof(Box) == 6 * sizeof(float));
+    return {Float4::load3(&box.lower.x), Float4::loadLast3(&box.lower.z)};
+}
+
 // Maps twice the centre of an item to one of `count` bins along each axis; an axis without extent has bin 0 only.
 class Binning {
   public:
@@ -28,9 +34,7 @@ class Binning {
     Binning(const Bounds& centers, std::uint32_t count);
 
     std::uint32_t count() const { return count_; }
-    void bins(const ItemBox& item, std::int32_t (&result)[4]) const {
-        ((item.center() - base_) * scale_).storeInts(result);
-    }
+    void bins(Float4 center, std::int32_t (&result)[4]) const { ((center - base_) * scale_).storeInts(result); }
     bool hasExtent() const { return hasExtent_; }
 
   private:
@@ -51,7 +55,15 @@ struct Split {
 class BinSums {
   public:
     explicit BinSums(std::uint32_t count);
-    void add(const ItemBox* items, std::size_t count, const Binning& binning);
+    // An item; `center` as in ItemBox.
+    void add(const Bounds& bounds, Float4 center, const Binning& binning) {
+        std::int32_t bin[4];
+        binning.bins(center, bin);
+        for (int a = 0; a < 3; ++a) {
+            bounds_[a][bin[a]].add(bounds);
+            ++items_[a][bin[a]];
+        }
+    }
     void add(const BinSums& other);
     Split best(std::uint32_t blockSize) const;
     std::uint32_t itemsBelow(int axis, std::int32_t bin) const;

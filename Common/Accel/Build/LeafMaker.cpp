@@ -12,25 +12,39 @@ Reference reference(std::uint32_t kind, std::uint32_t firstBlock, std::uint32_t 
     return kLeafBit | kind << kKindShift | (count - 1) << kCountShift | firstBlock;
 }
 
+std::uint32_t blocksOf(std::uint32_t kind, std::uint32_t items) {
+    return (items + lanesOf(kind) - 1) / lanesOf(kind);
+}
+
 } // namespace
 
-LeafMaker::LeafMaker(const Bvh& bvh, std::span<const std::uint8_t> kinds, BlockCounts& blocks, LeafFilling& filling)
-    : bvh_(bvh), kinds_(kinds), blocks_(blocks), filling_(filling) {
-    reserveLarge(filling_.items, bvh.items.size());
+LeafMaker::LeafMaker(const Bvh& bvh, const TreeItems& items, BlockLanes& lanes)
+    : bvh_(bvh), items_(items), lanes_(lanes) {
+    // Lanes that nobody touches take no memory, while a vector that grows takes three times its own.
+    std::size_t most[kLeafKinds] = {};
+    for (const BvhNode& node : bvh.nodes) {
+        if (!node.isLeaf()) continue;
+        const auto kind = static_cast<std::uint32_t>(items.kind(bvh.items[node.first]));
+        most[kind] += blocksOf(kind, node.count) * lanesOf(kind);
+    }
+    for (std::uint32_t kind = 0; kind < kLeafKinds; ++kind) {
+        std::vector<std::uint32_t>& all = lanes_.of[kind];
+        const std::size_t needed = all.size() + most[kind];
+        if (needed > all.capacity()) reserveLarge(all, std::max(needed, 2 * all.size()));
+    }
 }
 
 Reference LeafMaker::make(const BvhNode& leaf) {
-    const std::uint32_t kind = kinds_[kinds_.size() == 1 ? 0 : bvh_.items[leaf.first]];
+    const auto kind = static_cast<std::uint32_t>(items_.kind(bvh_.items[leaf.first]));
     const std::span<const std::uint32_t> items(bvh_.items.data() + leaf.first, leaf.count);
-    const bool isInstance = static_cast<LeafKind>(kind) == LeafKind::Instance;
-    if (isInstance || items.size() >= kWidth) {
-        const std::uint32_t count = isInstance ? leaf.count : (leaf.count + kWidth - 1) / kWidth;
+    if (items.size() >= lanesOf(kind)) {
+        const std::uint32_t count = blocksOf(kind, leaf.count);
         const std::uint32_t block = takeBlocks(kind, count);
-        addLeaf(kind, block, items);
+        put(kind, std::size_t{block} * lanesOf(kind), items);
         return reference(kind, block, count);
     }
     SharedBlock& block = roomFor(kind, items.size());
-    std::copy(items.begin(), items.end(), block.items.begin() + block.count);
+    put(kind, std::size_t{block.index} * kWidth + block.count, items);
     block.count += leaf.count;
     return reference(kind, block.index, 1);
 }
@@ -41,19 +55,18 @@ void LeafMaker::finish() {
 }
 
 std::uint32_t LeafMaker::takeBlocks(std::uint32_t kind, std::uint32_t count) {
-    if (blocks_.of[kind] + count > kMaxBlocks)
+    std::vector<std::uint32_t>& lanes = lanes_.of[kind];
+    const std::size_t first = lanes.size() / lanesOf(kind);
+    if (first + count > kMaxBlocks)
         throw RenderError(
             "the scene has more primitives than an acceleration structure can hold (268 million of a kind)");
-    blocks_.of[kind] += count;
-    return blocks_.of[kind] - count;
+    lanes.resize(lanes.size() + std::size_t{count} * lanesOf(kind), shared::kNone);
+    return static_cast<std::uint32_t>(first);
 }
 
-void LeafMaker::addLeaf(std::uint32_t kind, std::uint32_t firstBlock, std::span<const std::uint32_t> items) {
-    const std::size_t first = filling_.items.size();
-    filling_.items.insert(filling_.items.end(), items.begin(), items.end());
-    std::sort(filling_.items.begin() + static_cast<std::ptrdiff_t>(first), filling_.items.end());
-    filling_.leaves.push_back({static_cast<LeafKind>(kind), static_cast<std::uint32_t>(first),
-                               static_cast<std::uint32_t>(items.size()), firstBlock});
+void LeafMaker::put(std::uint32_t kind, std::size_t lane, std::span<const std::uint32_t> items) {
+    std::transform(items.begin(), items.end(), lanes_.of[kind].begin() + static_cast<std::ptrdiff_t>(lane),
+                   [this](std::uint32_t item) { return items_.index(item); });
 }
 
 // The fullest block that takes so many items; where none does, a new one in place of the fullest.
@@ -70,8 +83,10 @@ LeafMaker::SharedBlock& LeafMaker::roomFor(std::uint32_t kind, std::size_t items
     return *best;
 }
 
+// Lanes are in the order of primitives, whatever leaves they are of.
 void LeafMaker::close(std::uint32_t kind, SharedBlock& block) {
-    if (block.count != 0) addLeaf(kind, block.index, std::span(block.items).first(block.count));
+    const auto lanes = lanes_.of[kind].begin() + static_cast<std::ptrdiff_t>(block.index) * kWidth;
+    if (block.count != 0) std::sort(lanes, lanes + block.count);
     block.count = 0;
 }
 

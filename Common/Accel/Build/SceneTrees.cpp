@@ -23,7 +23,7 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
     treeSettings.singleGroup = static_cast<std::uint32_t>(LeafKind::Instance);
     std::vector<Box> geometryBoxes(input.geometries.size()); // empty for one that is not used or has nothing in it
     const auto buildTree = [&](std::uint32_t geometry, std::vector<std::uint32_t> instances) {
-        SceneTree tree{geometry, TreeItems(input, input.geometries[geometry], std::move(instances)), {}, {}};
+        SceneTree tree{geometry, TreeItems(input, input.geometries[geometry], std::move(instances)), {}};
         if (tree.items.size() == 0) return true;
         std::vector<Box> boxes;
         resizeLarge(boxes, tree.items.size());
@@ -32,8 +32,8 @@ bool buildSceneTrees(const AccelInput& input, const BvhSettings& settings, const
                 boxes[i] = tree.items.box(static_cast<std::uint32_t>(i), geometryBoxes);
             }
         });
-        tree.kinds = tree.items.kinds();
-        std::optional<Bvh> bvh = buildBvh({std::move(boxes), tree.kinds}, treeSettings, cancel, primitivesDone);
+        const std::vector<std::uint8_t> kinds = tree.items.kinds();
+        std::optional<Bvh> bvh = buildBvh({std::move(boxes), kinds}, treeSettings, cancel, primitivesDone);
         if (!bvh) return false;
         geometryBoxes[geometry] = bvh->nodes[0].box;
         tree.bvh = std::move(*bvh);

@@ -15,8 +15,7 @@ namespace rt::accel {
 struct SceneTree {
     std::uint32_t geometry; // of the scene; 0 is the world
     TreeItems items;
-    std::vector<std::uint8_t> kinds; // TreeItems::kinds()
-    Bvh bvh;                         // over the items; not empty. Every instance is alone in its leaf
+    Bvh bvh; // over the items; not empty. Every instance is alone in its leaf
 };
 
 // Hands over tree after tree, the world's last; there is none of a geometry with nothing in it. False: cancelled.

@@ -24,6 +24,10 @@ struct Float4 {
     static Float4 load3(const float* p) {
         return Float4(_mm_and_ps(_mm_loadu_ps(p), _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0))));
     }
+    // p[1], p[2], p[3], 0.
+    static Float4 loadLast3(const float* p) {
+        return Float4(_mm_castsi128_ps(_mm_srli_si128(_mm_castps_si128(_mm_loadu_ps(p)), 4)));
+    }
     void store(float* p) const { _mm_storeu_ps(p, v); }
     // Rounded towards zero.
     void storeInts(std::int32_t* p) const { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_cvttps_epi32(v)); }
@@ -47,6 +51,8 @@ struct Float4 {
     static Float4 load(const float* p) { return {p[0], p[1], p[2], p[3]}; }
     // With 0 in place of p[3].
     static Float4 load3(const float* p) { return {p[0], p[1], p[2], 0.0f}; }
+    // p[1], p[2], p[3], 0.
+    static Float4 loadLast3(const float* p) { return {p[1], p[2], p[3], 0.0f}; }
     void store(float* p) const {
         for (int i = 0; i < 4; ++i) {
             p[i] = v[i];

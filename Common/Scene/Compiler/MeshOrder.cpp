@@ -23,27 +23,28 @@ std::uint32_t spread(std::uint32_t x) {
     return (x | x << 2) & 0x09249249u;
 }
 
-struct Keyed {
-    std::uint32_t code;
-    std::uint32_t index;
-};
-
-// Stable, least significant digit first.
-void radixSort(std::vector<Keyed>& items) {
-    std::vector<Keyed> other;
-    resizeLarge(other, items.size());
+// By their codes, stably, least significant digit first.
+void radixSort(std::vector<std::uint32_t>& codes, std::vector<std::uint32_t>& order) {
+    std::vector<std::uint32_t> otherCodes, otherOrder;
+    resizeLarge(otherCodes, codes.size());
+    resizeLarge(otherOrder, codes.size());
     for (std::uint32_t shift = 0; shift < 3 * kBits; shift += kBits) {
         std::array<std::size_t, 1u << kBits> starts{};
-        const auto digit = [shift](const Keyed& item) { return item.code >> shift & ((1u << kBits) - 1); };
-        for (const Keyed& item : items) ++starts[digit(item)];
+        const auto digit = [shift](std::uint32_t code) { return code >> shift & ((1u << kBits) - 1); };
+        for (const std::uint32_t code : codes) ++starts[digit(code)];
         std::size_t sum = 0;
         for (std::size_t& start : starts) {
             const std::size_t count = start;
             start = sum;
             sum += count;
         }
-        for (const Keyed& item : items) other[starts[digit(item)]++] = item;
-        items.swap(other);
+        for (std::size_t i = 0; i < codes.size(); ++i) {
+            const std::size_t place = starts[digit(codes[i])]++;
+            otherCodes[place] = codes[i];
+            otherOrder[place] = order[i];
+        }
+        codes.swap(otherCodes);
+        order.swap(otherOrder);
     }
 }
 
@@ -65,19 +66,17 @@ void orderAlongCurve(const std::vector<glm::vec3>& positions, const WoundTriangl
     }
     const glm::vec3 size = glm::max(upper - lower, glm::vec3(1e-30f));
     const float cells = 1u << kBits;
-    std::vector<Keyed> keys;
-    resizeLarge(keys, order.size());
-    parallelChunks(0, keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint32_t> codes;
+    resizeLarge(codes, order.size());
+    parallelChunks(0, codes.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const glm::vec3 unit = (middle(order[k]) - lower) / size;
             const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));
-            keys[k] = {spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
-                           spread(static_cast<std::uint32_t>(cell.z)) << 2,
-                       order[k]};
+            codes[k] = spread(static_cast<std::uint32_t>(cell.x)) | spread(static_cast<std::uint32_t>(cell.y)) << 1 |
+                       spread(static_cast<std::uint32_t>(cell.z)) << 2;
         }
     });
-    radixSort(keys);
-    for (std::size_t k = 0; k < keys.size(); ++k) order[k] = keys[k].index;
+    radixSort(codes, order);
 }
 
 } // namespace rt::scene

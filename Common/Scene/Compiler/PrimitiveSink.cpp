@@ -281,6 +281,10 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     dropped_.triangles += data.triangles.size() - order.size();
     if (order.empty()) return;
     orderAlongCurve(positions, triangles, order);
+    const auto giveBack = [&] {
+        if (data.positions.size() > kManyVertices) releaseFreedMemory();
+    };
+    giveBack();
 
     shared::Mesh mesh{};
     mesh.material = materials_.index(at.material ? *at.material : own);
@@ -298,7 +302,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
 
     // Vertices in the order of their first use: neighbours in space become neighbours in memory, unused ones vanish.
     struct Use {
-        std::uint32_t vertex, triangle;
+        std::uint32_t vertex, triangle; // of the mesh as it comes, and of the scene
     };
     std::vector<Use> uses; // the first of each
     reserveLarge(uses, positions.size());
@@ -311,7 +315,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
             std::uint32_t& name = renamed[t[corner]];
             if (name != shared::kNone) continue;
             name = mesh.firstVertex + static_cast<std::uint32_t>(uses.size());
-            uses.push_back({t[corner], i});
+            uses.push_back({t[corner], static_cast<std::uint32_t>(out_.triangles.size())});
         }
         out_.triangles.emplace_back(renamed[t.x], renamed[t.y], renamed[t.z]);
         out_.triangleMesh.push_back(static_cast<std::uint32_t>(out_.meshes.size()));
@@ -323,7 +327,7 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     }
     release(order);
     release(renamed);
-    if (uses.size() > kManyVertices) releaseFreedMemory();
+    giveBack();
     const auto append = [&uses](auto& to, const auto& from, const auto& converted) {
         if (from.empty()) return;
         const std::size_t first = to.size();
@@ -335,6 +339,8 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     };
     const auto uvOf = [](const glm::dvec2& uv, std::uint32_t) { return shared::vec2(uv); };
     append(out_.positions, positions, [](const shared::vec3& position, std::uint32_t) { return position; });
+    release(positions);
+    giveBack();
     append(out_.uvs, data.uvs, uvOf);
     if (!data.uvs2.empty()) mesh.firstUv2 = static_cast<std::uint32_t>(out_.uvs.size());
     append(out_.uvs, data.uvs2, uvOf);
@@ -343,8 +349,8 @@ void PrimitiveSink::add(const MeshData& data, const MaterialDesc& own, bool ligh
     append(out_.normals, data.normals, [&](const glm::dvec3& authored, std::uint32_t triangle) {
         const glm::dvec3 normal = normalMap * authored;
         if (glm::dot(normal, normal) > 0 && representable(normal)) return shared::vec3(glm::normalize(normal));
-        const glm::uvec3 t = triangles[triangle];
-        return shared::vec3(glm::normalize(doubleArea(positions[t.x], positions[t.y], positions[t.z])));
+        const glm::uvec3 t = out_.triangles[triangle];
+        return shared::vec3(glm::normalize(doubleArea(out_.positions[t.x], out_.positions[t.y], out_.positions[t.z])));
     });
     for (std::size_t i = mesh.firstVertex; i < out_.positions.size(); ++i) bounds_.add(out_.positions[i]);
     out_.meshes.push_back(mesh);

@@ -170,7 +170,10 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
 
     const VertexReader reader(file, primitive, use, elements, count, place);
     const std::function<void()> parts[] = {
-        [&] { mesh.triangles = trianglesOf(corners, primitive.mode); },
+        [&] {
+            mesh.triangles = trianglesOf(corners, primitive.mode);
+            release(corners);
+        },
         [&] { mesh.positions = reader.vectors<3>("POSITION"); },
         [&] { mesh.normals = reader.vectors<3>("NORMAL"); },
         [&] { mesh.uvs = reader.uvs("TEXCOORD_0"); },
