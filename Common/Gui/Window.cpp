@@ -61,6 +61,7 @@ Window::Window(const std::string& title, const WindowPlace& place) {
         throw RenderError("no window can be opened: " + reason + "; --headless renders without one");
     }
     glfwSetWindowUserPointer(window_, this);
+    askForSizes();
     if (!place.hasPosition) fitMonitor(place);
     if (place.hasPosition && isOnAMonitor(place)) glfwSetWindowPos(window_, place.x, place.y);
     if (place.maximised) glfwMaximizeWindow(window_);
@@ -78,7 +79,18 @@ Window::Window(const std::string& title, const WindowPlace& place) {
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { self(w).input_ = true; });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { self(w).change_ = true; });
-    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { self(w).change_ = true; });
+    glfwSetWindowSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
+        self(w).size_ = {width, height};
+        self(w).change_ = true;
+    });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int width, int height) {
+        self(w).pixels_ = {width, height};
+        self(w).change_ = true;
+    });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int isMinimised) {
+        self(w).isMinimised_ = isMinimised == GLFW_TRUE;
+        self(w).change_ = true;
+    });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { self(w).change_ = true; });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* w, float, float) { self(w).change_ = true; });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
@@ -86,6 +98,12 @@ Window::Window(const std::string& title, const WindowPlace& place) {
         if (self(w).onDrop_) self(w).onDrop_({paths, paths + count});
     });
     glfwShowWindow(window_);
+    askForSizes();
+}
+
+void Window::askForSizes() {
+    glfwGetWindowSize(window_, &size_[0], &size_[1]);
+    glfwGetFramebufferSize(window_, &pixels_[0], &pixels_[1]);
 }
 
 // The first time: as much of the interface is seen on any monitor, if that is large enough.
@@ -150,18 +168,9 @@ bool Window::isDown(int key) const {
     return glfwGetKey(window_, key) == GLFW_PRESS;
 }
 
-std::array<int, 2> Window::framebufferSize() const {
-    std::array<int, 2> size{};
-    if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE) return size;
-    glfwGetFramebufferSize(window_, &size[0], &size[1]);
-    return size;
-}
-
 float Window::pixelDensity() const {
     constexpr float kSteps = 20; // a size in pixels is rounded, and fonts are not to be drawn anew with each of them
-    int width = 0, height = 0;
-    glfwGetWindowSize(window_, &width, &height);
-    const int pixels = framebufferSize()[0];
+    const int width = size_[0], pixels = framebufferSize()[0];
     if (width <= 0 || pixels <= 0) return 1;
     return std::max(1.0f, std::round(kSteps * static_cast<float>(pixels) / static_cast<float>(width))) / kSteps;
 }

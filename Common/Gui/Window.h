@@ -50,7 +50,8 @@ class Window {
     bool isDown(int key) const;
     bool clickedWithControl() const { return clickedWithControl_; } // when a mouse button went down last
 
-    std::array<int, 2> framebufferSize() const; // pixels; 0 while minimised
+    // Pixels; 0 while minimised.
+    std::array<int, 2> framebufferSize() const { return isMinimised_ ? std::array<int, 2>{} : pixels_; }
     // Both change when the window goes to another monitor, or that is set up anew.
     float pixelDensity() const; // pixels for one of the window's units, to 1/20
     float monitorScale() const; // how large things are to be, in the window's units: 1 for 96 of them per inch
@@ -65,8 +66,12 @@ class Window {
 
   private:
     void fitMonitor(const WindowPlace& place);
+    void askForSizes();
 
     GLFWwindow* window_ = nullptr;
+    // As events told them: to ask means to wait for a display server, which may have to wait for those who render.
+    std::array<int, 2> size_{}, pixels_{};
+    bool isMinimised_ = false;
     std::function<void(std::vector<std::string>)> onDrop_;
     std::vector<KeyPress> keys_;
     bool input_ = false, change_ = true;
