@@ -69,7 +69,8 @@ TEST_F(Gpu, StatisticsNameWhatWasSkipped) {
     for (const char* feature : {"triangles", "textures", "volumes"}) {
         EXPECT_EQ(std::count(stats["skipped"].begin(), stats["skipped"].end(), feature), 1) << feature;
     }
-    EXPECT_EQ(gpu({"-o", "b.pfm", "--stats", "s.json", "--features", "all"}).exitCode, 0);
+    const Arguments whole = {"-o", "b.pfm", "--stats", "s.json", "--engine", "pipeline", "--features", "all"};
+    EXPECT_EQ(gpu(whole).exitCode, 0);
     EXPECT_TRUE(jsonOf("s.json")["skipped"].empty());
     EXPECT_EQ(jsonOf("s.json")["settings"]["features"], "forced");
 }
