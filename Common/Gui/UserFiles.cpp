@@ -35,8 +35,9 @@ WindowPlace placeOf(const app::GuiSettings& settings) {
 
 KeptSettings::KeptSettings(const app::Options& options) : file_(userFile(options, options.program + ".json")) {
     if (!file_.empty()) settings = app::loadGuiSettings(file_);
+    chosen_ = settings;
     override(settings, options);
-    stored_ = settings;
+    stored_ = shown_ = settings;
 }
 
 KeptSettings::~KeptSettings() {
@@ -60,8 +61,16 @@ void KeptSettings::store() {
     stored_ = settings;
     sinceStored_ = {};
     if (file_.empty()) return;
+    app::GuiSettings kept = settings;
+    const auto keepChosen = [&](auto member) {
+        if (settings.*member != shown_.*member) chosen_.*member = shown_.*member = settings.*member;
+        kept.*member = chosen_.*member;
+    };
+    keepChosen(&app::GuiSettings::exposure);
+    keepChosen(&app::GuiSettings::autoExposure);
+    keepChosen(&app::GuiSettings::tonemap);
     try {
-        saveGuiSettings(file_, settings);
+        saveGuiSettings(file_, kept);
     } catch (const Error& error) {
         logWarning(error.what()); // a home that cannot be written is no reason to stop
     }

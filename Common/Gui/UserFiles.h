@@ -31,11 +31,14 @@ class KeptSettings {
 
     void keep(const Window& window);        // with the window's place, now
     void keepChanges(const Window& window); // likewise, but seldom, where there are any
-    void store();                           // as they are
+    void store();                           // as they are, but for a look that nobody chose
 
   private:
     std::filesystem::path file_; // empty: nowhere
-    app::GuiSettings stored_;    // as in the file
+    app::GuiSettings stored_;    // what there was to store the last time
+    // Exposure and tone curve are those of files where the command line asks for such: of this run alone, until the
+    // user changes one.
+    app::GuiSettings chosen_, shown_;
     app::Stopwatch sinceStored_;
 };
 
