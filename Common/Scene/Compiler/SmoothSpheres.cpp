@@ -79,8 +79,8 @@ double reachAngle(double inverseEta, double nearX, double nearY) {
     return most;
 }
 
-// Mean irradiance where light from a distance of radius / nearY falls at one of radius / nearX, over that at the centre:
-// as if it fell evenly on a disc. `spread` is 1 less the cosine of the light's extent.
+// Mean irradiance where light from a distance of radius / nearY falls at one of radius / nearX, over that at the
+// centre: as if it fell evenly on a disc. `spread` is 1 less the cosine of the extent of the light.
 double meanGain(double inverseEta, double nearX, double nearY, double spread) {
     constexpr int kSteps = 64;
     double flux = 0, bent = 0;
