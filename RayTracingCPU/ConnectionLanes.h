@@ -152,9 +152,8 @@ RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, con
         const float total = totals.at[i];
         const bool isPossible = total > 0.0f && connects(kFeatures, params, v);
         const vec3 throughput = get(lanes.throughput, i) * v.bsdf.albedo;
-        const float chance = connectionChance(max(total, 1.0e-30f), lanes.total.at[i], throughput);
-        chances.at[i] = isPossible ? chance : 0.0f;
-        rates.at[i] = chances.at[i] / max(total, 1.0e-30f);
+        chances.at[i] = isPossible ? connectionChance(total, lanes.total.at[i], throughput) : 0.0f;
+        rates.at[i] = isPossible ? chances.at[i] / total : 0.0f;
         attempts.at[i] = get(lanes.u, i).roulette.y < chances.at[i] ? 1u : 0u;
     }
     uint attempted = 0u;
@@ -162,13 +161,39 @@ RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, con
     return attempted;
 }
 
-// Without connections.
+// Adds a connection of the path in lane i to those that wait, up to the light's end. False: there is nothing to connect
+// to after all.
+template <uint kFeatures>
+RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, uint i,
+                           float target, float rate, ConnectionLanes& c) {
+    const Vertex v = vertexIn<kFeatures>(lanes, i);
+    const float time = lanes.time.at[i];
+    const ConnectionChoice choice = chooseConnection(scene, params, v.origin, time, target);
+    if (!(choice.weight > 0.0f)) return false;
+    const SmoothSphere& sphere = scene.smoothSpheres[choice.sphere];
+    const SphereView view = viewSphere(sphere, v.origin, time);
+    const LightEnd end = sampleEnd(kFeatures, scene, params, choice, view.center, time, rate,
+                                   connectionSample(get(lanes.samplers, i), v));
+    if (!(end.density > 0.0f)) return false;
+    const uint n = c.count++;
+    c.sphere[n] = choice.sphere;
+    c.vertex[n] = v;
+    c.throughput[n] = get(lanes.throughput, i);
+    c.time[n] = time;
+    c.radii.at[n] = sphere.radius;
+    c.u.at[n] = choice.u;
+    set(c.normals, n, v.shading);
+    set(c.centers, n, view.center);
+    set(c.ends, n, end);
+    set(c.pairs, n, connectionPair(sphere, view, end.point));
+    return true;
+}
+
+// Of kernels without connections.
 template <uint kFeatures, bool kConnects = (kFeatures & kFeatureConnections) != 0u>
 class Connections {
   public:
     Connections(const CpuScene&, const RenderParams&, KernelCounters&) {}
-    vec3 radiance(uint) const { return vec3(0.0f); }
-    void finish() {}
 };
 
 // The connections of the samples of a packet. What they bring to a sample is summed apart from its path, in the order
@@ -187,7 +212,8 @@ class Connections<kFeatures, true> {
         const uint attempted = drawAttempts<kFeatures>(scene_, params_, lanes, totals, chances, rates);
         eachLane(lit & attempted, [&](uint i) {
             const float target = lanesOf<&VertexSamples::roulette>(lanes.u).y.at[i] / chances.at[i] * totals.at[i];
-            if (add(lanes, i, target, rates.at[i])) c_.sample[c_.count++] = sampleOf(i);
+            if (!addConnection<kFeatures>(scene_, params_, lanes, i, target, rates.at[i], c_)) return;
+            c_.sample[c_.count - 1u] = sampleOf(i);
             if (c_.count == kLanes) finish();
         });
     }
@@ -207,31 +233,6 @@ class Connections<kFeatures, true> {
     vec3 radiance(uint sample) const { return radiances_[sample]; }
 
   private:
-    // False: there is nothing to connect to after all.
-    [[gnu::noinline]] bool add(const PathLanes& lanes, uint i, float target, float rate) {
-        const Vertex v = vertexIn<kFeatures>(lanes, i);
-        const float time = lanes.time.at[i];
-        const ConnectionChoice choice = chooseConnection(scene_, params_, v.origin, time, target);
-        if (!(choice.weight > 0.0f)) return false;
-        const SmoothSphere& sphere = scene_.smoothSpheres[choice.sphere];
-        const SphereView view = viewSphere(sphere, v.origin, time);
-        const LightEnd end = sampleEnd(kFeatures, scene_, params_, choice, view.center, time, rate,
-                                       connectionSample(get(lanes.samplers, i), v));
-        if (!(end.density > 0.0f)) return false;
-        const uint n = c_.count;
-        c_.sphere[n] = choice.sphere;
-        c_.vertex[n] = v;
-        c_.throughput[n] = get(lanes.throughput, i);
-        c_.time[n] = time;
-        c_.radii.at[n] = sphere.radius;
-        c_.u.at[n] = choice.u;
-        set(c_.normals, n, v.shading);
-        set(c_.centers, n, view.center);
-        set(c_.ends, n, end);
-        set(c_.pairs, n, connectionPair(sphere, view, end.point));
-        return true;
-    }
-
     // Adds what comes along the path if its segments are free.
     void trace(uint i, const SpherePath& path) {
         Passage passage = weighPassage(kFeatures, params_, scene_.smoothSpheres[c_.sphere[i]], get(c_.centers, i), path,

@@ -158,17 +158,19 @@ class PathPacket {
             if (active.arrived == 0u) break;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
-            if constexpr ((kFeatures & kFeatureConnections) != 0u) connectLights(active.lit);
+            if constexpr (kConnects) connectLights(active.lit);
             if (active.principled != active.arrived) sampleDiffuse(lanes_);
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
         }
-        addConnections();
+        if constexpr (kConnects) addConnections();
         return true;
     }
 
   private:
+    static constexpr bool kConnects = (kFeatures & kFeatureConnections) != 0u;
+
     // Takes every path to its next vertex: one that ends on the way makes room for the next sample's.
     ActiveSlots arriveAll() {
         ActiveSlots active;
@@ -234,7 +236,7 @@ class PathPacket {
     }
 
     void addConnections() {
-        if (!has(kFeatures, kFeatureConnections) || params_.connectedSpheres == 0u) return;
+        if (params_.connectedSpheres == 0u) return;
         connections_.finish();
         for (uint i = 0u; i < samples_.count(); ++i) radiances_[i] += connections_.radiance(i);
     }

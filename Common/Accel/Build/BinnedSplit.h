@@ -21,7 +21,7 @@ struct alignas(32) ItemBox {
     Float4 center() const { return Float4::load3(lower) + Float4::load3(upper); }
 };
 
-// Likewise of boxes alone; what would be in the fourth lanes is 0.
+// A box as ItemBox::bounds() gives an item's; the fourth lanes are 0.
 inline Bounds boundsOf(const Box& box) {
     static_assert(sizeof(Box) == 6 * sizeof(float));
     return {Float4::load3(&box.lower.x), Float4::loadLast3(&box.lower.z)};
