@@ -15,6 +15,7 @@
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "tests/ConnectedScene.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 
@@ -215,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engine
 TEST_P(ConnectionAgreementTest, SampleForSample) {
     if (lacks(GetParam())) return;
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
-        const auto scene = app::compile(app::loadScene(id), true);
+        const auto scene = connectedThroughAll(*app::compile(app::loadScene(id), true));
         EnginePair engines(scene, GetParam());
         app::RenderSettings one = pairSettings(1), many = pairSettings(16);
         one.specularConnections = many.specularConnections = true;

@@ -10,6 +10,7 @@
 #include "Common/Image/ImageTest.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Shared/Base/Features.h"
+#include "tests/ConnectedScene.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 #include "tests/unit/Statistics.h"
@@ -56,7 +57,7 @@ std::vector<image::Image> images(app::Engine& engine, const CompiledScene& scene
 
 // 4 standard errors, as AgreementTest.cpp; without connections the light is that of scattering alone.
 void expectSameLight(const SceneDesc& desc, Effort effort, std::uint32_t maxDepth = 50) {
-    const auto scene = app::compile(desc, true, true);
+    const auto scene = connectedThroughAll(*app::compile(desc, true, true));
     ASSERT_FALSE(scene->smoothSpheres.empty()) << desc.id;
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
@@ -104,7 +105,7 @@ TEST(NightlyConnection, ChangesNothingButNoise) {
 
 // Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
 std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
-    const auto scene = app::compile(findBuiltinScene(id), true, true);
+    const auto scene = connectedThroughAll(*app::compile(findBuiltinScene(id), true, true));
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     app::RenderSettings settings;
@@ -185,7 +186,22 @@ TEST(Connection, AFurnaceStaysOne) {
     app::RenderSettings settings = smallSettings(8, 2048);
     settings.maxDepth = 4096;
     settings.specularConnections = true;
-    EXPECT_TRUE(isMean(render(desc, settings), dvec3(1)));
+    EXPECT_TRUE(isMean(render(*connectedThroughAll(*scene::compileScene(desc)), settings), dvec3(1)));
+}
+
+// Through the sphere itself a lamp of area A at distance d brings the irradiance L A / d^2: of what scattering finds of
+// it a sample's relative variance is pi d^2 / A - 1, here 126 and 19.
+TEST(Connection, OnlyWhereScatteringIsNoisy) {
+    const auto connectedSpheres = [](double side) {
+        const QuadDesc panel{{-side / 2, 5, -side / 2}, {side, 0, 0}, {0, 0, side}, "lamp"};
+        return scene::compileScene(caustic(panel))->smoothSpheres.size();
+    };
+    EXPECT_EQ(connectedSpheres(0.6), 1u);
+    EXPECT_EQ(connectedSpheres(1.5), 0u);
+    for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy"})
+        EXPECT_FALSE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
+    for (const char* id : {"cornell-box-lights", "next-week-final"})
+        EXPECT_TRUE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include "Common/App/Session/RenderParams.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Shared/Path/PathStep.h"
+#include "tests/ConnectedScene.h"
 #include "tests/unit/CompilerScenes.h"
 #include "tests/unit/SphereConstellations.h"
 
@@ -33,7 +34,7 @@ std::shared_ptr<const scene::CompiledScene> compiled(const Constellation& c) {
     desc.objects = {{scene::SphereDesc{{0, 0, 0}, 1, {}, "glass"}},
                     {scene::QuadDesc{c.corner, c.edgeU, c.edgeV, "lamp"}},
                     {scene::SphereDesc{{900, 0, 0}, 1, {}, "matte"}}};
-    return scene::compileScene(desc);
+    return test::connectedThroughAll(*scene::compileScene(desc));
 }
 
 // A vertex at x that scatters into all directions alike, nothing absorbed.

@@ -14,6 +14,7 @@
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Texture/Color.h"
 #include "RayTracingCPU/PathPacket.h"
+#include "tests/ConnectedScene.h"
 
 namespace rt::cpu {
 namespace {
@@ -23,7 +24,8 @@ constexpr uint kSide = 40;
 // A scene as the engine prepares it.
 struct TracedScene {
     explicit TracedScene(const std::string& id) : TracedScene(app::loadScene(id)) {}
-    explicit TracedScene(const scene::SceneDesc& desc) : compiled(app::compile(desc, true, true)) {
+    explicit TracedScene(const scene::SceneDesc& desc)
+        : compiled(test::connectedThroughAll(*app::compile(desc, true, true))) {
         const scene::CompiledScene& s = *compiled;
         const accel::AccelInput input{s.spheres,   s.sphereMotions, s.quads,    s.positions,
                                       s.triangles, s.geometries,    s.instances};

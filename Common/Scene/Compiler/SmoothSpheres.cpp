@@ -144,34 +144,40 @@ void addSphere(std::uint32_t index, CompiledScene& out) {
     out.smoothSpheres.push_back(sphere);
 }
 
-// What falls on it.
-double flux(const CompiledScene& scene, std::uint32_t index) {
-    const shared::SmoothSphere sphere = smoothSphere(scene, index);
-    double sum = 0;
-    for (std::size_t i = 0; i < scene.globals.lightCount; ++i)
-        sum += irradianceAt(sphere, scene.lights[i], scene.lightBounds[i]);
-    return sum * sphere.radius * sphere.radius;
-}
-
 struct Candidate {
     std::uint32_t index;
-    double flux;
+    double flux;     // what falls on the sphere
+    double variance; // as for kWorthConnecting; meaningless without flux
 };
+
+// A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
+// sum(L_i E_i) / pi, its mean sum(E_i) / pi.
+Candidate candidate(const CompiledScene& scene, std::uint32_t index) {
+    const shared::SmoothSphere sphere = smoothSphere(scene, index);
+    double mean = 0, second = 0;
+    for (std::size_t i = 0; i < scene.globals.lightCount; ++i) {
+        const double irradiance = irradianceAt(sphere, scene.lights[i], scene.lightBounds[i]);
+        mean += irradiance;
+        second += irradiance * static_cast<double>(shared::luminance(scene.lights[i].emission));
+    }
+    const double radius = static_cast<double>(sphere.radius);
+    return {index, mean * radius * radius, std::numbers::pi * second / (mean * mean) - 1};
+}
 
 } // namespace
 
-void findSmoothSpheres(CompiledScene& out) {
+void findSmoothSpheres(CompiledScene& out, double leastVariance) {
     if (out.globals.lightCount == 0 || out.globals.lightCount > shared::kContributionLights) return;
     const shared::Geometry& world = out.geometries.front();
     std::vector<Candidate> candidates;
     for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i) {
         if (!isConnectable(out, out.spheres[i])) continue;
-        const Candidate candidate{i, flux(out, i)};
-        if (candidate.flux > 0) candidates.push_back(candidate);
+        const Candidate sphere = candidate(out, i);
+        if (sphere.flux > 0 && sphere.variance >= leastVariance) candidates.push_back(sphere);
     }
     std::ranges::stable_sort(candidates, std::greater(), &Candidate::flux);
     if (candidates.size() > shared::kConnectedSpheres) candidates.resize(shared::kConnectedSpheres);
-    for (const Candidate& candidate : candidates) addSphere(candidate.index, out);
+    for (const Candidate& sphere : candidates) addSphere(sphere.index, out);
 }
 
 } // namespace rt::scene
