@@ -1,5 +1,5 @@
-// What a worker renders at a time: a block of a tile's samples, or blocks of several tiles where a plan gives samples to
-// few pixels, so that packets of paths stay full.
+// What a worker renders at a time: a block of a tile's samples, or blocks of several tiles where a plan gives samples
+// to few pixels, so that packets of paths stay full.
 #pragma once
 #include <array>
 #include <atomic>

@@ -1,5 +1,5 @@
-// The samples of some tiles, whose paths begin sixteen at a time. Included by one translation unit per instruction set; all
-// it defines has internal linkage.
+// The samples of some tiles, whose paths begin sixteen at a time. Included by one translation unit per instruction set;
+// all it defines has internal linkage.
 #pragma once
 #include "RayTracingCPU/SampleLanes.h"
 

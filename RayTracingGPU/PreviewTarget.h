@@ -1,5 +1,5 @@
-// What the preview is drawn into: some rows of the image at a time, of several samples a pixel, each of four floats, with
-// a depth buffer; and a buffer for the pixels of the whole image.
+// What the preview is drawn into: some rows of the image at a time, of several samples a pixel, each of four floats,
+// with a depth buffer; and a buffer for the pixels of the whole image.
 #pragma once
 #include <cstdint>
 

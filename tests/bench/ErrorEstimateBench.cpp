@@ -1,7 +1,7 @@
 // Whether the error that a render states of itself is the one it has, over scenes, samplers and seeds: the table of
 // docs/error-estimate.md. Of each scene, sampler and number of samples: the median over the seeds of estimated over
-// measured relMSE, the share of seeds where that is below 0.8, and the shares whose confidence interval holds the relMSE
-// that is expected over all seeds, or lies below it.
+// measured relMSE, the share of seeds where that is below 0.8, and the shares whose confidence interval holds the
+// relMSE that is expected over all seeds, or lies below it.
 //   error-estimate-bench [SEEDS] [WIDTH] [SAMPLER[,SAMPLER...]] [on|off, adaptive] [SCENE...]
 #include <algorithm>
 #include <cstdio>

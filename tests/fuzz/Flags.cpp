@@ -1,5 +1,5 @@
-// Command lines: each line of an input is an argument of ray-tracing-cpu and of ray-tracing-gpu. Configuration files are
-// the target of Config.cpp: --config, which would read any file, is left out.
+// Command lines: each line of an input is an argument of ray-tracing-cpu and of ray-tracing-gpu. Configuration files
+// are the target of Config.cpp: --config, which would read any file, is left out.
 #include <sstream>
 #include <string>
 #include <vector>

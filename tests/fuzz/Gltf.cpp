@@ -1,5 +1,6 @@
-// Files of glTF, as text or binary: read, written as a scene that is read again, and the images inside decoded. They are not
-// compiled, as the tables of principled materials take a hundred times as long as the rest: scenes have their own target.
+// Files of glTF, as text or binary: read, written as a scene that is read again, and the images inside decoded. They
+// are not compiled, as the tables of principled materials take a hundred times as long as the rest: scenes have their
+// own target.
 #include <variant>
 
 #include "Common/Image/ImageIo.h"

@@ -1,5 +1,5 @@
-// Scene files: what is read can be written, is then read again, and can be compiled or is refused. The images that seeds
-// name lie beside the scene.
+// Scene files: what is read can be written, is then read again, and can be compiled or is refused. The images that
+// seeds name lie beside the scene.
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/fuzz/Fuzz.h"

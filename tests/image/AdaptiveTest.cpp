@@ -115,8 +115,8 @@ TEST(CpuAdaptive, TheMeanIsThatOfUniformSamples) {
     for (const Mean& difference : differences) EXPECT_TRUE(agrees(difference, 0));
 }
 
-// All uniform samples leave the interval's upper end at 1.9e-4. A tile at a time, so that looks at the error come at the
-// same samples in every run.
+// All uniform samples leave the interval's upper end at 1.9e-4. A tile at a time, so that looks at the error come at
+// the same samples in every run.
 TEST(CpuAdaptive, ReachesATargetErrorThatUniformSamplesMiss) {
     const std::atomic<bool> goOn{false};
     const auto scene = scene::compileScene(scene::findBuiltinScene("next-week-simple-light"));

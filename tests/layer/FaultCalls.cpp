@@ -1,7 +1,7 @@
-// A library to preload that lets calls of the operating system fail as they fail on full disks. RT_CALL_FAULTS lists what
-// goes wrong: "write:3=28,fsync:1=5" makes the third write to a file fail with ENOSPC and the first fsync with EIO;
-// "write:2=0" writes but one byte. "remove:1=2" sends the program SIGINT before the first file is removed. RT_CALL_LOG names
-// a file that gets a line for each call.
+// A library to preload that lets calls of the operating system fail as they fail on full disks. RT_CALL_FAULTS lists
+// what goes wrong: "write:3=28,fsync:1=5" makes the third write to a file fail with ENOSPC and the first fsync with
+// EIO; "write:2=0" writes but one byte. "remove:1=2" sends the program SIGINT before the first file is removed.
+// RT_CALL_LOG names a file that gets a line for each call.
 #include <atomic>
 #include <cerrno>
 #include <csignal>

@@ -1,4 +1,5 @@
-// Principled surfaces: sampling against the density, energy, reciprocity, mirrors as the limit, textures of each number.
+// Principled surfaces: sampling against the density, energy, reciprocity, mirrors as the limit, textures of each
+// number.
 #include <cmath>
 #include <numeric>
 

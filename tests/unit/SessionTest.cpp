@@ -226,8 +226,8 @@ TEST_F(SessionTest, TargetError) {
     EXPECT_LT(stats["estimated_relmse_interval"][1].get<double>(), 0.005);
     EXPECT_EQ(stats["error_is"], "replicates");
     EXPECT_EQ(stats["settings"]["replicates"], 4);
-    // 1/12 / n / (1/4 + 0.01) = 0.005 at n = 64; the interval ends 16 % higher, give or take the 10 % of chance; looks are
-    // 10 % apart, and two have to agree.
+    // 1/12 / n / (1/4 + 0.01) = 0.005 at n = 64; the interval ends 16 % higher, give or take the 10 % of chance; looks
+    // are 10 % apart, and two have to agree.
     EXPECT_GT(stats["spp_done"].get<double>(), 64);
     EXPECT_LT(stats["spp_done"].get<double>(), 64 * 1.16 * 1.1 * 1.1 * 1.1);
 }

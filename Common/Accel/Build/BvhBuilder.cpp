@@ -38,6 +38,11 @@ struct Range {
     }
 };
 
+// As ItemBox::center(): twice the centre.
+Float4 centerOf(const Bounds& box) {
+    return box.lower + box.upper;
+}
+
 // Adds two children to node `parent` and names them in the ranges.
 void addChildren(std::vector<BvhNode>& nodes, std::uint32_t parent, Range& left, Range& right) {
     left.node = static_cast<std::uint32_t>(nodes.size());
@@ -233,7 +238,7 @@ Range Builder::prepareItems() {
             orders_[0][i] = static_cast<std::uint32_t>(i);
             const Bounds box = boundsOf(input_.boxes[i]);
             part.box.add(box);
-            part.centers.add(box.lower + box.upper);
+            part.centers.add(centerOf(box));
         }
         parts[chunk] = part;
     });
@@ -264,7 +269,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
         parallelFor(settings_.threads, chunks.count, [&](std::size_t chunk) {
             for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
                 const Bounds box = boundsOf(boxAt(i));
-                sums[chunk].add(box, box.lower + box.upper, binning);
+                sums[chunk].add(box, centerOf(box), binning);
             }
         });
         for (const BinSums& part : sums) {
@@ -279,7 +284,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
             const Bounds box = boundsOf(boxAt(i));
             Range& side = i < lefts ? left : right;
             side.box.add(box);
-            side.centers.add(box.lower + box.upper);
+            side.centers.add(centerOf(box));
         }
         range.divide(lefts, left, right);
         left.order = right.order = range.order;
@@ -297,7 +302,7 @@ void Builder::divideTogether(const Range& range, std::vector<BvhNode>& nodes, st
             std::array<Bounds, 2> own = centers[chunk];
             for (std::size_t i = chunks.begin(chunk); i < chunks.end(chunk); ++i) {
                 const Bounds box = boundsOf(boxAt(i));
-                const Float4 center = box.lower + box.upper;
+                const Float4 center = centerOf(box);
                 std::int32_t bins[4];
                 binning.bins(center, bins);
                 const int side = bins[split.axis] < split.bin ? 0 : 1;

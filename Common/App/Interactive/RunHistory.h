@@ -45,8 +45,8 @@ class RunHistory {
     // An empty path: nothing is kept from one program to the next.
     explicit RunHistory(std::filesystem::path file) : file_(std::move(file)) {}
 
-    // On any thread. Under a lock that both programs respect. Throws RenderError. The oldest lines go when there are too
-    // many.
+    // On any thread. Under a lock that both programs respect. Throws RenderError. The oldest lines go when there are
+    // too many.
     void append(const RunRecord& record);
     // On the thread that reads the records. The lines of these go, all others stay as they are; the file is replaced as
     // a whole, under the same lock. Throws RenderError.

@@ -18,7 +18,8 @@ class Interrupt {
     Interrupt& operator=(const Interrupt&) = delete;
 
     void defer();
-    // Before defer(): a signal that comes meanwhile ends the program once `work` is done, which would leave files behind.
+    // Before defer(): a signal that comes meanwhile ends the program once `work` is done, which would leave files
+    // behind.
     void finishFirst(const std::function<void()>& work);
     const std::atomic<bool>& requested() const;
 

@@ -7,8 +7,8 @@
 
 namespace rt::scene {
 
-// Primitives may share arrays, each having its own copy here, and a mesh is copied for each of its poses: files that ask
-// for more elements than kFree, and kPerByte for each byte, could fill any memory.
+// Primitives may share arrays, each having its own copy here, and a mesh is copied for each of its poses: files that
+// ask for more elements than kFree, and kPerByte for each byte, could fill any memory.
 class GltfBudget {
   public:
     explicit GltfBudget(const GltfFile& file) : file_(file), left_(kFree + kPerByte * file.bytes) {}

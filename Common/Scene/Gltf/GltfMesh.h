@@ -26,8 +26,8 @@ std::uint64_t elementCount(const GltfFile& file, const tinygltf::Primitive& prim
 
 // A primitive of triangles, strips or fans, with what its material uses of it, in its pose. Texture coordinates run
 // upwards, as everywhere else here. Without normals it is faceted. With `tangentSet`, tangents of that set of texture
-// coordinates are computed where the file has none: MikkTSpace's weighting by angles; a vertex between mirrored parts is
-// split. Throws InputError naming `place`.
+// coordinates are computed where the file has none: MikkTSpace's weighting by angles; a vertex between mirrored parts
+// is split. Throws InputError naming `place`.
 MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitive, const PrimitiveUse& use,
                        const std::string& place);
 
