@@ -9,7 +9,7 @@
 namespace rt::gpu {
 namespace {
 
-constexpr const char* kWhat = "Preparing the preview";
+constexpr const char* kMakingTarget = "Preparing the preview";
 
 } // namespace
 
@@ -59,7 +59,7 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
     info.pSubpasses = &subpass;
     info.dependencyCount = static_cast<std::uint32_t>(dependencies.size());
     info.pDependencies = dependencies.data();
-    return vulkan::create(device, vkCreateRenderPass, info, vkDestroyRenderPass, kWhat);
+    return vulkan::create(device, vkCreateRenderPass, info, vkDestroyRenderPass, kMakingTarget);
 }
 
 PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent,
@@ -73,13 +73,13 @@ PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass render
     color_ = {context.memory(),
               {kPreviewColor, band_, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                VK_IMAGE_ASPECT_COLOR_BIT, kPreviewSampleBit},
-              kWhat};
+              kMakingTarget};
     depth_ = {context.memory(),
               {vulkan::kDepthFormat, band_, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT,
                kPreviewSampleBit},
-              kWhat};
+              kMakingTarget};
     const std::array<VkImageView, 2> views{color_.view(), depth_.view()};
-    framebuffer_ = vulkan::createFramebuffer(context.device(), renderPass, views, band_, kWhat);
+    framebuffer_ = vulkan::createFramebuffer(context.device(), renderPass, views, band_, kMakingTarget);
     const VkDeviceSize bytes = VkDeviceSize{extent.width} * extent.height * 4 * sizeof(float);
     pixels_ = vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the preview");
 }

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kTraversal = offsetof(SpecializationConstants, traversal);
 constexpr std::size_t kAxisQuads = kTraversal + offsetof(TraversalShape, listedAxisQuads);
-constexpr std::size_t kConstants = sizeof(SpecializationConstants) / sizeof(std::uint32_t);
+constexpr std::size_t kConstantCount = sizeof(SpecializationConstants) / sizeof(std::uint32_t);
 
 constexpr VkSpecializationMapEntry entry(std::uint32_t id, std::size_t offset) {
     return {id, static_cast<std::uint32_t>(offset), sizeof(std::uint32_t)};
@@ -43,7 +43,7 @@ constexpr bool areComplete() {
                 return false;
         }
     }
-    return kEntries.size() == kConstants;
+    return kEntries.size() == kConstantCount;
 }
 static_assert(areComplete());
 

@@ -18,6 +18,11 @@ function(rt_add_library name folder)
         endif()
     endforeach()
 
+    # Implementations of libraries of one header, which they configure by macros.
+    set(alone ${sources})
+    list(FILTER alone INCLUDE REGEX "/(TinyGltf|StbCodecs)\\.cpp$")
+    set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+
     if(sources)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC ${arg_DEPENDS})
@@ -33,6 +38,7 @@ function(rt_add_program name source)
     file(GLOB found CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${source})
     if(found)
         add_executable(${name} ${found})
+        set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # few sources
         target_link_libraries(${name} PRIVATE ${arg_DEPENDS})
     endif()
 endfunction()

@@ -12,7 +12,7 @@
 namespace rt::bench {
 namespace {
 
-constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30;
+constexpr std::uint64_t kLargestResults = std::uint64_t{1} << 30;
 constexpr double kLeastTimeNoise = 0.05;
 constexpr double kLeastErrorNoise = 0.02;
 constexpr double kCloseRatio = 1.1;
@@ -31,21 +31,22 @@ double errorNoise(const Row& row) {
     return row.mse && row.mseCi && *row.mse > 0 ? *row.mseCi / *row.mse : 0;
 }
 
-Figure ratio(const Figure& after, const Figure& before) {
+Figure quotient(const Figure& after, const Figure& before) {
     return after && before && *before > 0 && *after > 0 ? Figure(*after / *before) : std::nullopt;
 }
 
 Change compareRows(const Row& before, const Row& after) {
     Change change{&before,
                   &after,
-                  ratio(after.seconds, before.seconds),
-                  ratio(after.mse, before.mse),
-                  ratio(after.efficiency, before.efficiency),
-                  ratio(after.gain, before.gain)};
+                  quotient(after.seconds, before.seconds),
+                  quotient(after.mse, before.mse),
+                  quotient(after.efficiency, before.efficiency),
+                  quotient(after.gain, before.gain)};
     const double timeNoise = std::max(kLeastTimeNoise, 2 * std::hypot(spread(before), spread(after)));
     const double noise = std::max(kLeastErrorNoise, std::hypot(errorNoise(before), errorNoise(after)));
     // With a time budget it is the samples that tell.
-    const Figure slowness = before.timeBudget ? ratio(before.samplesPerSecond, after.samplesPerSecond) : change.seconds;
+    const Figure slowness =
+        before.timeBudget ? quotient(before.samplesPerSecond, after.samplesPerSecond) : change.seconds;
     if (slowness) {
         change.slower = *slowness > 1 + timeNoise;
         change.faster = *slowness < 1 / (1 + timeNoise);
@@ -98,7 +99,7 @@ Comparison compareResults(const Results& before, const Results& after) {
 Results loadResults(const std::filesystem::path& path) {
     std::error_code none;
     const std::filesystem::path file = std::filesystem::is_directory(path, none) ? path / "results.json" : path;
-    const std::vector<std::byte> bytes = readFile(file, kLargestFile);
+    const std::vector<std::byte> bytes = readFile(file, kLargestResults);
     return parseResults(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), file.string());
 }
 

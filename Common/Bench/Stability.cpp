@@ -114,9 +114,9 @@ struct Rendered {
     image::Image image;
 };
 
-class Suite {
+class StabilitySuite {
   public:
-    Suite(app::Engine& engine, const StabilityOptions& options) : engine_(engine), options_(options) {}
+    StabilitySuite(app::Engine& engine, const StabilityOptions& options) : engine_(engine), options_(options) {}
 
     std::vector<StabilityRow> run() {
         scale();
@@ -380,7 +380,7 @@ class Suite {
 } // namespace
 
 std::vector<StabilityRow> measureStability(app::Engine& engine, const StabilityOptions& options) {
-    return Suite(engine, options).run();
+    return StabilitySuite(engine, options).run();
 }
 
 Document describeStability(const std::vector<StabilityRow>& rows) {

@@ -16,7 +16,7 @@ namespace {
 
 using scene::JsonNode;
 
-constexpr std::uint64_t kLargestFile = 16 << 20;
+constexpr std::uint64_t kLargestSuite = 16 << 20;
 constexpr double kLongest = 1e6; // seconds
 constexpr std::uint32_t kLargestSide = 1 << 20;
 
@@ -207,7 +207,7 @@ Suite loadSuite(const std::string& nameOrFile) {
     }
     if (std::filesystem::path(nameOrFile).extension() != ".json")
         throw InputError("suite \"" + nameOrFile + "\": must be " + app::alternatives(names) + ", or a .json file");
-    const std::vector<std::byte> bytes = readFile(nameOrFile, kLargestFile);
+    const std::vector<std::byte> bytes = readFile(nameOrFile, kLargestSuite);
     return parseSuite(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), nameOrFile);
 }
 

@@ -1,7 +1,6 @@
 #include "Common/Gui/FileBrowser.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <utility>
 
@@ -10,6 +9,7 @@
 #include "Common/Core/Paths.h"
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Icons.h"
+#include "Common/Gui/TextFit.h"
 #include "Common/Gui/Widgets.h"
 
 namespace rt::gui {
@@ -24,13 +24,6 @@ fs::path homeFolder() {
     for (const char* variable : {"HOME", "USERPROFILE"})
         if (const char* home = std::getenv(variable); home != nullptr && *home != '\0') return home;
     return fs::current_path();
-}
-
-bool contains(const std::string& text, const std::string& part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
 }
 
 // An icon and a name in a row that can be chosen.

@@ -19,7 +19,7 @@ namespace {
 using vulkan::check;
 using vulkan::Handle;
 
-constexpr const char* kWhat = "Drawing a snapshot";
+constexpr const char* kDrawing = "Drawing a snapshot";
 
 // An image to draw to, and to copy from afterwards.
 class Target {
@@ -29,11 +29,11 @@ class Target {
           color_(device.memory(),
                  {format, extent, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
                   VK_IMAGE_ASPECT_COLOR_BIT},
-                 kWhat),
+                 kDrawing),
           renderPass_(makeWindowRenderPass(device.device(), format, VK_ATTACHMENT_LOAD_OP_CLEAR,
                                            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL)) {
         const VkImageView view = color_.view();
-        framebuffer_ = vulkan::createFramebuffer(device.device(), renderPass_.get(), {&view, 1}, extent, kWhat);
+        framebuffer_ = vulkan::createFramebuffer(device.device(), renderPass_.get(), {&view, 1}, extent, kDrawing);
     }
 
     void record(VkCommandBuffer commands, const VkRect2D& part, VkBuffer to,
@@ -89,7 +89,7 @@ VkRect2D within(const Rect& part, VkExtent2D extent) {
 
 image::Image takeSnapshot(GraphicsDevice& device, VkFormat format, VkExtent2D extent, const Rect& part,
                           const std::function<void(VkCommandBuffer)>& draw) {
-    check(vkDeviceWaitIdle(device.device()), kWhat); // what `draw` writes to may be in use
+    check(vkDeviceWaitIdle(device.device()), kDrawing); // what `draw` writes to may be in use
     const VkRect2D area = within(part, extent);
     image::Image picture(area.extent.width, area.extent.height);
     const Target target(device, format, extent);

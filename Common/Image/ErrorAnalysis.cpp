@@ -12,7 +12,7 @@ namespace rt::image {
 namespace {
 
 constexpr double kFirefly = 10; // times the rmse
-constexpr std::uint32_t kTile = 8;
+constexpr std::uint32_t kCell = 8;
 
 double worstBiasZ(const Image& image, const Image& reference) {
     std::array<double, 4> sums{}, squares{};
@@ -34,14 +34,14 @@ MeanSquares meanSquares(const Image& image, const Reference& reference, Predicat
     struct Tile {
         double squares = 0, values = 0;
     };
-    const std::uint32_t tilesX = (image.width + kTile - 1) / kTile, tilesY = (image.height + kTile - 1) / kTile;
+    const std::uint32_t tilesX = (image.width + kCell - 1) / kCell, tilesY = (image.height + kCell - 1) / kCell;
     std::vector<Tile> tiles(std::size_t{tilesX} * tilesY);
     double squares = 0, values = 0, variance = 0;
     for (std::uint32_t y = 0; y < image.height; ++y)
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const float* const target = reference.mean.pixel(x, y);
             if (!counts(target)) continue;
-            Tile& tile = tiles[std::size_t{y / kTile} * tilesX + x / kTile];
+            Tile& tile = tiles[std::size_t{y / kCell} * tilesX + x / kCell];
             for (std::uint32_t c = 0; c < image.channels; ++c) {
                 const double difference = static_cast<double>(image.pixel(x, y)[c]) - target[c];
                 tile.squares += difference * difference;

@@ -19,7 +19,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are stored as
 
 namespace {
 
-constexpr std::uint32_t kMagic = 20000630;
+constexpr std::uint32_t kExrMagic = 20000630;
 constexpr std::uint32_t kMultiPart = 0x1000; // flag of the version
 
 struct AttributeType {
@@ -119,7 +119,7 @@ bool checkHeader(Cursor& in) {
 
 void checkExrHeaders(std::span<const std::byte> bytes, const std::string& name) {
     Cursor in(bytes, name);
-    if (in.number() != kMagic) in.fail("not an EXR file");
+    if (in.number() != kExrMagic) in.fail("not an EXR file");
     const bool isMultiPart = (in.number() & kMultiPart) != 0;
     while (checkHeader(in) && isMultiPart) continue;
 }

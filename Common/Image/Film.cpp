@@ -23,7 +23,7 @@ namespace {
 }
 
 template <class T>
-void allocate(std::vector<T>& values, std::size_t count, const FilmDesc& desc) {
+void allocateFor(std::vector<T>& values, std::size_t count, const FilmDesc& desc) {
     try {
         resizeLarge(values, count);
     } catch (const std::bad_alloc&) {
@@ -59,9 +59,9 @@ Film::Film(const FilmDesc& desc) : desc_(desc) {
     checkSide("height", desc.height);
     if (desc.replicates < 1) throw UsageError("replicates 0 is less than 1");
     if (desc.adaptive && desc.replicates % 2 != 0) throw UsageError("an adaptive film's replicates are not even");
-    allocate(sums_, slotCount() * kTileValues, desc); // the largest first: what cannot be had is refused untouched
-    allocate(samples_, slotCount(), desc);
-    if (desc.secondMoments || desc.adaptive) allocate(squares_, slotCount() * kTileValues, desc);
+    allocateFor(sums_, slotCount() * kTileValues, desc); // the largest first: what cannot be had is refused untouched
+    allocateFor(samples_, slotCount(), desc);
+    if (desc.secondMoments || desc.adaptive) allocateFor(squares_, slotCount() * kTileValues, desc);
 }
 
 std::uint64_t Film::samples(std::uint32_t tile) const {
@@ -124,8 +124,8 @@ void Film::setPlan(std::vector<std::uint32_t> plan) {
 void Film::assignPlan(std::uint32_t tile, std::uint32_t replicate, std::span<const std::uint32_t> plan) {
     if (!desc_.adaptive || plan.size() != kTilePixels) throw std::logic_error("the plan is not one of this film");
     if (!hasPlan()) {
-        allocate(plan_, slotCount() * kTilePixels, desc_);
-        allocate(ends_, slotCount(), desc_);
+        allocateFor(plan_, slotCount() * kTilePixels, desc_);
+        allocateFor(ends_, slotCount(), desc_);
         squares_ = {};
     }
     const std::size_t at = slot(tile, replicate);
@@ -147,7 +147,7 @@ std::span<const std::uint32_t> Film::plan(std::uint32_t tile, std::uint32_t repl
 }
 
 void Film::reserveOpenBlocks() {
-    if (open_.empty()) allocate(open_, slotCount() * kTileValues, desc_);
+    if (open_.empty()) allocateFor(open_, slotCount() * kTileValues, desc_);
 }
 
 std::span<const float> Film::openBlock(std::size_t slot) const {

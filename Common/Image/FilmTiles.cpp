@@ -47,9 +47,9 @@ void append(std::vector<std::byte>& bytes, std::span<const T> values) {
     bytes.insert(bytes.end(), more.begin(), more.end());
 }
 
-class Reader {
+class TileReader {
   public:
-    explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+    explicit TileReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
     bool atEnd() const { return bytes_.empty(); }
     template <class T>
     void read(std::span<T> values) {
@@ -157,7 +157,7 @@ TileList unpackTiles(std::span<const std::byte> bytes, Film& film) {
     std::vector<double> sums(kTileValues), squares;
     std::vector<float> open;
     std::vector<std::uint32_t> plan(Film::kTilePixels);
-    for (Reader reader(bytes); !reader.atEnd();) {
+    for (TileReader reader(bytes); !reader.atEnd();) {
         Header header;
         reader.read(std::span(&header, 1));
         if (header.tile >= film.tileCount() || header.replicate >= desc.replicates ||

@@ -13,7 +13,7 @@
 namespace rt::test {
 namespace {
 
-constexpr std::uint32_t kSide = 20, kSamples = 8;
+constexpr std::uint32_t kCostSide = 20, kSamples = 8;
 
 class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
   protected:
@@ -30,7 +30,7 @@ class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
     }
     static app::RenderSettings settings() {
         app::RenderSettings settings;
-        settings.width = settings.height = kSide;
+        settings.width = settings.height = kCostSide;
         settings.spp = kSamples;
         return settings;
     }

@@ -17,7 +17,7 @@
 namespace rt::test {
 namespace {
 
-constexpr std::uint32_t kSide = 16;
+constexpr std::uint32_t kEstimateSide = 16;
 constexpr std::uint32_t kSpp = 16;
 
 class EstimatorsTest : public ::testing::TestWithParam<std::size_t> {};
@@ -36,10 +36,10 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     const auto cpu = cpu::makeCpuEngine({});
     gpu->setScene(compiled, nullptr);
     cpu->setScene(compiled, nullptr);
-    const auto reference = independentImages(*cpu, *compiled, app::LightSampling::Mis, kSide, kSpp, 6000);
+    const auto reference = independentImages(*cpu, *compiled, app::LightSampling::Mis, kEstimateSide, kSpp, 6000);
     for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
         const auto result =
-            image::testImages(independentImages(*gpu, *compiled, sampling, kSide, kSpp, 5000), reference);
+            image::testImages(independentImages(*gpu, *compiled, sampling, kEstimateSide, kSpp, 5000), reference);
         SCOPED_TRACE(static_cast<int>(sampling));
         EXPECT_GT(result.globalP, 1e-4) << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << result.summary();
@@ -47,7 +47,7 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
-std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
+std::string builtinName(const ::testing::TestParamInfo<std::size_t>& info) {
     std::string name(scene::builtinScenes()[info.param].id);
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
@@ -58,9 +58,9 @@ std::string sceneName(const ::testing::TestParamInfo<std::size_t>& info) {
 // every change.
 constexpr std::size_t kSecond = 2;
 INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest,
-                         ::testing::Range(std::size_t{0}, scene::builtinScenes().size(), kSecond), sceneName);
+                         ::testing::Range(std::size_t{0}, scene::builtinScenes().size(), kSecond), builtinName);
 INSTANTIATE_TEST_SUITE_P(Nightly, EstimatorsTest,
-                         ::testing::Range(std::size_t{1}, scene::builtinScenes().size(), kSecond), sceneName);
+                         ::testing::Range(std::size_t{1}, scene::builtinScenes().size(), kSecond), builtinName);
 
 } // namespace
 } // namespace rt::test

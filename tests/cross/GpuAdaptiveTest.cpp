@@ -18,11 +18,11 @@ namespace {
 using namespace std::chrono_literals;
 using image::Film;
 
-constexpr std::uint32_t kSide = 20; // no multiple of a tile's
+constexpr std::uint32_t kAdaptiveSide = 20; // no multiple of a tile's
 
 app::RenderSettings settingsFor(std::uint32_t spp) {
     app::RenderSettings settings;
-    settings.width = settings.height = kSide;
+    settings.width = settings.height = kAdaptiveSide;
     settings.spp = spp;
     settings.replicates = 2;
     settings.adaptive = true;
@@ -70,8 +70,8 @@ TEST_P(GpuAdaptive, NeitherPartsNorLaunchesShow) {
             Render parts = gpuRender(settings, options);
             const Film& film = parts.finish();
             EXPECT_TRUE(sameBits(expected, film.resolve().data)) << slots << ", " << seconds;
-            EXPECT_EQ(film.totalSamples(), std::uint64_t{kSide} * kSide * settings.spp);
-            EXPECT_EQ(parts.engine->report().rays.camera, std::uint64_t{kSide} * kSide * settings.spp);
+            EXPECT_EQ(film.totalSamples(), std::uint64_t{kAdaptiveSide} * kAdaptiveSide * settings.spp);
+            EXPECT_EQ(parts.engine->report().rays.camera, std::uint64_t{kAdaptiveSide} * kAdaptiveSide * settings.spp);
         }
 }
 

@@ -49,10 +49,12 @@ build_for() {
 # build_suite TEST: formulas are compiled with their unit tests, so these sources suffice, and whatever else includes
 # the header stays as it is.
 build_suite() {
-    local suite=${1##*[./]} commands source
+    local suite=${1##*[./]} commands source unit
     commands=$(ninja -C build -t commands rt-unit-tests)
     for source in $(grep -lE "TEST(_F|_P)?\($suite," tests/unit/*.cpp); do
-        (cd build && nice -n 10 bash -c "$(grep -F -- "/$source" <<<"$commands")") >"$scratch/build" 2>&1 || return 1
+        # Or what includes it, where several sources are compiled as one.
+        unit=$(grep -lF "\"$PWD/$source\"" build/tests/CMakeFiles/rt-unit-tests.dir/Unity/*.cxx 2>/dev/null) || unit=$source
+        (cd build && nice -n 10 bash -c "$(grep -F -- "-c $PWD/$unit" <<<"$commands")") >"$scratch/build" 2>&1 || return 1
     done
     (cd build && nice -n 10 bash -c "${commands##*$'\n'}") >>"$scratch/build" 2>&1
 }

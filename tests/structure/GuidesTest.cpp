@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kRoot = RT_SOURCE_DIR;
+const fs::path kSources = RT_SOURCE_DIR;
 
 struct Tree {
     std::vector<std::string> files; // relative to the root, with forward slashes
@@ -48,12 +48,12 @@ Tree readTree() {
                                          ".rint", ".rmiss", ".rcall", ".cmake", ".txt",  ".json", ".sh"};
     for (const char* top : {"Assets", "Common", "RayTracingCPU", "RayTracingGPU", "Shaders", "cmake", "tests", "docs",
                             "build.sh", "build.bat", "CMakeLists.txt", "CMakePresets.json", "vcpkg.json"}) {
-        std::vector<fs::path> found = {kRoot / top};
-        if (fs::is_directory(kRoot / top)) {
-            found.assign(fs::recursive_directory_iterator(kRoot / top), fs::recursive_directory_iterator());
+        std::vector<fs::path> found = {kSources / top};
+        if (fs::is_directory(kSources / top)) {
+            found.assign(fs::recursive_directory_iterator(kSources / top), fs::recursive_directory_iterator());
         }
         for (const fs::path& path : found) {
-            const std::string relative = path.lexically_relative(kRoot).generic_string();
+            const std::string relative = path.lexically_relative(kSources).generic_string();
             tree.files.push_back(relative);
             addWords(path.stem().string(), tree.words);
             if (!relative.starts_with("docs") && texts.count(path.extension().string()) != 0) {
@@ -65,8 +65,8 @@ Tree readTree() {
 }
 
 std::vector<fs::path> guides() {
-    std::vector<fs::path> found = {kRoot / "README.md"};
-    for (const fs::directory_entry& entry : fs::directory_iterator(kRoot / "docs"))
+    std::vector<fs::path> found = {kSources / "README.md"};
+    for (const fs::directory_entry& entry : fs::directory_iterator(kSources / "docs"))
         if (entry.path().extension() == ".md") found.push_back(entry.path());
     return found;
 }

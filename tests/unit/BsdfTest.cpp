@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "Common/Shared/Material/Bsdf.h"
 #include "tests/unit/Oracles.h"
@@ -14,7 +15,6 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPi;
 const vec3 kUp(0, 0, 1);
 
 Bsdf lambertian(const vec3& albedo = vec3(1)) {
@@ -67,7 +67,8 @@ TEST(Lambertian, SampleAndEvaluationAgree) {
 // angle meets the sphere about the tip of r in two circles: beyond the far one and before the near one lie two caps.
 double fuzzCdf(double fuzz, double gamma) {
     const double beta = std::asin(std::min(std::sin(gamma) / fuzz, 1.0)); // between the ray and the sphere's radius
-    const double far = gamma + beta, near = gamma + kPiD - beta; // polar angles of the circles, seen from the tip
+    const double far = gamma + beta,
+                 near = gamma + std::numbers::pi - beta; // polar angles of the circles, seen from the tip
     return (1 - std::cos(far)) / 2 + (1 + std::cos(near)) / 2;
 }
 
@@ -88,7 +89,8 @@ TEST_P(MetalFuzz, LobeHasTheExactDistribution) {
     for (int i = 0; i < 1 << 19; ++i) {
         const BsdfSample s = sampleBsdf(kFeatureAll, metal(float(fuzz)), kUp, 1, wo, uniform.pair(), 0);
         const double r2 = (double(s.wi.x) * s.wi.x + double(s.wi.y) * s.wi.y) / (fuzz * fuzz);
-        const int sector = static_cast<int>((std::atan2(s.wi.y, s.wi.x) / (2 * kPiD) + 1) * sectors) % sectors;
+        const int sector =
+            static_cast<int>((std::atan2(s.wi.y, s.wi.x) / (2 * std::numbers::pi) + 1) * sectors) % sectors;
         ++counts[std::clamp(static_cast<int>(r2 * rings), 0, rings - 1) * sectors + sector];
     }
     EXPECT_GT(chiSquareP(counts, weights), kSignificance);
@@ -102,12 +104,12 @@ TEST_P(MetalFuzz, DensityIntegratesToOne) {
     const int steps = 20000;
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
-        const double t = (i + 0.5) / steps * kPiD / 2; // sin gamma = fuzz sin t
+        const double t = (i + 0.5) / steps * std::numbers::pi / 2; // sin gamma = fuzz sin t
         const double gamma = std::asin(fuzz * std::sin(t));
         const double slope = fuzz * std::cos(t) / std::cos(gamma);
         const vec3 w = toWorld(frame, vec3(inPlane(std::cos(gamma), i * 0.7)));
-        sum += double(fuzzPdf(vec3(r), float(fuzz), normalize(w))) * 2 * kPiD * std::sin(gamma) * slope *
-               (kPiD / 2 / steps);
+        sum += double(fuzzPdf(vec3(r), float(fuzz), normalize(w))) * 2 * std::numbers::pi * std::sin(gamma) * slope *
+               (std::numbers::pi / 2 / steps);
     }
     EXPECT_NEAR(sum, 1, fuzz < 0.01 ? 0.02 : 3e-3);
 }
@@ -151,7 +153,8 @@ INSTANTIATE_TEST_SUITE_P(Fuzz, MetalFuzz, testing::Values(0.002, 0.01, 0.1, 0.5,
 
 TEST(Metal, FuzzOneIsACosineLobe) {
     const vec3 r = kUp;
-    for (const double cosine : {0.9, 0.5, 0.1}) EXPECT_NEAR(fuzzPdf(r, 1, vec3(inPlane(cosine))), cosine / kPiD, 1e-6);
+    for (const double cosine : {0.9, 0.5, 0.1})
+        EXPECT_NEAR(fuzzPdf(r, 1, vec3(inPlane(cosine))), cosine / std::numbers::pi, 1e-6);
     EXPECT_EQ(fuzzPdf(r, 0.5f, -r), 0.0f);
 }
 
@@ -332,7 +335,7 @@ TEST(Phase, IsotropicIsUniform) {
         ASSERT_EQ(s.weight, vec3(0.3f));
     }
     EXPECT_TRUE(agrees(z2, 1.0 / 3));
-    EXPECT_NEAR(kPhasePdf, 1 / (4 * kPiD), 1e-8);
+    EXPECT_NEAR(kPhasePdf, 1 / (4 * std::numbers::pi), 1e-8);
 }
 
 } // namespace

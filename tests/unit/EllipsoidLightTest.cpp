@@ -2,6 +2,7 @@
 // record.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -26,11 +27,10 @@ using test::agrees;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPi;
-
 dvec3 unitVector(Uniforms& uniform) {
     const vec2 u = uniform.pair();
-    const double z = 1 - 2 * double(u.x), r = std::sqrt(std::max(1 - z * z, 0.0)), phi = 2 * kPiD * double(u.y);
+    const double z = 1 - 2 * double(u.x), r = std::sqrt(std::max(1 - z * z, 0.0)),
+                 phi = 2 * std::numbers::pi * double(u.y);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -80,7 +80,7 @@ TEST(Ellipsoids, DensityOfDirectionsIsTheJacobianOfTheirMap) {
         const double before = test::triangleSolidAngle(a, b, c);
         const double after = test::triangleSolidAngle(mapped(a), mapped(b), mapped(c));
         const double density = double(ellipsoidConePdf(e, cone, vec3(glm::normalize(mapped(w)))));
-        ASSERT_NEAR(density * 2 * kPiD * double(cone.oneMinusCosine) * after / before, 1, 2e-3) << i;
+        ASSERT_NEAR(density * 2 * std::numbers::pi * double(cone.oneMinusCosine) * after / before, 1, 2e-3) << i;
         // Around the axis solid angles are kept.
         const auto turnedToAxis = [&](const dvec3& v) { return mapped(axis + 1e-5 * v); };
         const dvec3 top = glm::cross(axis, side), p(0.5 * side), q(0.5 * top - 0.5 * side), r(-0.5 * top);
@@ -202,9 +202,10 @@ TEST(Ellipsoids, DensityIntegratesToOne) {
             const dvec3 x = glm::normalize(glm::cross(z, dvec3(0.3, 0.2, 1))), y = glm::cross(z, x);
             for (int i = 0; i < 1 << 18; ++i) {
                 const vec2 u = uniform.pair();
-                const double c = 1 - double(u.x) * (1 - lowest), r = std::sqrt(1 - c * c), phi = 2 * kPiD * double(u.y);
+                const double c = 1 - double(u.x) * (1 - lowest), r = std::sqrt(1 - c * c),
+                             phi = 2 * std::numbers::pi * double(u.y);
                 const dvec3 v = z * c + x * (r * std::cos(phi)) + y * (r * std::sin(phi));
-                mean.add(2 * kPiD * (1 - lowest) *
+                mean.add(2 * std::numbers::pi * (1 - lowest) *
                          double(lightPdfAlong(kFeatureAll, withMethod(method), light, vec3(0), vec3(0), 0, vec3(v))));
             }
             // Of points drawn by area those on the far side are of no use.
@@ -239,8 +240,8 @@ TEST(Ellipsoids, FromInsideTheyFillAllDirections) {
             EXPECT_EQ(lightPdfAlong(kFeatureAll, withMethod(kShapeAuto), light, vec3(0), vec3(0), 0, m.wi), m.pdf);
         }
         if (sides == kSidesFront) continue;
-        EXPECT_TRUE(agrees(surface, kPiD));
-        EXPECT_TRUE(agrees(medium, 4 * kPiD));
+        EXPECT_TRUE(agrees(surface, std::numbers::pi));
+        EXPECT_TRUE(agrees(medium, 4 * std::numbers::pi));
     }
 }
 
@@ -305,10 +306,11 @@ double exactArea(const dmat3& axes) {
     double sum = 0;
     for (int i = 0; i < kSteps; ++i)
         for (int k = 0; k < kSteps; ++k) {
-            const double z = 1 - 2 * (i + 0.5) / kSteps, r = std::sqrt(1 - z * z), phi = 2 * kPiD * (k + 0.5) / kSteps;
+            const double z = 1 - 2 * (i + 0.5) / kSteps, r = std::sqrt(1 - z * z),
+                         phi = 2 * std::numbers::pi * (k + 0.5) / kSteps;
             sum += glm::length(cofactors * dvec3(r * std::cos(phi), r * std::sin(phi), z));
         }
-    return 4 * kPiD * sum / (kSteps * kSteps);
+    return 4 * std::numbers::pi * sum / (kSteps * kSteps);
 }
 
 // Scaled about the axes and by a matrix that shears, in nested groups, from one to 10^4.
@@ -336,7 +338,7 @@ TEST(Ellipsoids, RecordsHoldTheWorldsShape) {
         ASSERT_EQ(light.kind, kLightEllipsoid);
         const dmat3 axes(light.edgeU, light.edgeV, light.normal);
         EXPECT_NEAR(light.area / exactArea(axes), 1, 0.012);
-        EXPECT_NEAR(4 * kPiD * double(light.radius) * double(light.radius) / light.area, 1, 1e-6);
+        EXPECT_NEAR(4 * std::numbers::pi * double(light.radius) * double(light.radius) / light.area, 1, 1e-6);
         EXPECT_NEAR(bound.intensity / (0.25 * light.area * (0.2126 + 2 * 0.7152 + 4 * 0.0722)), 1, 1e-5);
         EXPECT_EQ(bound.axis, vec3(0));
         // The points found by hand, within the bound, and it is no larger than it must be.

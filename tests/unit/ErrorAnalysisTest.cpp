@@ -9,11 +9,11 @@
 namespace rt::image {
 namespace {
 
-constexpr std::uint32_t kSide = 128;
+constexpr std::uint32_t kImageSide = 128;
 constexpr float kRadiance = 0.5f;
 
 Image constant(float value) {
-    Image image(kSide, kSide, 3);
+    Image image(kImageSide, kImageSide, 3);
     image.data.assign(image.data.size(), value);
     return image;
 }
@@ -32,7 +32,7 @@ TEST(ErrorAnalysis, TheReferencesVarianceIsSubtracted) {
     const Reference reference{noisy(own, 1), constant(own * own)};
     const ErrorAnalysis error = analyseError(noisy(sigma, 2), reference);
     const double expected = sigma * sigma;
-    const double tolerance = 4 * (expected + own * own) * std::sqrt(2.0 / (kSide * kSide * 3));
+    const double tolerance = 4 * (expected + own * own) * std::sqrt(2.0 / (kImageSide * kImageSide * 3));
     EXPECT_NEAR(error.mse, expected, tolerance);
     EXPECT_NEAR(error.referenceMse, own * own, 1e-9);
     EXPECT_NEAR(error.rmse, sigma, 0.01 * sigma);
@@ -47,8 +47,8 @@ TEST(ErrorAnalysis, TilesTellHowSureTheMseIs) {
     const float sigma = 0.1f;
     const Reference reference{constant(kRadiance), constant(0)};
     const double mseError = analyseError(noisy(sigma, 3), reference).mseError;
-    const double expected = sigma * sigma * std::sqrt(2.0 / (kSide * kSide * 3));
-    EXPECT_NEAR(mseError, expected, 4 * expected / std::sqrt(2.0 * kSide * kSide / 64));
+    const double expected = sigma * sigma * std::sqrt(2.0 / (kImageSide * kImageSide * 3));
+    EXPECT_NEAR(mseError, expected, 4 * expected / std::sqrt(2.0 * kImageSide * kImageSide / 64));
 }
 
 // A light in a quarter of the picture, in one channel only, with other noise than the rest.
@@ -57,15 +57,16 @@ TEST(ErrorAnalysis, PixelsUpTo1HaveAnErrorOfTheirOwn) {
     Reference reference{noisy(own, 8), constant(own * own)};
     Image image = noisy(dim, 9);
     const Image loud = noisy(bright, 10, 5);
-    for (std::uint32_t y = 0; y < kSide / 4; ++y)
-        for (std::uint32_t x = 0; x < kSide; ++x) {
+    for (std::uint32_t y = 0; y < kImageSide / 4; ++y)
+        for (std::uint32_t x = 0; x < kImageSide; ++x) {
             reference.mean.pixel(x, y)[2] = 5;
             reference.variance.pixel(x, y)[2] = 0.3f;
             image.pixel(x, y)[2] = loud.pixel(x, y)[2];
         }
     const ErrorAnalysis error = analyseError(image, reference);
     EXPECT_DOUBLE_EQ(error.upTo1.share, 0.75);
-    const double values = 0.75 * kSide * kSide * 3, spread = (dim * dim + own * own) * std::sqrt(2.0 / values);
+    const double values = 0.75 * kImageSide * kImageSide * 3,
+                 spread = (dim * dim + own * own) * std::sqrt(2.0 / values);
     EXPECT_NEAR(error.upTo1.mse, dim * dim, 4 * spread);
     EXPECT_NEAR(error.upTo1.referenceMse, own * own, 1e-9);
     EXPECT_NEAR(error.upTo1.mseError, spread, 0.3 * spread);
@@ -96,7 +97,7 @@ TEST(ErrorAnalysis, FirefliesAndTheirShare) {
     image.pixel(100, 3)[0] += 20;
     const ErrorAnalysis error = analyseError(image, reference);
     EXPECT_EQ(error.fireflies, 2u);
-    const double rest = 1e-4 * kSide * kSide * 3;
+    const double rest = 1e-4 * kImageSide * kImageSide * 3;
     EXPECT_NEAR(error.fireflyShare, 800 / (800 + rest), 1e-3);
 }
 

@@ -31,7 +31,7 @@ void addSamples(Film& film, std::uint32_t tile, std::uint32_t replicate, std::ui
     }
 }
 
-std::string stateOf(const Film& film) {
+std::string stateOfFilm(const Film& film) {
     std::ostringstream out;
     film.writeState(out);
     return out.str();
@@ -99,7 +99,7 @@ TEST(Film, IsTheSameHoweverSamplesAreSplit) {
         for (std::uint32_t done = 0; done < 1003; done += step)
             addSamples(split, 0, 0, std::min(step, 1003 - done), stream);
         EXPECT_EQ(split.samples(0, 0), 1003u);
-        EXPECT_EQ(stateOf(split), stateOf(whole)) << "steps of " << step;
+        EXPECT_EQ(stateOfFilm(split), stateOfFilm(whole)) << "steps of " << step;
         EXPECT_EQ(split.resolve().data, whole.resolve().data);
     }
 }
@@ -228,7 +228,7 @@ TEST(Film, GoesOnAtTwoToThe31Samples) {
     addSamples(film, 0, 0, Film::kBlock, [](std::uint32_t, std::size_t) { return 1000.0f; });
     EXPECT_EQ(film.samples(0), Film::kMaxSamples);
     double sum = 0;
-    std::memcpy(&sum, &stateOf(film)[sizeof before], sizeof sum);
+    std::memcpy(&sum, &stateOfFilm(film)[sizeof before], sizeof sum);
     EXPECT_NEAR(sum - 0.1 * before, 16000.0, 1e-6); // nothing is lost
     EXPECT_FLOAT_EQ(film.resolve().data[0], static_cast<float>((0.1 * before + 16000) / Film::kMaxSamples));
 }
@@ -248,7 +248,7 @@ TEST(Film, TakesDistinctTilesFromDistinctThreads) {
     std::thread other([&] { fill(parallel, 1, 2); });
     fill(parallel, 0, 2);
     other.join();
-    EXPECT_EQ(stateOf(parallel), stateOf(serial));
+    EXPECT_EQ(stateOfFilm(parallel), stateOfFilm(serial));
 }
 
 TEST(Film, HoldsToItsMemory) {

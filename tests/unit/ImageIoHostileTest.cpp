@@ -24,7 +24,7 @@ std::string contentOf(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string dataFile(const std::string& name) {
+std::string dataOf(const std::string& name) {
     return contentOf(std::filesystem::path(RT_TEST_DATA_DIR) / "images" / name);
 }
 
@@ -39,7 +39,7 @@ std::vector<File> makeFiles() {
         files.push_back({name, contentOf(folder / name)});
     }
     for (const std::string name : {"rle-half.exr", "zip-half.exr", "piz-half.exr", "gradient.hdr", "gradient.jpg"})
-        files.push_back({name, dataFile(name)});
+        files.push_back({name, dataOf(name)});
     for (const auto& [name, compression] :
          {std::pair{"pxr24.exr", Imf::PXR24_COMPRESSION}, std::pair{"b44.exr", Imf::B44_COMPRESSION},
           std::pair{"dwaa.exr", Imf::DWAA_COMPRESSION}, std::pair{"dwab.exr", Imf::DWAB_COMPRESSION}})
@@ -72,7 +72,7 @@ TEST(ImageIoHostile, APngThatIsTooLargeSaysSo) {
 
 // Fill bytes may precede any marker, that of the file's begin, too.
 TEST(ImageIoHostile, AJpegWithTooManyCodesIsRefusedHoweverItBegins) {
-    const std::string whole = dataFile("gradient.jpg");
+    const std::string whole = dataOf("gradient.jpg");
     const std::size_t table = whole.find("\xff\xc4");
     ASSERT_NE(table, std::string::npos);
     std::string damaged = whole;

@@ -17,10 +17,6 @@ using test::chiSquareP;
 using test::kSignificance;
 using test::Uniforms;
 
-dvec3 inBox(Uniforms& uniform, double extent) {
-    return {uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent)};
-}
-
 // Spheres, quads and triangles of very different sizes and powers, some to both sides, in clumps.
 CompiledScene randomLights(std::uint32_t count, std::uint32_t seed) {
     Uniforms uniform(seed);

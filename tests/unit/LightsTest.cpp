@@ -2,6 +2,7 @@
 // contribute, stress.
 #include <algorithm>
 #include <array>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,6 @@ using test::agrees;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPi;
-
 // Not below the ellipsoid's shortest half axis by more than a factor of two.
 double shortestAxis(const Light& ellipsoid) {
     const glm::dmat3 back = glm::inverse(axesOf(ellipsoid));
@@ -31,7 +30,7 @@ double solidAngle(const Light& light) {
     if (light.kind == kLightEllipsoid) return test::ellipsoidSolidAngle(dvec3(light.position), axesOf(light));
     if (light.kind == kLightSphere) {
         const double s = light.radius / glm::length(dvec3(light.position));
-        return 2 * kPiD * s * s / (1 + std::sqrt((1 - s) * (1 + s)));
+        return 2 * std::numbers::pi * s * s / (1 + std::sqrt((1 - s) * (1 + s)));
     }
     const auto v = vertices(light);
     double sum = test::triangleSolidAngle(v[0], v[1], v[2]);
@@ -70,8 +69,10 @@ std::vector<Case> cases() {
         {"sphere near", sphere({0.1, 0.3, 1}, 0.9), true},
         {"sphere far", sphere({0, 30, 100}, 1)},
         {"sphere very far", sphere({0, 3e4, 1e5}, 1)},
-        {"sphere cut by the horizon", sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)},
-        {"sphere below the horizon but for a cap", sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)},
+        {"sphere cut by the horizon",
+         sphere({0, std::cos(std::numbers::pi / 18), std::sin(std::numbers::pi / 18)}, 0.5)},
+        {"sphere below the horizon but for a cap",
+         sphere({0, std::cos(std::numbers::pi / 18), -std::sin(std::numbers::pi / 18)}, 0.5)},
         {"ellipsoid overhead", ellipsoid({0, 0, 1}, {0.3, 0, 0, 0, 0.2, 0, 0, 0, 0.1})},
         {"ellipsoid of axes 1 10 0.1", ellipsoid({1, -2, 3}, {0.8, 0.6, 0, -6, 8, 0, 0, 0, 0.1})},
         {"ellipsoid edge-on", ellipsoid({2, 1, 0.5}, {0.8, 0.6, 0, -6, 8, 0, 0, 0, 0.1})},
@@ -321,8 +322,8 @@ TEST(Lights, InsideASphere) {
         medium.add(1 / double(m.pdf));
         EXPECT_EQ(lightPdf(kFeatureAll, params, light, vec3(0), vec3(0), 0, m.wi, m.distance, m.normal), m.pdf);
     }
-    EXPECT_TRUE(agrees(surface, kPiD));
-    EXPECT_TRUE(agrees(medium, 4 * kPiD));
+    EXPECT_TRUE(agrees(surface, std::numbers::pi));
+    EXPECT_TRUE(agrees(medium, 4 * std::numbers::pi));
 }
 
 // Rounding may take a point near a huge sphere to be inside of it, while a ray meets the near side: no sample lies
@@ -372,8 +373,10 @@ TEST(Lights, VarianceOfSolidAngleAndAreaSampling) {
     EXPECT_NEAR(variance(quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0})), 0.059, 0.006);
     EXPECT_NEAR(variance(quad({0.05, -1, 0}, {0, 2, 0}, {0, 0, 2})), 0.34, 0.034);
     EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.9)), 0.052, 0.005);
-    EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), std::sin(kPiD / 18)}, 0.5)), 0.93, 0.09);
-    EXPECT_NEAR(variance(sphere({0, std::cos(kPiD / 18), -std::sin(kPiD / 18)}, 0.5)), 3.7, 0.37);
+    EXPECT_NEAR(variance(sphere({0, std::cos(std::numbers::pi / 18), std::sin(std::numbers::pi / 18)}, 0.5)), 0.93,
+                0.09);
+    EXPECT_NEAR(variance(sphere({0, std::cos(std::numbers::pi / 18), -std::sin(std::numbers::pi / 18)}, 0.5)), 3.7,
+                0.37);
     // What solid angle saves near lights; uniform in area it is tens to hundreds of times as much.
     EXPECT_NEAR(variance(quad({-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}), kShapeArea), 1.45, 0.15);
     EXPECT_NEAR(variance(sphere({0, 0, 1}, 0.2), kShapeArea), 2.8, 0.28);

@@ -16,10 +16,6 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-dvec3 inBox(Uniforms& uniform, double extent) {
-    return {uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent)};
-}
-
 std::optional<std::pair<long double, long double>> exactSphere(const dvec3& o, const dvec3& d) {
     const long double a = (long double)d.x * d.x + (long double)d.y * d.y + (long double)d.z * d.z;
     const long double b = -((long double)o.x * d.x + (long double)o.y * d.y + (long double)o.z * d.z);

@@ -1,5 +1,6 @@
 // Samplers by projected solid angle against exact answers, over sizes, tilts and positions relative to the horizon.
 #include <algorithm>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,8 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPi;
-
 dvec3 direction(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * kPiD), r = std::sqrt(1 - z * z);
+    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 

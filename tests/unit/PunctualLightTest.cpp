@@ -27,10 +27,6 @@ dvec3 unitVector(Uniforms& uniform) {
     return {r * std::cos(turn), r * std::sin(turn), z};
 }
 
-dvec3 inBox(Uniforms& uniform, double extent) {
-    return {uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent)};
-}
-
 // glTF's, by cosines.
 double falloff(double angle, double inner, double outer) {
     const double ramp = (std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer));

@@ -19,12 +19,11 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = std::numbers::pi;
 constexpr float kLast = 0x0.ffffffp0f; // the largest uniform
 const std::array kCorners{vec2(0, 0), vec2(kLast, 0), vec2(0, kLast), vec2(kLast, kLast), vec2(0.5f, 0.5f)};
 
 dvec3 randomDirection(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * kPiD), r = std::sqrt(1 - z * z);
+    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -57,9 +56,9 @@ TEST(Sampling, FramesAreOrthonormalAndRightHanded) {
 glm::dvec2 invertDisk(double x, double y) {
     const double r = std::hypot(x, y);
     double phi = std::atan2(y, x);
-    if (phi < -kPiD / 4) phi += 2 * kPiD;
-    const int sector = static_cast<int>(std::floor((phi + kPiD / 4) / (kPiD / 2)));
-    const double t = (phi - sector * kPiD / 2) / (kPiD / 4);
+    if (phi < -std::numbers::pi / 4) phi += 2 * std::numbers::pi;
+    const int sector = static_cast<int>(std::floor((phi + std::numbers::pi / 4) / (std::numbers::pi / 2)));
+    const double t = (phi - sector * std::numbers::pi / 2) / (std::numbers::pi / 4);
     double a = 0, b = 0;
     switch (sector) {
         case 0:
@@ -88,7 +87,7 @@ TEST(Sampling, DiskIsUniformAndInvertible) {
         const double r2 = double(p.x) * p.x + double(p.y) * p.y;
         ASSERT_LT(r2, 1);
         const int ring = static_cast<int>(r2 * 32);
-        const int sector = static_cast<int>((std::atan2(p.y, p.x) / (2 * kPiD) + 0.5) * 32);
+        const int sector = static_cast<int>((std::atan2(p.y, p.x) / (2 * std::numbers::pi) + 0.5) * 32);
         ++counts[std::min(ring, 31) * 32 + std::min(sector, 31)];
         const glm::dvec2 back = invertDisk(p.x, p.y) - 0.5 * static_cast<double>(kEpsilon);
         worst = std::max({worst, std::abs(back.x - u.x), std::abs(back.y - u.y)});
@@ -106,7 +105,7 @@ TEST(Sampling, CosineHemisphere) {
     for (int i = 0; i < 1 << 20; ++i) {
         const vec3 w = sampleCosineHemisphere(uniform.pair());
         const double r2 = 1 - double(w.z) * w.z; // uniform under the cosine law
-        const int sector = static_cast<int>((std::atan2(w.y, w.x) / (2 * kPiD) + 0.5) * 32);
+        const int sector = static_cast<int>((std::atan2(w.y, w.x) / (2 * std::numbers::pi) + 0.5) * 32);
         ++counts[std::clamp(static_cast<int>(r2 * 32), 0, 31) * 32 + std::min(sector, 31)];
         cosine.add(w.z);
         worstLength = std::max(worstLength, std::abs(glm::length(dvec3(w)) - 1));
@@ -140,9 +139,9 @@ TEST(Sampling, IrradianceOfAGradientSkyInAnyFrame) {
         Mean irradiance;
         for (int i = 0; i < 1 << 14; ++i) {
             const vec3 w = toWorld(frame, sampleCosineHemisphere(uniform.pair()));
-            irradiance.add(kPiD * (a + b * w.y));
+            irradiance.add(std::numbers::pi * (a + b * w.y));
         }
-        EXPECT_TRUE(agrees(irradiance, kPiD * (a + b * 2 / 3 * glm::normalize(n).y)))
+        EXPECT_TRUE(agrees(irradiance, std::numbers::pi * (a + b * 2 / 3 * glm::normalize(n).y)))
             << n.x << ' ' << n.y << ' ' << n.z;
     }
 }
@@ -154,7 +153,7 @@ TEST(Sampling, Sphere) {
     double worstLength = 0;
     for (int i = 0; i < 1 << 20; ++i) {
         const vec3 w = sampleSphere(uniform.pair());
-        const int sector = static_cast<int>((std::atan2(w.y, w.x) / (2 * kPiD) + 0.5) * 32);
+        const int sector = static_cast<int>((std::atan2(w.y, w.x) / (2 * std::numbers::pi) + 0.5) * 32);
         ++counts[std::clamp(static_cast<int>((w.z + 1) * 16), 0, 31) * 32 + std::min(sector, 31)];
         secondMoment.add(double(w.x) * w.x);
         worstLength = std::max(worstLength, std::abs(glm::length(dvec3(w)) - 1));

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 #include <string>
 
 #include "Common/Shared/Shape/SphericalShapes.h"
@@ -15,10 +16,8 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = test::kPi;
-
 dvec3 randomDirection(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * kPiD), r = std::sqrt(1 - z * z);
+    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -33,7 +32,7 @@ TEST(SphereCone, SolidAngleAtEveryDistance) {
         if (!(distance > radius)) continue;
         const vec3 toCenter(0, distance, 0);
         const double sine = double(radius) / distance;
-        const double exact = 2 * kPiD * sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
+        const double exact = 2 * std::numbers::pi * sine * sine / (1 + std::sqrt((1 - sine) * (1 + sine)));
         const double solidAngle = 1 / double(sphereConePdf(makeSphereCone(toCenter, radius)));
         worst = std::max(worst, std::abs(solidAngle / exact - 1));
     }
@@ -62,9 +61,10 @@ TEST_P(SphereConeAt, IsUniformInTheCone) {
         const dvec3 chord = w - exactAxis;
         const double q = glm::dot(chord, chord) / (2 * whole); // share of the solid angle inside
         const int sector =
-            static_cast<int>(
-                (std::atan2(glm::dot(w, dvec3(frame.bitangent)), glm::dot(w, dvec3(frame.tangent))) / (2 * kPiD) + 1) *
-                32) %
+            static_cast<int>((std::atan2(glm::dot(w, dvec3(frame.bitangent)), glm::dot(w, dvec3(frame.tangent))) /
+                                  (2 * std::numbers::pi) +
+                              1) *
+                             32) %
             32;
         ++counts[std::clamp(static_cast<int>(q * 32), 0, 31) * 32 + sector];
         worstBack = std::max(worstBack, std::abs(q - double(u.x)));
@@ -119,7 +119,7 @@ TEST(SphericalTriangle, OctantsAndCubeFillTheSphere) {
     double octants = 0, cube = 0;
     for (int k = 0; k < 8; ++k) {
         const dvec3 x(k & 1 ? 1 : -1, 0, 0), y(0, k & 2 ? 1 : -1, 0), z(0, 0, k & 4 ? 1 : -1);
-        EXPECT_NEAR(seen(x, y, z).solidAngle, kPiD / 2, 1e-6);
+        EXPECT_NEAR(seen(x, y, z).solidAngle, std::numbers::pi / 2, 1e-6);
         octants += seen(x, y, z).solidAngle;
     }
     for (int axis = 0; axis < 3; ++axis) {
@@ -133,8 +133,8 @@ TEST(SphericalTriangle, OctantsAndCubeFillTheSphere) {
             cube += seen(corner(-1, -1), corner(1, 1), corner(-1, 1)).solidAngle;
         }
     }
-    EXPECT_NEAR(octants, 4 * kPiD, 4e-6);
-    EXPECT_NEAR(cube, 4 * kPiD, 4e-6);
+    EXPECT_NEAR(octants, 4 * std::numbers::pi, 4e-6);
+    EXPECT_NEAR(cube, 4 * std::numbers::pi, 4e-6);
 }
 
 struct TriangleCase {
@@ -316,8 +316,8 @@ TEST(SphericalRectangle, ColumnsAreExact) {
 }
 
 TEST(SphericalRectangle, FacesOfACube) {
-    EXPECT_NEAR(seen(-1, 1, -1, 1, 1).solidAngle, 2 * kPiD / 3, 1e-6);
-    EXPECT_NEAR(seen(-1, 1, -1, 1, -1).solidAngle, 2 * kPiD / 3, 1e-6);
+    EXPECT_NEAR(seen(-1, 1, -1, 1, 1).solidAngle, 2 * std::numbers::pi / 3, 1e-6);
+    EXPECT_NEAR(seen(-1, 1, -1, 1, -1).solidAngle, 2 * std::numbers::pi / 3, 1e-6);
     EXPECT_EQ(seen(1, 2, 1, 2, 0).solidAngle, 0.0f);
 }
 

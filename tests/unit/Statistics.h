@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 #include "Common/Shared/Base/Types.h"
@@ -31,6 +32,11 @@ class Uniforms {
   private:
     std::mt19937 engine_;
 };
+
+// Uniformly distributed in the cube [-extent, extent)^3.
+inline glm::dvec3 inBox(Uniforms& uniform, double extent) {
+    return {uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent)};
+}
 
 // Mean of independent samples and its standard error, by Welford's recurrence.
 class Mean {

@@ -14,8 +14,6 @@ using glm::dvec3;
 using test::Mean;
 using test::Uniforms;
 
-constexpr double kPiD = std::numbers::pi;
-
 struct TextureScene : SceneArraysOf<std::vector> {
     operator SceneView() const { return viewOf(*this, {}); }
 };
@@ -89,9 +87,9 @@ TEST(Textures, SphereCoordinates) {
         const vec3 n = sampleSphere(uniform.pair());
         const vec2 uv = sphereUv(n);
         ASSERT_TRUE(uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1);
-        ASSERT_NEAR(uv.x, (std::atan2(-double(n.z), double(n.x)) + kPiD) / (2 * kPiD), 5e-7);
+        ASSERT_NEAR(uv.x, (std::atan2(-double(n.z), double(n.x)) + std::numbers::pi) / (2 * std::numbers::pi), 5e-7);
         const double r = std::hypot(double(n.x), double(n.z));
-        ASSERT_NEAR(uv.y, std::atan2(r, -double(n.y)) / kPiD, 5e-7);
+        ASSERT_NEAR(uv.y, std::atan2(r, -double(n.y)) / std::numbers::pi, 5e-7);
     }
 }
 

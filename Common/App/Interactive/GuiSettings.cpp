@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kVersion = 1;
+constexpr int kSettingsVersion = 1;
 
 // Reads members of an object; leaves a target alone where the value is missing, of another type or out of range.
 class Reader {
@@ -157,7 +157,7 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
 }
 
 void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
-    const Json json{{"version", kVersion},
+    const Json json{{"version", kSettingsVersion},
                     {"color_mode", nameOf(kColorModes, s.colorMode)},
                     {"ui_scale", s.uiScale},
                     {"font", s.font},

@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr int kVersion = 1;
+constexpr int kRecordVersion = 1;
 
 std::vector<std::string> readLines(const fs::path& file) {
     std::vector<std::string> lines;
@@ -94,7 +94,7 @@ RunRecord fromJson(const nlohmann::json& json) {
 std::optional<RunRecord> toRecord(const std::string& line) {
     try {
         const nlohmann::json json = nlohmann::json::parse(line);
-        if (json.at("version") == kVersion) return fromJson(json);
+        if (json.at("version") == kRecordVersion) return fromJson(json);
     } catch (const nlohmann::json::exception&) {
         return std::nullopt;
     }
@@ -118,7 +118,7 @@ std::string csvField(const std::string& text) {
 std::string toJsonLine(const RunRecord& r) {
     Json curve = Json::array();
     for (const RunRecord::Point& point : r.curve) curve.push_back({point.seconds, point.relmse});
-    Json json{{"version", kVersion}};
+    Json json{{"version", kRecordVersion}};
     const auto put = [&](const char* place, const char*, const auto& value) {
         json[Json::json_pointer(place)] = value;
     };

@@ -11,12 +11,13 @@ namespace {
 
 using image::Film;
 
-constexpr std::uint32_t kRun = 4; // tiles side by side that go to one share: neighbours share what is in the cache
+constexpr std::uint32_t kNeighbours =
+    4; // tiles side by side that go to one share: neighbours share what is in the cache
 
 // Runs of tiles go to the shares in turn, and a row of tiles begins one share further than the row above it, so that
 // what takes long in the image is spread over all shares.
 std::uint32_t shareOf(std::uint32_t x, std::uint32_t y, std::uint32_t shares) {
-    return (x / kRun + y) % shares;
+    return (x / kNeighbours + y) % shares;
 }
 
 void checkRegion(const Region& region, const image::FilmDesc& film) {

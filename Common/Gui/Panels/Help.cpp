@@ -9,11 +9,11 @@
 namespace rt::gui {
 namespace {
 
-struct Shortcut {
+struct HelpLine {
     const char* keys; // null: a group's title
     const char* effect;
 };
-constexpr Shortcut kLeft[] = {
+constexpr HelpLine kLeft[] = {
     {nullptr, "Rendering"},
     {"Space", "start, pause, resume"},
     {"Ctrl+R", "restart"},
@@ -36,7 +36,7 @@ constexpr Shortcut kLeft[] = {
     {"Escape", "leave a field, a menu, this help"},
     {"Ctrl+Q", "quit"},
 };
-constexpr Shortcut kRight[] = {
+constexpr HelpLine kRight[] = {
     {nullptr, "Camera"},
     {"Left drag", "orbit around the target"},
     {"Alt + left drag", "the same beside a pinned picture"},
@@ -56,9 +56,9 @@ constexpr Shortcut kRight[] = {
 };
 
 template <std::size_t N>
-void drawColumn(const char* id, const Shortcut (&shortcuts)[N]) {
+void drawColumn(const char* id, const HelpLine (&shortcuts)[N]) {
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) return;
-    for (const Shortcut& shortcut : shortcuts) {
+    for (const HelpLine& shortcut : shortcuts) {
         if (shortcut.keys == nullptr && &shortcut != &shortcuts[0]) { // a gap between groups
             ImGui::TableNextRow(ImGuiTableRowFlags_None, 0.6f * ImGui::GetFontSize());
         }

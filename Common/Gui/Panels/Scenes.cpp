@@ -1,6 +1,5 @@
 // All scenes to choose from: thumbnails in a grid, grouped by book, and a search.
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -9,6 +8,7 @@
 
 #include "Common/Core/Printable.h"
 #include "Common/Gui/Panels/Panels.h"
+#include "Common/Gui/TextFit.h"
 #include "Common/Gui/Widgets.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 
@@ -28,12 +28,6 @@ std::string_view titleIn(const scene::BuiltinScene& scene) {
     return colon == std::string_view::npos ? scene.title : scene.title.substr(colon + 2);
 }
 
-bool contains(std::string_view text, std::string_view part) {
-    const auto same = [](char a, char b) {
-        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-    };
-    return std::search(text.begin(), text.end(), part.begin(), part.end(), same) != text.end();
-}
 bool matches(const scene::BuiltinScene& scene, const std::string& search) {
     return contains(scene.title, search) || contains(scene.description, search) || contains(scene.id, search);
 }

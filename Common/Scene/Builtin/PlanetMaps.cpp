@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <system_error>
 
 #include <glm/common.hpp>
@@ -19,7 +20,6 @@ namespace {
 
 constexpr std::uint32_t kWidth = 1024;
 constexpr std::uint32_t kHeight = 512;
-constexpr double kPi = 3.14159265358979323846;
 
 // 256 numbers in [0,1) and a permutation of as many indices.
 struct NoiseTable {
@@ -148,9 +148,9 @@ TexelData makePlanetMap(const std::string& name) {
     data.words.reserve(std::size_t{kWidth} * kHeight);
     for (std::uint32_t y = 0; y < kHeight; ++y) {
         interruptionPoint();
-        const double theta = kPi * (y + 0.5) / kHeight;
+        const double theta = std::numbers::pi * (y + 0.5) / kHeight;
         for (std::uint32_t x = 0; x < kWidth; ++x) {
-            const double phi = 2 * kPi * (x + 0.5) / kWidth;
+            const double phi = 2 * std::numbers::pi * (x + 0.5) / kWidth;
             const glm::dvec3 d(-std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
             const glm::dvec3 c = glm::clamp(map.color(d), 0.0, 1.0) * 255.0 + 0.5;
             data.words.push_back(static_cast<std::uint32_t>(c.x) | static_cast<std::uint32_t>(c.y) << 8 |

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kSharedPrimitives = 64; // below it an instance costs more than copies of the primitives
 constexpr double kMaxInstances = 1 << 24;
-constexpr std::size_t kMaxDepth = 64;
+constexpr std::size_t kMaxPrototypeDepth = 64;
 constexpr double kMaxPrimitives = 1 << 28;
 
 } // namespace
@@ -53,7 +53,8 @@ double InstancePlan::instanceCount(const InstanceDesc& instance, const std::stri
     if (std::find(open_.begin(), open_.end(), name) != open_.end()) fail("prototype \"" + name + "\" contains itself");
     const auto known = instanceCounts_.find(name);
     if (known != instanceCounts_.end()) return known->second;
-    if (open_.size() >= kMaxDepth) fail("prototypes are nested deeper than " + std::to_string(kMaxDepth));
+    if (open_.size() >= kMaxPrototypeDepth)
+        fail("prototypes are nested deeper than " + std::to_string(kMaxPrototypeDepth));
     open_.push_back(name);
     const double count = instanceCount(prototype->second, "/prototypes/" + name);
     open_.pop_back();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "Common/Core/Error.h"
@@ -13,8 +14,6 @@
 namespace rt::scene {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 shared::Light emptyLight(std::uint32_t kind) {
     shared::Light light{};
@@ -30,7 +29,7 @@ bool isFlat(const shared::Light& light) {
 
 // Flux in the surrounding space.
 double power(const shared::Light& light) {
-    return luminance(light.emission) * kPi * emittingArea(light);
+    return luminance(light.emission) * std::numbers::pi * emittingArea(light);
 }
 
 // Centre of the least circle around the triangle (0, u, v): in its plane, so that a point is before the triangle if and
@@ -87,7 +86,7 @@ shared::LightBound boundOf(const shared::Light& light) {
     if (!isFlat(light)) {
         bound.center = light.position + 0.5f * light.edgeU; // the middle of a moving sphere's way
         bound.radius = light.radius + 0.5f * glm::length(light.edgeU);
-        bound.intensity = static_cast<float>(luminous * kPi * light.radius * light.radius);
+        bound.intensity = static_cast<float>(luminous * std::numbers::pi * light.radius * light.radius);
         return bound;
     }
     const glm::dvec3 u(light.edgeU), v(light.edgeV);
@@ -119,7 +118,7 @@ shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& moti
     light.position = sphere.center;
     light.edgeU = motion;
     light.radius = sphere.radius;
-    light.area = static_cast<float>(4 * kPi * sphere.radius * sphere.radius);
+    light.area = static_cast<float>(4 * std::numbers::pi * sphere.radius * sphere.radius);
     return light;
 }
 
@@ -136,7 +135,7 @@ shared::Light ellipsoidLight(const Affine& toWorld) {
     const double meanPower = (std::pow(a * b, p) + std::pow(a * c, p) + std::pow(b * c, p)) / 3;
     const double squaredRadius = std::pow(meanPower, 1 / p);
     light.radius = static_cast<float>(std::sqrt(squaredRadius));
-    light.area = static_cast<float>(4 * kPi * squaredRadius);
+    light.area = static_cast<float>(4 * std::numbers::pi * squaredRadius);
     return light;
 }
 
@@ -209,7 +208,7 @@ bool appendSkyLight(const Bounds& bounds, CompiledScene& out) {
     for (std::uint32_t y = 0; y < image.height; ++y) {
         // The solid angle of a texel is in proportion to the difference of cosines, that is to sin(theta) of its
         // middle.
-        const double sine = std::sin(kPi * (y + 0.5) / image.height);
+        const double sine = std::sin(std::numbers::pi * (y + 0.5) / image.height);
         for (std::uint32_t x = 0; x < image.width; ++x) {
             const glm::dvec3 color = texelColor(out, image, x, y) * glm::dvec3(out.globals.skyTop);
             columns[x] = std::max(0.0, luminance(color));
@@ -227,7 +226,7 @@ bool appendSkyLight(const Bounds& bounds, CompiledScene& out) {
     shared::Light light = emptyLight(shared::kLightSky);
     light.position = shared::vec3(bounds.center());
     light.radius = static_cast<float>(bounds.radius());
-    light.area = static_cast<float>(4 * kPi * bounds.radius() * bounds.radius());
+    light.area = static_cast<float>(4 * std::numbers::pi * bounds.radius() * bounds.radius());
     light.emission = shared::vec3(sum / weight);
     out.globals.skyLight = static_cast<std::uint32_t>(out.lights.size());
     out.lights.push_back(light);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -18,7 +19,6 @@ namespace {
 using glm::dvec3;
 using shared::kLightNodeChildren;
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kBins = 12;
 constexpr std::size_t kFewItems = kLightNodeChildren * kLightNodeChildren; // that two levels of nodes can hold
 
@@ -34,11 +34,11 @@ NormalCone unite(const NormalCone& a, const NormalCone& b) {
     const double between = std::acos(std::clamp(glm::dot(a.axis, b.axis), -1.0, 1.0));
     if (between + b.angle <= a.angle) return a;
     const double angle = 0.5 * (a.angle + between + b.angle);
-    if (angle >= kPi) return {a.axis, kPi};
+    if (angle >= std::numbers::pi) return {a.axis, std::numbers::pi};
     // Turn a's axis towards b's; opposite ones have no direction in between.
     const dvec3 across = b.axis - a.axis * glm::dot(a.axis, b.axis);
     const double length = glm::length(across);
-    if (!(length > 1e-12)) return {a.axis, kPi};
+    if (!(length > 1e-12)) return {a.axis, std::numbers::pi};
     const double turn = angle - a.angle;
     return {glm::normalize(a.axis * std::cos(turn) + across * (std::sin(turn) / length)), angle};
 }
@@ -77,9 +77,9 @@ Cluster clusterOf(const shared::LightBound& bound) {
 // Kulla).
 double orientationMeasure(const NormalCone& cone) {
     if (cone.angle < 0) return 0;
-    const double wide = std::min(cone.angle + 0.5 * kPi, kPi);
-    return 2 * kPi * (1 - std::cos(cone.angle)) +
-           0.5 * kPi *
+    const double wide = std::min(cone.angle + 0.5 * std::numbers::pi, std::numbers::pi);
+    return 2 * std::numbers::pi * (1 - std::cos(cone.angle)) +
+           0.5 * std::numbers::pi *
                (2 * wide * std::sin(cone.angle) - std::cos(cone.angle - 2 * wide) -
                 2 * cone.angle * std::sin(cone.angle) + std::cos(cone.angle));
 }
@@ -88,7 +88,7 @@ double orientationMeasure(const NormalCone& cone) {
 double spreadCost(const Cluster& c) {
     if (c.box.empty()) return 0;
     const dvec3 size = c.box.upper - c.box.lower;
-    return (c.omnidirectionalIntensity * 4 * kPi + c.planarIntensity * orientationMeasure(c.cone)) *
+    return (c.omnidirectionalIntensity * 4 * std::numbers::pi + c.planarIntensity * orientationMeasure(c.cone)) *
            glm::dot(size, size);
 }
 
@@ -168,9 +168,9 @@ std::array<Group, 2> split(std::span<Item> items) {
     return {makeGroup(items.first(middle)), makeGroup(items.subspan(middle))};
 }
 
-class Builder {
+class TreeBuilder {
   public:
-    explicit Builder(CompiledScene& out) : out_(out) {}
+    explicit TreeBuilder(CompiledScene& out) : out_(out) {}
 
     void build() {
         std::vector<Item> items, distant;
@@ -289,7 +289,7 @@ class Builder {
         }
         placeCone(n, slot, shared::vec3(axis),
                   planarIntensity > 0 ? static_cast<float>(std::min(1.0, length / planarIntensity)) : 0.0f,
-                  std::min(widest + 1e-6, kPi));
+                  std::min(widest + 1e-6, std::numbers::pi));
         n.planarIntensity[slot] = static_cast<float>(planarIntensity);
         n.omnidirectionalIntensity[slot] = static_cast<float>(group.cluster.omnidirectionalIntensity);
     }
@@ -317,7 +317,7 @@ class Builder {
 } // namespace
 
 void buildLightTree(CompiledScene& out) {
-    if (out.globals.lightCount > shared::kContributionLights) Builder(out).build();
+    if (out.globals.lightCount > shared::kContributionLights) TreeBuilder(out).build();
 }
 
 } // namespace rt::scene

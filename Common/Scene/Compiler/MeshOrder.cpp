@@ -12,8 +12,8 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::uint32_t kBits = 10;      // per axis
-constexpr std::size_t kChunk = 1u << 13; // triangles that a thread gives their codes at a time
+constexpr std::uint32_t kBits = 10;             // per axis
+constexpr std::size_t kCodesAtATime = 1u << 13; // triangles that a thread gives their codes at a time
 
 // Two zero bits between the lowest ten.
 std::uint32_t spread(std::uint32_t x) {
@@ -68,7 +68,7 @@ void orderAlongCurve(const std::vector<glm::vec3>& positions, const WoundTriangl
     const float cells = 1u << kBits;
     std::vector<std::uint32_t> codes;
     resizeLarge(codes, order.size());
-    parallelChunks(0, codes.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    parallelChunks(0, codes.size(), kCodesAtATime, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const glm::vec3 unit = (middle(order[k]) - lower) / size;
             const glm::vec3 cell = glm::min(unit * cells, glm::vec3(cells - 1));

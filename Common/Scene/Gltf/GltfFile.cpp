@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFileBytes = std::numeric_limits<std::uint32_t>::max(); // of .glb, by its header
+constexpr std::uint64_t kMaxGlbBytes = std::numeric_limits<std::uint32_t>::max(); // of .glb, by its header
 
 // "%20" is a space.
 std::string decodedUri(const std::string& uri) {
@@ -38,16 +38,16 @@ std::string decodedUri(const std::string& uri) {
 }
 
 // What the parser asks for while it runs; it knows no exceptions.
-struct Reader {
+struct FileReader {
     fs::path path;
     std::uint64_t bytes = 0;
     std::exception_ptr error;
 };
 
 bool readBuffer(std::vector<unsigned char>* out, std::string* message, const std::string& file, void* user) {
-    Reader& reader = *static_cast<Reader*>(user);
+    FileReader& reader = *static_cast<FileReader*>(user);
     try {
-        const std::vector<std::byte> content = readFile(file, kMaxFileBytes);
+        const std::vector<std::byte> content = readFile(file, kMaxGlbBytes);
         out->resize(content.size());
         std::memcpy(out->data(), content.data(), content.size());
         reader.bytes += content.size();
@@ -78,7 +78,7 @@ void setSizeCallback(Callbacks& callbacks) {
         };
 }
 
-tinygltf::FsCallbacks callbacksFor(Reader& reader) {
+tinygltf::FsCallbacks callbacksFor(FileReader& reader) {
     tinygltf::FsCallbacks callbacks{};
     // The parser also looks in the working directory, which is no place for a scene's files.
     callbacks.FileExists = [](const std::string& file, void*) { return fs::path(file).is_absolute(); };
@@ -149,7 +149,7 @@ GltfFile readGltf(const fs::path& path) {
     GltfFile file;
     file.path = path;
     const std::string name = path.string();
-    const std::vector<std::byte> content = readFile(path, kMaxFileBytes);
+    const std::vector<std::byte> content = readFile(path, kMaxGlbBytes);
     const std::string_view text = textOf(content, name);
     {
         const nlohmann::json document = parseJson(text, name);
@@ -161,7 +161,7 @@ GltfFile readGltf(const fs::path& path) {
                 if (uri && uri->string().rfind("data:", 0) != 0) besideGltf(path, uri->string());
             });
     }
-    Reader reader{path, content.size(), nullptr};
+    FileReader reader{path, content.size(), nullptr};
     tinygltf::TinyGLTF parser;
     parser.SetFsCallbacks(callbacksFor(reader));
     parser.SetImageLoader(keepEncoded, nullptr);

@@ -20,7 +20,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::size_t kManyVertices = 1u << 14; // of which attributes are read at the same time
+constexpr std::size_t kEnoughForThreads = 1u << 14; // of which attributes are read at the same time
 
 std::optional<int> attribute(const std::map<std::string, int>& attributes, const char* name) {
     const auto found = attributes.find(name);
@@ -182,7 +182,7 @@ MeshData readPrimitive(const GltfFile& file, const tinygltf::Primitive& primitiv
             if (const auto colors = reader.find("COLOR_0")) mesh.colors = readColors(file, *colors, elements);
         },
     };
-    parallelFor(count < kManyVertices ? 1 : 0, std::size(parts), [&](std::size_t i) { parts[i](); });
+    parallelFor(count < kEnoughForThreads ? 1 : 0, std::size(parts), [&](std::size_t i) { parts[i](); });
     if (use.isOpaque)
         for (glm::dvec4& color : mesh.colors) color.a = 1;
     const bool needsTangents = use.tangentSet && !(*use.tangentSet == 0 ? mesh.uvs : mesh.uvs2).empty();

@@ -15,7 +15,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{4} << 30;
+constexpr std::uint64_t kMaxSceneBytes = std::uint64_t{4} << 30;
 
 CameraDesc readCamera(const JsonNode& node) {
     node.expectKeys({"look_from", "look_at", "up", "vertical_fov", "defocus_angle", "focus_distance"});
@@ -148,7 +148,7 @@ SceneDesc parseScene(std::string_view text, const std::string& file, const std::
 }
 
 SceneDesc loadSceneFile(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    const std::vector<std::byte> bytes = readFile(path, kMaxSceneBytes);
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     SceneDesc scene = parseScene(text, path.string(), path.parent_path());
     scene.id = path.filename().string();

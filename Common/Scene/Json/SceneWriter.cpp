@@ -14,7 +14,7 @@ namespace rt::scene {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr std::size_t kLineWidth = 120;
 
@@ -22,11 +22,11 @@ constexpr std::size_t kLineWidth = 120;
 
 // Whole numbers without their fraction. Only texts can be what JSON cannot hold: paths, as names have been made
 // printable.
-std::string scalar(const Json& value) {
+std::string scalar(const OrderedJson& value) {
     std::string text;
     try {
         text = value.dump();
-    } catch (const Json::type_error&) {
+    } catch (const OrderedJson::type_error&) {
         throw InputError("a scene file cannot hold \"" + printable(value.get_ref<const std::string&>()) +
                          "\": it must be valid UTF-8");
     }
@@ -36,7 +36,7 @@ std::string scalar(const Json& value) {
 }
 
 // On one line with spaces after separators; gives up and returns false once it gets longer than a line.
-bool writeInline(const Json& value, std::size_t limit, std::string& out) {
+bool writeInline(const OrderedJson& value, std::size_t limit, std::string& out) {
     if (!value.is_structured()) {
         out += scalar(value);
         return out.size() <= limit;
@@ -46,14 +46,14 @@ bool writeInline(const Json& value, std::size_t limit, std::string& out) {
     for (auto member = value.begin(); member != value.end(); ++member) {
         if (!first) out += ", ";
         first = false;
-        if (value.is_object()) out += scalar(Json(member.key())) + ": ";
+        if (value.is_object()) out += scalar(OrderedJson(member.key())) + ": ";
         if (!writeInline(*member, limit, out)) return false;
     }
     out += value.is_object() ? '}' : ']';
     return out.size() <= limit;
 }
 
-void writeNumbers(const Json& numbers, const std::string& indent, std::string& out) {
+void writeNumbers(const OrderedJson& numbers, const std::string& indent, std::string& out) {
     std::size_t width = kLineWidth;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::string text = scalar(numbers[i]);
@@ -69,7 +69,7 @@ void writeNumbers(const Json& numbers, const std::string& indent, std::string& o
     }
 }
 
-void write(const Json& value, const std::string& indent, std::string& out) {
+void write(const OrderedJson& value, const std::string& indent, std::string& out) {
     std::string line;
     if (writeInline(value, kLineWidth - std::min(indent.size(), kLineWidth / 2), line)) {
         out += line;
@@ -88,7 +88,7 @@ void write(const Json& value, const std::string& indent, std::string& out) {
         for (auto member = value.begin(); member != value.end(); ++member) {
             out += (first ? "\n" : ",\n") + inner;
             first = false;
-            if (value.is_object()) out += scalar(Json(member.key())) + ": ";
+            if (value.is_object()) out += scalar(OrderedJson(member.key())) + ": ";
             write(*member, inner, out);
         }
     }
@@ -97,25 +97,25 @@ void write(const Json& value, const std::string& indent, std::string& out) {
 
 // ---- values --------------------------------------------------------------------------------------------------------
 
-Json json(const glm::dvec3& v) {
-    return Json::array({v.x, v.y, v.z});
+OrderedJson json(const glm::dvec3& v) {
+    return OrderedJson::array({v.x, v.y, v.z});
 }
 
-Json json(const ColorOrTexture& source) {
+OrderedJson json(const ColorOrTexture& source) {
     if (const auto* color = std::get_if<glm::dvec3>(&source)) return json(*color);
     return std::get<std::string>(source);
 }
 
 template <typename Vector>
-Json flat(const std::vector<Vector>& vectors) {
-    Json numbers = Json::array();
+OrderedJson flat(const std::vector<Vector>& vectors) {
+    OrderedJson numbers = OrderedJson::array();
     for (const Vector& v : vectors)
         for (int i = 0; i < v.length(); ++i) numbers.push_back(v[i]);
     return numbers;
 }
 
 template <typename Value>
-void setUnless(Json& target, const char* key, const Value& value, const Value& usual) {
+void setUnless(OrderedJson& target, const char* key, const Value& value, const Value& usual) {
     if (value == usual) return;
     if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture>)
         target[key] = json(value);
@@ -123,7 +123,7 @@ void setUnless(Json& target, const char* key, const Value& value, const Value& u
         target[key] = value;
 }
 
-Json json(const CameraDesc& camera) {
+OrderedJson json(const CameraDesc& camera) {
     return {{"look_from", json(camera.lookFrom)},
             {"look_at", json(camera.lookAt)},
             {"up", json(camera.up)},
@@ -132,13 +132,13 @@ Json json(const CameraDesc& camera) {
             {"focus_distance", camera.focusDistance}};
 }
 
-Json json(const Background& background) {
+OrderedJson json(const Background& background) {
     if (const auto* constant = std::get_if<ConstantBackground>(&background))
         return {{"type", "constant"}, {"color", json(constant->color)}};
     if (const auto* gradient = std::get_if<GradientBackground>(&background))
         return {{"type", "gradient"}, {"bottom", json(gradient->bottom)}, {"top", json(gradient->top)}};
     const auto& image = std::get<ImageBackground>(background);
-    Json out = {{"type", "image"}, {"file", image.file}};
+    OrderedJson out = {{"type", "image"}, {"file", image.file}};
     setUnless(out, "factor", image.factor, glm::dvec3(1));
     setUnless(out, "rotation", image.rotation, 0.0);
     return out;
@@ -146,7 +146,7 @@ Json json(const Background& background) {
 
 // ---- appearance ----------------------------------------------------------------------------------------------------
 
-Json json(const NumberOrTexture& number) {
+OrderedJson json(const NumberOrTexture& number) {
     if (number.texture.empty()) return number.factor;
     return {{"texture", number.texture},
             {"channel", channelNames().at(static_cast<std::size_t>(number.channel))},
@@ -154,7 +154,7 @@ Json json(const NumberOrTexture& number) {
 }
 
 template <typename Value>
-Json json(const SceneParameter& parameter, const Value& value) {
+OrderedJson json(const SceneParameter& parameter, const Value& value) {
     if constexpr (std::is_enum_v<Value>)
         return parameter.choices().at(static_cast<std::size_t>(value));
     else if constexpr (std::is_same_v<Value, glm::dvec3> || std::is_same_v<Value, ColorOrTexture> ||
@@ -167,11 +167,11 @@ Json json(const SceneParameter& parameter, const Value& value) {
         return value;
 }
 
-Json json(const TextureDesc& desc) {
+OrderedJson json(const TextureDesc& desc) {
     return std::visit(
         []<typename Texture>(const Texture& texture) {
             const Texture usual;
-            Json out = {{"type", TextureType<Texture>::name}};
+            OrderedJson out = {{"type", TextureType<Texture>::name}};
             TextureType<Texture>::forEachParameter([&](const SceneParameter& p, auto member) {
                 if (p.isRequired || texture.*member != usual.*member) out[p.name] = json(p, texture.*member);
             });
@@ -180,10 +180,10 @@ Json json(const TextureDesc& desc) {
         desc);
 }
 
-Json json(const MaterialDesc& material) {
+OrderedJson json(const MaterialDesc& material) {
     const MaterialDesc usual;
     const MaterialType& type = materialType(material.kind);
-    Json out = {{"type", type.name}};
+    OrderedJson out = {{"type", type.name}};
     if (const MaterialParameter* color = colorOf(type))
         if (color->isRequired || material.albedo != usual.albedo) out[color->name] = json(material.albedo);
     forEachNumber(type, [&](const MaterialParameter& parameter, std::size_t i) {
@@ -203,56 +203,56 @@ Json json(const MaterialDesc& material) {
 
 // ---- objects -------------------------------------------------------------------------------------------------------
 
-Json json(const Transform& transform) {
+OrderedJson json(const Transform& transform) {
     struct Step {
-        Json operator()(const Translate& step) const { return {{"translate", json(step.offset)}}; }
-        Json operator()(const Rotate& step) const {
+        OrderedJson operator()(const Translate& step) const { return {{"translate", json(step.offset)}}; }
+        OrderedJson operator()(const Rotate& step) const {
             return {{"rotate", {{"axis", json(step.axis)}, {"degrees", step.degrees}}}};
         }
-        Json operator()(const Scale& step) const { return {{"scale", json(step.factors)}}; }
-        Json operator()(const Matrix& step) const { return {{"matrix", step.rows}}; }
+        OrderedJson operator()(const Scale& step) const { return {{"scale", json(step.factors)}}; }
+        OrderedJson operator()(const Matrix& step) const { return {{"matrix", step.rows}}; }
     };
-    Json steps = Json::array();
+    OrderedJson steps = OrderedJson::array();
     for (const auto& step : transform) steps.push_back(std::visit(Step{}, step));
     return steps;
 }
 
-Json json(const std::vector<ObjectDesc>& objects);
+OrderedJson json(const std::vector<ObjectDesc>& objects);
 
 template <typename Surface>
-Json withSurface(Json out, const Surface& surface) {
+OrderedJson withSurface(OrderedJson out, const Surface& surface) {
     setUnless(out, "material", surface.material, std::string());
     setUnless(out, "light", surface.light, true);
     return out;
 }
 
-Json json(const SphereBoundary& sphere) {
+OrderedJson json(const SphereBoundary& sphere) {
     return {{"type", "sphere"}, {"center", json(sphere.center)}, {"radius", sphere.radius}};
 }
-Json json(const BoxBoundary& box) {
+OrderedJson json(const BoxBoundary& box) {
     return {{"type", "box"}, {"min", json(box.min)}, {"max", json(box.max)}};
 }
-Json json(const QuadDesc& quad) {
+OrderedJson json(const QuadDesc& quad) {
     return withSurface(
         {{"type", "quad"}, {"corner", json(quad.corner)}, {"edge_u", json(quad.edgeU)}, {"edge_v", json(quad.edgeV)}},
         quad);
 }
-Json json(const SphereDesc& sphere) {
-    Json out = {{"type", "sphere"}, {"center", json(sphere.center)}};
+OrderedJson json(const SphereDesc& sphere) {
+    OrderedJson out = {{"type", "sphere"}, {"center", json(sphere.center)}};
     if (sphere.centerEnd) out["center_end"] = json(*sphere.centerEnd);
     out["radius"] = sphere.radius;
     return withSurface(std::move(out), sphere);
 }
-Json json(const SphereSetDesc& spheres) {
-    Json out = withSurface({{"type", "spheres"}, {"radius", spheres.radius}}, spheres);
+OrderedJson json(const SphereSetDesc& spheres) {
+    OrderedJson out = withSurface({{"type", "spheres"}, {"radius", spheres.radius}}, spheres);
     out["centers"] = flat(spheres.centers);
     return out;
 }
-Json json(const BoxDesc& box) {
+OrderedJson json(const BoxDesc& box) {
     return withSurface({{"type", "box"}, {"min", json(box.min)}, {"max", json(box.max)}}, box);
 }
-Json json(const MeshDesc& mesh) {
-    Json out = {{"type", "mesh"}};
+OrderedJson json(const MeshDesc& mesh) {
+    OrderedJson out = {{"type", "mesh"}};
     if (const auto* source = std::get_if<MeshFile>(&mesh.source)) {
         out["file"] = source->file;
         setUnless(out, "stand_in", source->standIn, std::string());
@@ -269,58 +269,58 @@ Json json(const MeshDesc& mesh) {
     out["triangles"] = flat(data.triangles);
     return out;
 }
-Json json(const MediumDesc& medium) {
-    const Json boundary = std::visit([](const auto& shape) { return json(shape); }, medium.boundary);
-    Json out = {{"type", "medium"}, {"boundary", boundary}, {"density", medium.density}};
+OrderedJson json(const MediumDesc& medium) {
+    const OrderedJson boundary = std::visit([](const auto& shape) { return json(shape); }, medium.boundary);
+    OrderedJson out = {{"type", "medium"}, {"boundary", boundary}, {"density", medium.density}};
     setUnless(out, "albedo", medium.albedo, MediumDesc().albedo);
     return out;
 }
-Json json(const PointLightDesc& light) {
+OrderedJson json(const PointLightDesc& light) {
     return {{"type", "point_light"}, {"position", json(light.position)}, {"intensity", json(light.intensity)}};
 }
-Json json(const SpotLightDesc& light) {
+OrderedJson json(const SpotLightDesc& light) {
     const SpotLightDesc usual;
-    Json out = {{"type", "spot_light"},
-                {"position", json(light.position)},
-                {"direction", json(light.direction)},
-                {"intensity", json(light.intensity)}};
+    OrderedJson out = {{"type", "spot_light"},
+                       {"position", json(light.position)},
+                       {"direction", json(light.direction)},
+                       {"intensity", json(light.intensity)}};
     setUnless(out, "inner_angle", light.innerAngle, usual.innerAngle);
     setUnless(out, "outer_angle", light.outerAngle, usual.outerAngle);
     return out;
 }
-Json json(const DirectionalLightDesc& light) {
+OrderedJson json(const DirectionalLightDesc& light) {
     return {
         {"type", "directional_light"}, {"direction", json(light.direction)}, {"irradiance", json(light.irradiance)}};
 }
-Json json(const GroupDesc& group) {
-    Json out = {{"type", "group"}};
+OrderedJson json(const GroupDesc& group) {
+    OrderedJson out = {{"type", "group"}};
     if (!group.transform.empty()) out["transform"] = json(group.transform);
     out["objects"] = json(group.objects);
     return out;
 }
-Json json(const InstanceDesc& instance) {
-    Json out = {{"type", "instance"}, {"prototype", instance.prototype}};
+OrderedJson json(const InstanceDesc& instance) {
+    OrderedJson out = {{"type", "instance"}, {"prototype", instance.prototype}};
     if (!instance.transform.empty()) out["transform"] = json(instance.transform);
     setUnless(out, "material", instance.material, std::string());
     return out;
 }
 
-Json json(const std::vector<ObjectDesc>& objects) {
-    Json out = Json::array();
+OrderedJson json(const std::vector<ObjectDesc>& objects) {
+    OrderedJson out = OrderedJson::array();
     for (const ObjectDesc& object : objects)
         out.push_back(std::visit([](const auto& shape) { return json(shape); }, object.shape));
     return out;
 }
 
 template <typename Value>
-void setSection(Json& target, const char* key, const std::map<std::string, Value>& section) {
+void setSection(OrderedJson& target, const char* key, const std::map<std::string, Value>& section) {
     for (const auto& [name, value] : section) target[key][name] = json(value);
 }
 
 } // namespace
 
 std::string toJson(const SceneDesc& scene) {
-    Json out = {{"version", 1}};
+    OrderedJson out = {{"version", 1}};
     setUnless(out, "title", scene.title, std::string());
     out["camera"] = json(scene.camera);
     setSection(out, "cameras", scene.cameras);

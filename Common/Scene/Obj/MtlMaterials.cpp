@@ -20,7 +20,7 @@ constexpr double kUsualRoughness = 0.5;   // of the PBR extension
 constexpr double kSheenRoughness = 0.5;   // which the PBR extension does not have
 constexpr double kLargestExponent = 1000; // of the format
 
-double share(double value) {
+double fraction(double value) {
     return std::clamp(value, 0.0, 1.0);
 }
 
@@ -133,8 +133,8 @@ ColorOrTexture MtlMaterials::color(const glm::dvec3& factor, const MtlMap& map, 
 NumberOrTexture MtlMaterials::number(std::optional<double> factor, double usual, const MtlMap& map,
                                      const char* keyword) {
     const std::string name = texture(map, keyword, ColorSpace::Linear, glm::dvec3(1));
-    if (name.empty()) return {share(factor.value_or(usual)), {}, Channel::Red};
-    const double scale = share(factor.value_or(1));
+    if (name.empty()) return {fraction(factor.value_or(usual)), {}, Channel::Red};
+    const double scale = fraction(factor.value_or(1));
     return {scale == 0 ? 1 : scale, name, Channel::Red};
 }
 
@@ -203,7 +203,7 @@ MaterialDesc MtlMaterials::mirror(const MtlMaterial& source) {
     if (isPlain) {
         material.kind = MaterialKind::Metal;
         material.albedo = tint;
-        material.parameters[shared::kMetalFuzz] = share(source.roughness.value_or(0));
+        material.parameters[shared::kMetalFuzz] = fraction(source.roughness.value_or(0));
         return material;
     }
     material.kind = MaterialKind::Principled;
@@ -230,7 +230,7 @@ MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
     p.metallic = number(source.metallic, 0, source.metallicMap, "map_Pm");
     p.ior = iorOf(source);
     double roughness = usesPbr(source) ? kUsualRoughness : 1;
-    if (source.exponent) roughness = 1 - std::sqrt(share(*source.exponent / kLargestExponent));
+    if (source.exponent) roughness = 1 - std::sqrt(fraction(*source.exponent / kLargestExponent));
     p.roughness = number(source.roughness, roughness, source.roughnessMap, "map_Pr");
     if (isShinyHere) {
         const glm::dvec3 specular = colorOf(source.specular, glm::dvec3(0));
@@ -251,9 +251,9 @@ MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
 void MtlMaterials::addLayers(const MtlMaterial& source, MaterialDesc& material) {
     PrincipledDesc& p = material.principled;
     if (!isLayered(source)) return;
-    p.clearcoat.factor = share(source.clearcoat.value_or(0));
-    p.clearcoatRoughness.factor = share(source.clearcoatRoughness.value_or(0));
-    p.sheenColor = color(glm::dvec3(share(source.sheen.value_or(0))), source.sheenMap, "map_Ps", ColorSpace::Linear);
+    p.clearcoat.factor = fraction(source.clearcoat.value_or(0));
+    p.clearcoatRoughness.factor = fraction(source.clearcoatRoughness.value_or(0));
+    p.sheenColor = color(glm::dvec3(fraction(source.sheen.value_or(0))), source.sheenMap, "map_Ps", ColorSpace::Linear);
     p.sheenRoughness.factor = kSheenRoughness;
 }
 

@@ -51,9 +51,9 @@ class MemoryBuffer : public std::streambuf {
 };
 
 // Receives the parser's events.
-class Builder : public tinyobj::MaterialReader {
+class ObjBuilder : public tinyobj::MaterialReader {
   public:
-    Builder(const fs::path& path, const MemoryBuffer& buffer, bool withColors, const std::string& prefix)
+    ObjBuilder(const fs::path& path, const MemoryBuffer& buffer, bool withColors, const std::string& prefix)
         : path_(path), buffer_(buffer), withColors_(withColors), materials_(path.parent_path(), prefix, model_) {
         numbers_.imbue(std::locale::classic());
     }
@@ -308,8 +308,8 @@ class Builder : public tinyobj::MaterialReader {
     std::vector<std::uint32_t> renamed_;
 };
 
-Builder& builder(void* user) {
-    return *static_cast<Builder*>(user);
+ObjBuilder& builder(void* user) {
+    return *static_cast<ObjBuilder*>(user);
 }
 
 } // namespace
@@ -324,7 +324,7 @@ ObjModel loadObj(const fs::path& path, bool withMaterials, const std::string& pr
     std::vector<std::byte> bytes = readText(path);
     MemoryBuffer buffer(bytes);
     std::istream stream(&buffer);
-    Builder target(path, buffer, withMaterials, prefix);
+    ObjBuilder target(path, buffer, withMaterials, prefix);
     tinyobj::callback_t events;
     events.vertex_cb = [](void* user, float x, float y, float z, float) { builder(user).addPosition(x, y, z); };
     events.normal_cb = [](void* user, float x, float y, float z) { builder(user).addNormal(x, y, z); };

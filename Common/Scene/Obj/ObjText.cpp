@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{16} << 30;
+constexpr std::uint64_t kMaxObjBytes = std::uint64_t{16} << 30;
 constexpr std::uint32_t kReplacement = 0xfffd; // for what is no character
 
 void appendUtf8(std::uint32_t code, std::vector<std::byte>& out) {
@@ -91,7 +91,7 @@ LeftOuts countLeftOut(std::string_view text) {
 } // namespace
 
 std::vector<std::byte> readText(const fs::path& path) {
-    std::vector<std::byte> bytes = readFile(path, kMaxFileBytes);
+    std::vector<std::byte> bytes = readFile(path, kMaxObjBytes);
     const auto beginsWith = [&bytes](std::initializer_list<std::uint8_t> mark) {
         return bytes.size() >= mark.size() &&
                std::equal(mark.begin(), mark.end(), bytes.begin(),
