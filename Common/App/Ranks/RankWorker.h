@@ -13,6 +13,7 @@ namespace rt::app {
 struct RankLink {
     std::function<void(Message, TilesToPack)> send;  // the message's tiles, where there are any, are still to be packed
     std::function<std::optional<Message>()> receive; // does not wait
+    std::function<void()> wait;                      // until there is something to receive
 };
 
 // Until rank 0 ends it. The engine has its scene, and a film that was reset to these settings and has no samples: what

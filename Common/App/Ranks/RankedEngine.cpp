@@ -130,7 +130,7 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
         if (isBusy)
             idle_.wake();
         else
-            idle_.rest();
+            localRank_->wait(idle_.next());
     }
     sampling_ += watch.seconds();
     return status();
@@ -244,6 +244,7 @@ void RankedEngine::takeResult(std::size_t rank, const Message& message) {
     const double busy = message.fields.at("busy");
     state.figures.samples += samples;
     state.figures.busySeconds += busy;
+    idle_.leaseTook(busy);
     pool_->giveBack(rank, message.fields.at("id"), samples, busy, clock_.seconds());
 }
 
