@@ -50,7 +50,7 @@ class Worker {
         if (secondMoments == settings_.secondMoments && sppIsKnown == settings_.sppIsKnown) return;
         settings_.secondMoments = secondMoments;
         settings_.sppIsKnown = sppIsKnown;
-        engine_.reset(scene_.camera, settings_);
+        engine_.resetForLeases(scene_.camera, settings_);
     }
 
     // One lease, or all. What was not begun goes back at once.
