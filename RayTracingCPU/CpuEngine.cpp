@@ -123,19 +123,13 @@ class CpuEngine final : public app::Engine {
     }
 
     void reset(const scene::CameraDesc& camera, const app::RenderSettings& settings) override {
-        const scene::CompiledScene& s = *scene_->compiled;
-        features_ = app::renderFeatures(s, camera, settings);
-        kernel_ = &chooseKernel(kernels_, features_);
-        settings_ = settings;
-        context_ = {&scene_->view, app::makeRenderParams(s, settings),
-                    scene::makeCamera(camera, settings.width, settings.height, s.origin)};
-        film_ = Film(app::filmDesc(settings));
+        begin(camera, settings, Film(app::filmDesc(settings)));
         tiles_ = image::allTiles(film_);
-        limit_.reset();
-        passEnd_ = 0;
-        nextTile_ = kNoTile;
-        counters_ = {};
-        report_.renderDeviceSeconds = 0;
+    }
+
+    void resetForLeases(const scene::CameraDesc& camera, const app::RenderSettings& settings) override {
+        begin(camera, settings, Film::part(app::filmDesc(settings)));
+        tiles_.clear();
     }
 
     void restore(image::Film film) override {
@@ -144,6 +138,7 @@ class CpuEngine final : public app::Engine {
     }
 
     void renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) override {
+        if (film_.isPart()) film_.hold(tiles);
         image::unpackTiles(packed, film_);
         tiles_ = std::move(tiles);
         limit_ = spp;
@@ -213,6 +208,21 @@ class CpuEngine final : public app::Engine {
     }
 
   private:
+    void begin(const scene::CameraDesc& camera, const app::RenderSettings& settings, Film film) {
+        const scene::CompiledScene& s = *scene_->compiled;
+        features_ = app::renderFeatures(s, camera, settings);
+        kernel_ = &chooseKernel(kernels_, features_);
+        settings_ = settings;
+        context_ = {&scene_->view, app::makeRenderParams(s, settings),
+                    scene::makeCamera(camera, settings.width, settings.height, s.origin)};
+        film_ = std::move(film);
+        limit_.reset();
+        passEnd_ = 0;
+        nextTile_ = kNoTile;
+        counters_ = {};
+        report_.renderDeviceSeconds = 0;
+    }
+
     // Rays or seconds a sample.
     float pixelCost(app::Cost cost, std::uint32_t x, std::uint32_t y, std::uint32_t samples) const {
         using Clock = std::chrono::steady_clock;

@@ -39,6 +39,13 @@ void checkSide(const char* what, std::uint32_t side) {
                          std::to_string(kMaxImageSide));
 }
 
+void check(const FilmDesc& desc) {
+    checkSide("width", desc.width);
+    checkSide("height", desc.height);
+    if (desc.replicates < 1) throw UsageError("replicates 0 is less than 1");
+    if (desc.adaptive && desc.replicates % 2 != 0) throw UsageError("an adaptive film's replicates are not even");
+}
+
 // All rows of a film, on all threads.
 Image allRows(const ImageRows& rows) {
     constexpr std::size_t kRows = 16; // that a thread takes at a time
@@ -55,13 +62,37 @@ Image allRows(const ImageRows& rows) {
 } // namespace
 
 Film::Film(const FilmDesc& desc) : desc_(desc) {
-    checkSide("width", desc.width);
-    checkSide("height", desc.height);
-    if (desc.replicates < 1) throw UsageError("replicates 0 is less than 1");
-    if (desc.adaptive && desc.replicates % 2 != 0) throw UsageError("an adaptive film's replicates are not even");
-    allocateFor(sums_, slotCount() * kTileValues, desc); // the largest first: what cannot be had is refused untouched
-    allocateFor(samples_, slotCount(), desc);
-    if (desc.secondMoments || desc.adaptive) allocateFor(squares_, slotCount() * kTileValues, desc);
+    check(desc);
+    tilesHeld_ = tileCount();
+    allocateSlots();
+}
+
+Film Film::part(const FilmDesc& desc) {
+    check(desc);
+    Film film;
+    film.desc_ = desc;
+    film.places_.assign(film.tileCount(), kNowhere);
+    return film;
+}
+
+void Film::hold(std::span<const std::uint32_t> tiles) {
+    if (!isPart()) throw std::logic_error("the film is not a part of one");
+    std::fill(places_.begin(), places_.end(), kNowhere);
+    tilesHeld_ = 0;
+    for (const std::uint32_t tile : tiles) places_.at(tile) = tilesHeld_++;
+    samples_.clear();
+    sums_.clear();
+    squares_.clear();
+    open_.clear();
+    plan_.clear();
+    ends_.clear();
+    allocateSlots();
+}
+
+void Film::allocateSlots() {
+    allocateFor(sums_, slotCount() * kTileValues, desc_); // the largest first: what cannot be had is refused untouched
+    allocateFor(samples_, slotCount(), desc_);
+    if (desc_.secondMoments || desc_.adaptive) allocateFor(squares_, slotCount() * kTileValues, desc_);
 }
 
 std::uint64_t Film::samples(std::uint32_t tile) const {
@@ -218,7 +249,7 @@ Image Film::sampleCounts() const {
 }
 
 std::uint64_t Film::bytes() const {
-    return samples_.capacity() * sizeof(samples_[0]) + sums_.capacity() * sizeof(sums_[0]) +
+    return (places_.capacity() + samples_.capacity()) * sizeof(samples_[0]) + sums_.capacity() * sizeof(sums_[0]) +
            squares_.capacity() * sizeof(squares_[0]) + open_.capacity() * sizeof(open_[0]) +
            (plan_.capacity() + ends_.capacity()) * sizeof(plan_[0]);
 }

@@ -45,6 +45,15 @@ class Film {
 
     Film() = default;
     explicit Film(const FilmDesc& desc); // throws UsageError for a bad size, RenderError when memory does not suffice
+    // A film of such an image that has room for no tile, until hold(). Of a part of an image only that may be asked for
+    // which names tiles, and those that it holds. Throws UsageError for a bad size.
+    static Film part(const FilmDesc& desc);
+    // Of a part: forgets all that it has and holds these tiles, without samples or plan. Memory is kept for the next
+    // ones. Throws RenderError when it does not suffice.
+    void hold(std::span<const std::uint32_t> tiles);
+    bool isPart() const { return !places_.empty(); }
+    // Whether the tile is one of the image, and of the part if this is one.
+    bool holds(std::uint32_t tile) const { return tile < tileCount() && (!isPart() || places_[tile] != kNowhere); }
 
     const FilmDesc& desc() const { return desc_; }
     std::uint32_t tilesX() const { return (desc_.width + kTile - 1) / kTile; }
@@ -136,15 +145,19 @@ class Film {
 
   private:
     static constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
+    static constexpr std::uint32_t kNowhere = ~0u;
 
+    void allocateSlots();
     std::size_t slot(std::uint32_t tile, std::uint32_t replicate) const {
-        return std::size_t{tile} * desc_.replicates + replicate;
+        return std::size_t{isPart() ? places_[tile] : tile} * desc_.replicates + replicate;
     }
-    std::size_t slotCount() const { return std::size_t{tileCount()} * desc_.replicates; }
+    std::size_t slotCount() const { return std::size_t{tilesHeld_} * desc_.replicates; }
     std::span<const float> openBlock(std::size_t slot) const; // empty unless the slot has an unfilled block
     void setEnds();
 
     FilmDesc desc_;
+    std::uint32_t tilesHeld_ = 0;
+    std::vector<std::uint32_t> places_;  // of a part, per tile of the image: its position among those held, or kNowhere
     std::vector<std::uint32_t> samples_; // per slot; modulo kBlock it is the size of the slot's open block
     std::vector<double> sums_;           // kTileValues per slot: all closed blocks
     std::vector<double> squares_;        // likewise, see TileState

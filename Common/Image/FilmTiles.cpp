@@ -160,7 +160,7 @@ TileList unpackTiles(std::span<const std::byte> bytes, Film& film) {
     for (TileReader reader(bytes); !reader.atEnd();) {
         Header header;
         reader.read(std::span(&header, 1));
-        if (header.tile >= film.tileCount() || header.replicate >= desc.replicates ||
+        if (!film.holds(header.tile) || header.replicate >= desc.replicates ||
             (header.isPlanned != 0 && !desc.adaptive))
             throw RenderError("tiles of another film were received");
         if (tiles.empty() || tiles.back() != header.tile) tiles.push_back(header.tile);

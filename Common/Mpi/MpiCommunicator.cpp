@@ -1,5 +1,6 @@
 // Ranks over MPI. A library of its own that is loaded when mpirun has started the program, so that the programs run
 // where there is no MPI.
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <list>
@@ -24,7 +25,7 @@ namespace rt::app {
 namespace {
 
 constexpr std::chrono::milliseconds kPush{20};
-constexpr std::chrono::microseconds kPushPause{100};
+constexpr std::chrono::microseconds kShortestPushPause{100}, kLongestPushPause{1600};
 
 // MPI's default is to end all ranks when one of its calls fails, so results are not looked at.
 class MpiCommunicator final : public Communicator {
@@ -84,12 +85,13 @@ class MpiCommunicator final : public Communicator {
 
     // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is asleep
     // between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped. The pauses leave the
-    // processor to threads that render.
+    // processor to threads that render, the longer the longer rank 0 does not look.
     void push() {
         const auto begin = std::chrono::steady_clock::now();
+        auto pause = kShortestPushPause;
         forgetSent();
         while (rank_ != 0 && !sending_.empty() && std::chrono::steady_clock::now() - begin < kPush) {
-            std::this_thread::sleep_for(kPushPause);
+            std::this_thread::sleep_for(std::exchange(pause, std::min(2 * pause, kLongestPushPause)));
             forgetSent();
         }
     }

@@ -108,6 +108,53 @@ TEST(FilmTiles, PlansTravelWithTheirTiles) {
     EXPECT_THROW(unpackTiles(packTiles(planned, some), uniform), RenderError);
 }
 
+// As a rank does with one lease after the other: nothing of the one before is left.
+TEST(FilmTiles, PartsHoldWhatTheyAreToldTo) {
+    for (const FilmDesc& desc :
+         {FilmDesc{33, 20, 1, true}, FilmDesc{33, 20, 3, false}, FilmDesc{33, 20, 2, false, true}}) {
+        const Film film = makeFilm(desc);
+        Film part = Film::part(desc);
+        EXPECT_FALSE(part.holds(3));
+        Film joined(desc);
+        for (const TileList& tiles : {TileList{3}, TileList{0, 2, 7, 9, 14}, TileList{1, 4, 5, 6, 8, 10, 11, 12, 13}}) {
+            part.hold(tiles);
+            EXPECT_EQ(totalSamples(part, tiles), 0u);
+            EXPECT_EQ(missingSamples(part, tiles, 70), missingSamples(Film(desc), tiles, 70));
+            const auto packed = packTiles(film, tiles);
+            EXPECT_EQ(unpackTiles(packed, part), tiles);
+            EXPECT_TRUE(packTiles(part, tiles) == packed);
+            unpackTiles(packTiles(part, tiles), joined);
+        }
+        EXPECT_TRUE(sameBits(film, joined));
+        EXPECT_LT(part.bytes(), film.bytes());
+        EXPECT_TRUE(part.holds(13));
+        EXPECT_FALSE(part.holds(14));
+        EXPECT_FALSE(part.holds(film.tileCount()));
+        const TileList other = {14};
+        EXPECT_THROW(unpackTiles(packTiles(film, other), part), RenderError);
+    }
+}
+
+// A plan is forgotten as well.
+TEST(FilmTiles, PartsGoOnToAPlanAndBack) {
+    const FilmDesc desc{16, 16, 2, false, true};
+    Film planned = makeFilm(desc);
+    const auto pilot = packTiles(planned, TileList{2});
+    planned.setPlan(makePlan(planned));
+    Film part = Film::part(desc);
+    const TileList some = {1, 3}, other = {2};
+    part.hold(some);
+    EXPECT_TRUE(part.isPilot());
+    const auto packed = packTiles(planned, some);
+    unpackTiles(packed, part);
+    EXPECT_EQ(part.planEnd(3, 1), planned.planEnd(3, 1));
+    EXPECT_TRUE(packTiles(part, some) == packed);
+    part.hold(other);
+    EXPECT_TRUE(part.isPilot());
+    unpackTiles(pilot, part);
+    EXPECT_TRUE(packTiles(part, other) == pilot);
+}
+
 TEST(FilmTiles, BytesOfOtherFilmsAreRefused) {
     const Film film = makeFilm({64, 64, 1, false});
     const TileList last = {63};

@@ -1,5 +1,8 @@
 // The engine of a rank, on a thread of its own, so that it need not wait for messages to other ranks.
 #pragma once
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -17,8 +20,11 @@ template <class T>
 class Queue {
   public:
     void put(T message) {
-        const std::scoped_lock lock(mutex_);
-        messages_.push_back(std::move(message));
+        {
+            const std::scoped_lock lock(mutex_);
+            messages_.push_back(std::move(message));
+        }
+        arrived_.notify_one();
     }
     std::optional<T> take() {
         const std::scoped_lock lock(mutex_);
@@ -27,9 +33,20 @@ class Queue {
         messages_.pop_front();
         return message;
     }
+    // Until there is one.
+    void wait() {
+        std::unique_lock lock(mutex_);
+        arrived_.wait(lock, [this] { return !messages_.empty(); });
+    }
+    // Likewise, but not longer than that.
+    void wait(std::chrono::microseconds longest) {
+        std::unique_lock lock(mutex_);
+        arrived_.wait_for(lock, longest, [this] { return !messages_.empty(); });
+    }
 
   private:
     std::mutex mutex_;
+    std::condition_variable arrived_;
     std::deque<T> messages_;
 };
 
@@ -41,7 +58,7 @@ class LocalRank {
           link_{[this](Message message, TilesToPack tiles) {
                     outbox_.put({std::move(message), std::move(tiles)});
                 },
-                [this] { return inbox_.take(); }},
+                [this] { return inbox_.take(); }, [this] { inbox_.wait(); }},
           thread_([this, &engine, &scene, settings] { serve(engine, scene, settings); }) {}
     ~LocalRank() {
         inbox_.put({MessageKind::End, nullptr, {}});
@@ -59,6 +76,9 @@ class LocalRank {
         if (next->tiles) next->message.tiles = next->tiles();
         return std::move(next->message);
     }
+
+    // Until there is something to receive, but not longer than that.
+    void wait(std::chrono::microseconds longest) { outbox_.wait(longest); }
 
   private:
     struct Outgoing {
@@ -84,18 +104,26 @@ class LocalRank {
 // Takes messages from rank 0 to this rank, and back, until rank 0 ends it.
 inline void connect(LocalRank& rank, Communicator& ranks) {
     IdleWait idle(rank.processorsRender());
+    int leases = 0; // that the rank holds
     for (bool isEnd = false; !isEnd;) {
         bool any = false;
-        for (; auto message = rank.receive(); any = true) ranks.send(0, toBytes(std::move(*message)));
+        for (; auto message = rank.receive(); any = true) {
+            if (message->kind == MessageKind::Result) {
+                --leases;
+                idle.leaseTook(message->fields.at("busy"));
+            }
+            ranks.send(0, toBytes(std::move(*message)));
+        }
         for (std::optional<Received> received; !isEnd && (received = ranks.receive()); any = true) {
             Message message = toMessage(std::move(received->message));
             isEnd = message.kind == MessageKind::End;
+            if (message.kind == MessageKind::Lease) ++leases;
             rank.send(std::move(message));
         }
         if (any)
             idle.wake();
         else
-            idle.rest();
+            rank.wait(leases > 0 ? idle.next() : std::min<IdleWait::Time>(idle.next(), kPollInterval));
     }
 }
 

@@ -2,10 +2,8 @@
 
 #include <chrono>
 #include <deque>
-#include <thread>
 #include <utility>
 
-#include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Session/Stopwatch.h"
 
 namespace rt::app {
@@ -26,12 +24,9 @@ class Worker {
                      {"report", toJson(engine_.report())}},
                     {}},
                    nullptr);
-        IdleWait idle(engine_.report().threads > 0);
         while (!isEnd_) {
-            if (listen())
-                idle.wake();
-            else if (leases_.empty())
-                idle.rest();
+            if (leases_.empty()) link_.wait();
+            listen();
             if (leases_.empty() || isEnd_) continue;
             const Message lease = std::move(leases_.front());
             leases_.pop_front();
@@ -40,16 +35,14 @@ class Worker {
     }
 
   private:
-    // What has arrived; whether there was anything.
-    bool listen() {
-        bool any = false;
-        for (; std::optional<Message> message = link_.receive(); any = true) {
+    // To what has arrived.
+    void listen() {
+        while (std::optional<Message> message = link_.receive()) {
             if (message->kind == MessageKind::Begin) begin(message->fields);
             if (message->kind == MessageKind::Lease) leases_.push_back(std::move(*message));
             if (message->kind == MessageKind::Recall) recall(message->fields);
             if (message->kind == MessageKind::End) isEnd_ = true;
         }
-        return any;
     }
 
     void begin(const nlohmann::json& fields) {
@@ -57,7 +50,7 @@ class Worker {
         if (secondMoments == settings_.secondMoments && sppIsKnown == settings_.sppIsKnown) return;
         settings_.secondMoments = secondMoments;
         settings_.sppIsKnown = sppIsKnown;
-        engine_.reset(scene_.camera, settings_);
+        engine_.resetForLeases(scene_.camera, settings_);
     }
 
     // One lease, or all. What was not begun goes back at once.

@@ -13,10 +13,11 @@ namespace rt::app {
 struct RankLink {
     std::function<void(Message, TilesToPack)> send;  // the message's tiles, where there are any, are still to be packed
     std::function<std::optional<Message>()> receive; // does not wait
+    std::function<void()> wait;                      // until there is something to receive
 };
 
-// Until rank 0 ends it. The engine has its scene, and a film that was reset to these settings and has no samples: what
-// that takes is over before the first lease. Throws what the engine throws.
+// Until rank 0 ends it. The engine has its scene, and resetForLeases() was called with these settings: what that takes
+// is over before the first lease. Throws what the engine throws.
 void serveLeases(Engine& engine, const scene::CompiledScene& scene, const RenderSettings& settings,
                  const RankLink& link);
 

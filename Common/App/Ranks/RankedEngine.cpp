@@ -8,6 +8,7 @@
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Ranks/TilePool.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
@@ -99,9 +100,9 @@ class RankedEngine final : public Engine {
 };
 
 void RankedEngine::reset(const scene::CameraDesc& camera, const RenderSettings& settings) {
-    local_->reset(camera, settings); // whose failures are seen before anybody waits
+    local_->resetForLeases(camera, settings); // whose failures are seen before anybody waits
     settings_ = settings;
-    film_ = image::Film(local_->film().desc());
+    film_ = image::Film(filmDesc(settings));
     if (settings.spp % image::Film::kBlock != 0 || settings.replicates > 1) film_.reserveOpenBlocks();
     plan_ = {image::allTiles(film_), goal(), !settings.sppIsKnown};
     isPart_ = false;
@@ -130,7 +131,7 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
         if (isBusy)
             idle_.wake();
         else
-            idle_.rest();
+            localRank_->wait(idle_.next());
     }
     sampling_ += watch.seconds();
     return status();
@@ -244,6 +245,7 @@ void RankedEngine::takeResult(std::size_t rank, const Message& message) {
     const double busy = message.fields.at("busy");
     state.figures.samples += samples;
     state.figures.busySeconds += busy;
+    idle_.leaseTook(busy);
     pool_->giveBack(rank, message.fields.at("id"), samples, busy, clock_.seconds());
 }
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <thread>
+#include <utility>
 
 #include "Common/App/Ranks/Communicator.h"
 
@@ -13,26 +13,34 @@ namespace rt::app {
 
 inline constexpr std::chrono::milliseconds kPollInterval{1}; // of a rank that waits for messages: nearly idle
 
-// How a thread waits for messages: the longer none came, the longer it sleeps.
+// How long a thread that waits for messages of other ranks rests between two looks: the longer none came, the longer.
 class IdleWait {
   public:
+    using Time = std::chrono::microseconds;
+
     // Beside threads that render, whether on this rank or on others: every look takes MPI some microseconds of a
     // processor that has better things to do. Where devices render instead, a lease may take no longer than such a
     // rest.
     explicit IdleWait(bool processorsRender) : processorsRender_(processorsRender) {}
 
-    void rest() {
-        std::this_thread::sleep_for(interval_);
-        interval_ = std::min(2 * interval_, processorsRender_ ? kLongest : kLongestOfDevice);
+    Time next() { return std::exchange(interval_, std::min(2 * interval_, longest())); }
+    // A message has come.
+    void wake() { interval_ = first_; }
+    // A rank has worked so long at a lease: messages come about as often.
+    void leaseTook(double seconds) {
+        if (seconds <= 0) return;
+        const auto part = std::chrono::duration_cast<Time>(std::chrono::duration<double>(seconds * kPart));
+        first_ = std::clamp(part, kShortest, longest());
     }
-    void wake() { interval_ = kShortest; }
 
   private:
-    using Time = std::chrono::microseconds;
-    static constexpr Time kShortest{100}, kLongestOfDevice{200};
-    static constexpr Time kLongest{8000}; // far less than a lease takes, of which a rank holds two
+    static constexpr Time kShortest{100}, kLongest{20000}, kLongestOfDevice{200};
+    static constexpr double kPart = 0.25; // of a lease, of which a rank holds two
+
+    Time longest() const { return processorsRender_ ? kLongest : kLongestOfDevice; }
 
     bool processorsRender_;
+    Time first_ = kShortest; // after a message
     Time interval_ = kShortest;
 };
 

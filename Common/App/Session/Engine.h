@@ -125,6 +125,11 @@ struct Engine {
     virtual bool setScene(std::shared_ptr<const scene::CompiledScene> scene, const std::atomic<bool>* cancel) = 0;
     // Starts a new film.
     virtual void reset(const scene::CameraDesc& camera, const RenderSettings& settings) = 0;
+    // As reset(), for an engine that gets its tiles by renderOnly(), packed, before anything is asked of its film: of
+    // that it need keep those of the last call only.
+    virtual void resetForLeases(const scene::CameraDesc& camera, const RenderSettings& settings) {
+        reset(camera, settings);
+    }
     // After reset: goes on from this film, whose desc() must be that of the new one.
     virtual void restore(image::Film film) = 0;
     // After reset and restore: from now on only these tiles, and of them `spp` samples per pixel, at most those of the

@@ -81,7 +81,7 @@ class HeadlessRender {
         load();
         engine_ = makeEngine();
         engine_->setScene(scene_, nullptr);
-        engine_->reset(scene_->camera, options_.settings);
+        engine_->resetForLeases(scene_->camera, options_.settings);
         LocalRank rank(*engine_, *scene_, options_.settings);
         connect(rank, *ranks_);
     }
