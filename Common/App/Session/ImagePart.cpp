@@ -11,8 +11,8 @@ namespace {
 
 using image::Film;
 
-constexpr std::uint32_t kNeighbours =
-    4; // tiles side by side that go to one share: neighbours share what is in the cache
+// Tiles side by side that go to one share: they share what is in the cache.
+constexpr std::uint32_t kNeighbours = 4;
 
 // Runs of tiles go to the shares in turn, and a row of tiles begins one share further than the row above it, so that
 // what takes long in the image is spread over all shares.
