@@ -364,6 +364,7 @@ class StabilitySuite {
             double nonfinite = 0;
             for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::MisBalance,
                                         app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
+                if (sampling != app::LightSampling::Mis && !options_.everyEstimator) continue;
                 app::RenderSettings settings;
                 settings.lightSampling = sampling;
                 nonfinite += static_cast<double>(render(*compiled(id), 64, settings).nonfinite);

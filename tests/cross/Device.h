@@ -23,6 +23,11 @@ inline const auto kBothEngines = ::testing::Values(app::GpuEngineKind::Pipeline,
 inline const auto kFirstEngine = ::testing::Values(app::GpuEngineKind::Compute);
 inline const auto kSecondEngine = ::testing::Values(app::GpuEngineKind::Pipeline);
 
+// Whether the engine is that of nightly tests, which try what takes a driver's compiler long.
+inline bool isNightly(app::GpuEngineKind engine) {
+    return engine == app::GpuEngineKind::Pipeline;
+}
+
 inline std::string engineName(const ::testing::TestParamInfo<app::GpuEngineKind>& info) {
     return app::nameOf(app::kGpuEngines, info.param);
 }

@@ -1,7 +1,9 @@
 // Every built-in scene, every way of sampling lights: the GPU's images with their own random numbers against the CPU's.
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -20,13 +22,21 @@ namespace {
 constexpr std::uint32_t kEstimateSide = 16;
 constexpr std::uint32_t kSpp = 16;
 
-class EstimatorsTest : public ::testing::TestWithParam<std::size_t> {};
+constexpr app::LightSampling kEstimators[] = {app::LightSampling::Bsdf, app::LightSampling::Mixture,
+                                              app::LightSampling::Mis};
+
+// A scene by its index, and its estimators.
+struct SceneAndEstimators {
+    std::size_t scene = 0;
+    std::vector<app::LightSampling> estimators;
+};
+class EstimatorsTest : public ::testing::TestWithParam<SceneAndEstimators> {};
 
 // Bias that this can see: 4 standard errors of the difference, stated on failure; a tile that is some per cent off is a
 // discovery. Seeds are fixed. The CPU's image is the one of least variance: that all its estimators agree, tests/image
 // proves.
 TEST_P(EstimatorsTest, EnginesAgree) {
-    const scene::BuiltinScene& builtin = scene::builtinScenes()[GetParam()];
+    const scene::BuiltinScene& builtin = scene::builtinScenes()[GetParam().scene];
     std::string id(builtin.id);
     if (builtin.defaultCount > 200) id += ":200";
     scene::CompileOptions options;
@@ -37,7 +47,7 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     gpu->setScene(compiled, nullptr);
     cpu->setScene(compiled, nullptr);
     const auto reference = independentImages(*cpu, *compiled, app::LightSampling::Mis, kEstimateSide, kSpp, 6000);
-    for (const auto sampling : {app::LightSampling::Bsdf, app::LightSampling::Mixture, app::LightSampling::Mis}) {
+    for (const app::LightSampling sampling : GetParam().estimators) {
         const auto result =
             image::testImages(independentImages(*gpu, *compiled, sampling, kEstimateSide, kSpp, 5000), reference);
         SCOPED_TRACE(static_cast<int>(sampling));
@@ -47,20 +57,29 @@ TEST_P(EstimatorsTest, EnginesAgree) {
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
-std::string builtinName(const ::testing::TestParamInfo<std::size_t>& info) {
-    std::string name(scene::builtinScenes()[info.param].id);
+std::string builtinName(const ::testing::TestParamInfo<SceneAndEstimators>& info) {
+    std::string name(scene::builtinScenes()[info.param.scene].id);
     std::replace_if(
         name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
     return name;
 }
 
-// The CPU's estimators are compared on all scenes, and the engines with each other on all: half of the scenes suffice at
-// every change.
-constexpr std::size_t kSecond = 2;
-INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest,
-                         ::testing::Range(std::size_t{0}, scene::builtinScenes().size(), kSecond), builtinName);
-INSTANTIATE_TEST_SUITE_P(Nightly, EstimatorsTest,
-                         ::testing::Range(std::size_t{1}, scene::builtinScenes().size(), kSecond), builtinName);
+// The CPU's estimators are compared on all scenes, and the engines path by path on all: half of the scenes, each with the
+// next of the estimators, suffice at every change. Nightly tests have the rest.
+std::vector<SceneAndEstimators> scenesOf(bool nightly) {
+    std::vector<SceneAndEstimators> scenes;
+    for (std::size_t i = 0; i < scene::builtinScenes().size(); ++i) {
+        SceneAndEstimators all{i, {std::begin(kEstimators), std::end(kEstimators)}};
+        const bool isFirstHalf = i % 2 == 0;
+        const app::LightSampling next = kEstimators[i / 2 % std::size(kEstimators)];
+        if (isFirstHalf && nightly) std::erase(all.estimators, next);
+        if (isFirstHalf && !nightly) all.estimators = {next};
+        if (isFirstHalf || nightly) scenes.push_back(std::move(all));
+    }
+    return scenes;
+}
+INSTANTIATE_TEST_SUITE_P(Scenes, EstimatorsTest, ::testing::ValuesIn(scenesOf(false)), builtinName);
+INSTANTIATE_TEST_SUITE_P(Nightly, EstimatorsTest, ::testing::ValuesIn(scenesOf(true)), builtinName);
 
 } // namespace
 } // namespace rt::test

@@ -52,6 +52,11 @@ class ComparisonTest : public WindowTest {
         for (const app::RunRecord& record : runs) out << toJsonLine(record) << '\n';
     }
     fs::path historyFile() const { return folder_ / "config" / "ray-tracing" / "history.jsonl"; }
+    // No run is added, and nothing but the window is at work.
+    void startAndPause() {
+        start({"--spp", "1000000"});
+        if (!HasFatalFailure()) key("space");
+    }
     std::multiset<std::string> estimatorsInHistory() const {
         std::multiset<std::string> names;
         app::RunHistory history(historyFile());
@@ -105,7 +110,7 @@ TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
     const std::string cpu = "ray-tracing-cpu", gpu = "ray-tracing-gpu";
     keep({run(cpu, "bsdf", "2026-01-01T00:00:01Z"), run(cpu, "mis", "2026-01-01T00:00:02Z"),
           run(gpu, "mis", "2026-01-01T00:00:03Z")});
-    start({"--spp", "1000000"}); // no run is added
+    startAndPause();
     ASSERT_FALSE(HasFatalFailure());
     const ImVec4 cpuColor = gui::engineColor(false, app::ColorMode::Dark);
     const ImVec4 gpuColor = gui::engineColor(true, app::ColorMode::Dark);
@@ -154,7 +159,7 @@ TEST_P(ComparisonTest, TableAndChartAreLinked) {
     gpuRun.renderSeconds = 2;
     cpuRun.hasReference = gpuRun.hasReference = true; // points that are filled
     keep({cpuRun, gpuRun});
-    start({"--spp", "1000000"}); // no run is added
+    startAndPause();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
     ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
@@ -202,7 +207,7 @@ TEST_P(ComparisonTest, ColumnsCanBeChosen) {
     constexpr int kColumns = 9, kTime = 1, kLastItem = 840, kItem = 21;
     keep(
         {run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z"), run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z")});
-    start({"--spp", "1000000"}); // no run is added
+    startAndPause();
     ASSERT_FALSE(HasFatalFailure());
     key("F3");
     ASSERT_TRUE(eventually([&] { return isRowThere(1); }));
