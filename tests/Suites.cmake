@@ -19,9 +19,9 @@ function(add_suite suite cases)
     endif()
     add_test(${folder}.${suite} ${program} --gtest_brief=1 --gtest_filter=${suite}.*)
     set_tests_properties(${folder}.${suite} PROPERTIES COST ${cost} TIMEOUT 1800 LABELS "${folder};${tier}")
-    # Small renders: Mesa's software driver takes longer to optimise its code than that saves, measured for some of these
-    # suites with an empty cache of that driver. A window's frames are many: its tests take longer with code that is not
-    # optimised (GpuWindowTest 48 -> 60 s of processor time, PanelsTest with the GPU 66 -> 82).
+    # Small renders: Mesa's software driver takes longer to optimise its code than that saves, measured for some of
+    # these suites with an empty cache of that driver. A window's frames are many: its tests take longer with code that
+    # is not optimised (GpuWindowTest 48 -> 60 s of processor time, PanelsTest with the GPU 66 -> 82).
     if(folder MATCHES "^(cross|program)$")
         set_tests_properties(${folder}.${suite} PROPERTIES ENVIRONMENT GALLIVM_PERF=nopt)
     endif()

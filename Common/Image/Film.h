@@ -45,8 +45,8 @@ class Film {
 
     Film() = default;
     explicit Film(const FilmDesc& desc); // throws UsageError for a bad size, RenderError when memory does not suffice
-    // A film of such an image that has room for no tile, until hold(). Of a part of an image only that may be asked for
-    // which names tiles, and those that it holds. Throws UsageError for a bad size.
+    // Part of a film of such an image, without room for any tile until hold(). Only members that take tiles may be
+    // called, with tiles that it holds. Throws UsageError for a bad size.
     static Film part(const FilmDesc& desc);
     // Of a part: forgets all that it has and holds these tiles, without samples or plan. Memory is kept for the next
     // ones. Throws RenderError when it does not suffice.
@@ -77,8 +77,8 @@ class Film {
     std::uint64_t samplesPerPixel() const;
     // The replicates of an adaptive film make two halves.
     static constexpr std::uint32_t halfOf(std::uint32_t replicate) { return replicate % 2; }
-    // The least index, below `spp`, of a sample that some pixel lacks, of the tile or of all; with a plan, of those that
-    // it gives the pixel. kNoSample: there is none.
+    // The least index, below `spp`, of a sample that some pixel lacks, of the tile or of all; with a plan, of those
+    // that it gives the pixel. kNoSample: there is none.
     // Sample s of a pixel is number s / replicates of replicate s mod replicates.
     static constexpr std::uint64_t kNoSample = ~std::uint64_t{0};
     std::uint64_t nextSample(std::uint32_t tile, std::uint64_t spp) const;

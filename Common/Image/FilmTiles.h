@@ -41,7 +41,8 @@ class TilePacker {
 // kind; a tile without samples and plan takes few bytes.
 std::vector<std::byte> packTiles(const Film& film, std::span<const std::uint32_t> tiles);
 // Takes over each tile and replicate that has more samples there than in this film, which must have the same
-// description, and every plan. Returns the tiles that were packed. Throws RenderError when the bytes are not those of such tiles.
+// description, and every plan. Returns the tiles that were packed. Throws RenderError when the bytes are not those of
+// such tiles.
 TileList unpackTiles(std::span<const std::byte> bytes, Film& film);
 
 } // namespace rt::image

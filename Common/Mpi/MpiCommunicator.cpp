@@ -95,9 +95,9 @@ class MpiCommunicator final : public Communicator {
         MPI_Request request = MPI_REQUEST_NULL;
     };
 
-    // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is asleep
-    // between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped. The pauses leave the
-    // processor to threads that render, the longer the longer rank 0 does not look.
+    // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is
+    // asleep between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped. The pauses
+    // leave the processor to threads that render, the longer the longer rank 0 does not look.
     void push() {
         const auto begin = std::chrono::steady_clock::now();
         auto pause = kShortestPushPause;

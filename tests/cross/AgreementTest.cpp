@@ -191,8 +191,8 @@ TEST_P(SupersetTest, SampleForSample) {
     }
 }
 
-// How a light is chosen is no matter of how it is weighed, nor what samplers give one of lights: at every change each of
-// these is tried with the usual ones of the others, all together with the second engine alone, nightly.
+// How a light is chosen is no matter of how it is weighed, nor what samplers give one of lights: at every change each
+// of these is tried with the usual ones of the others, all together with the second engine alone, nightly.
 bool isTried(const app::RenderSettings& s, app::GpuEngineKind engine) {
     const bool isUsualSampling = s.lightSampling == app::LightSampling::Mis;
     const bool isUsualSelection = s.lightSelection == app::LightSelection::Contribution;

@@ -103,10 +103,10 @@ TEST_P(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
     }
 }
 
-// With each way of placing a point on a light; the expectation is the same for all. That each of them fits each estimator
-// is proved on the CPU (tests/image), and that both engines weigh alike by comparing them: at every change two ways to
-// place a point, and one estimator that asks for the density of a direction that it did not draw, are enough to see a
-// device that does not trace what the formulas say.
+// With each way of placing a point on a light; the expectation is the same for all. That each of them fits each
+// estimator is proved on the CPU (tests/image), and that both engines weigh alike by comparing them: at every change
+// two ways to place a point, and one estimator that asks for the density of a direction that it did not draw, are
+// enough to see a device that does not trace what the formulas say.
 void expectIrradiance(const SceneDesc& desc, double formFactor, const char* what) {
     struct Way {
         app::LightSampling sampling;

@@ -10,8 +10,8 @@ class StabilityTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, StabilityTest, kFirstEngine, engineName);
 INSTANTIATE_TEST_SUITE_P(Nightly, StabilityTest, kSecondEngine, engineName);
 
-// Every estimator's weights are finite on the CPU (tests/image) and are the same on both (EstimatorAgreementTest): all of
-// them are tried on the device by nightly tests.
+// Every estimator's weights are finite on the CPU (tests/image) and are the same on both (EstimatorAgreementTest): all
+// of them are tried on the device by nightly tests.
 TEST_P(StabilityTest, EveryRowPasses) {
     const auto engine = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});
     expectStability(*engine, isNightly(GetParam()));

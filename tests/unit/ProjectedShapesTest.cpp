@@ -1,6 +1,5 @@
 // Samplers by projected solid angle against exact answers, over sizes, tilts and positions relative to the horizon.
 #include <algorithm>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,11 +17,6 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-dvec3 direction(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 // ---- sphere --------------------------------------------------------------------------------------------------------
 
 struct Cap {
@@ -33,8 +27,8 @@ struct Cap {
 
 // A sphere of sine s = radius / distance whose centre is at the height rise * s above the horizon, turned anyhow.
 Cap capAt(Uniforms& uniform, double s, double rise) {
-    const dvec3 n = direction(uniform);
-    const dvec3 t = glm::normalize(glm::cross(n, direction(uniform)));
+    const dvec3 n = randomDirection(uniform);
+    const dvec3 t = glm::normalize(glm::cross(n, randomDirection(uniform)));
     const double z = s * rise, distance = uniform.logBetween(1e-3, 1e3);
     const dvec3 c = (z * n + std::sqrt(std::max(0.0, 1 - z * z)) * t) * distance;
     return {vec3(c), static_cast<float>(s * distance), vec3(n)};
@@ -121,9 +115,9 @@ Flat flat(const dvec3& corner, const dvec3& u, const dvec3& v, bool triangle, co
 
 // Edges of size * thin to size.
 Flat randomFlat(Uniforms& uniform, double size, double thin, bool triangle) {
-    const dvec3 n = direction(uniform), u = direction(uniform) * size * uniform.logBetween(thin, 1),
-                v = direction(uniform) * size * uniform.logBetween(thin, 1);
-    return flat(direction(uniform) - 0.5 * (u + v), u, v, triangle, n);
+    const dvec3 n = randomDirection(uniform), u = randomDirection(uniform) * size * uniform.logBetween(thin, 1),
+                v = randomDirection(uniform) * size * uniform.logBetween(thin, 1);
+    return flat(randomDirection(uniform) - 0.5 * (u + v), u, v, triangle, n);
 }
 
 class ProjectedPolygonOfSize : public testing::TestWithParam<double> {
@@ -170,7 +164,7 @@ TEST_P(ProjectedPolygonOfSize, TotalIsTheIrradianceOfLightsSeenEdgeOn) {
         std::vector<double> errors;
         for (int k = 0; k < 200; ++k) {
             const double s = GetParam();
-            const dvec3 n = direction(uniform), side = glm::normalize(glm::cross(n, direction(uniform)));
+            const dvec3 n = randomDirection(uniform), side = glm::normalize(glm::cross(n, randomDirection(uniform)));
             const dvec3 away = glm::cross(side, n);
             const auto edge = [&] {
                 const double x = uniform.between(-s, s), y = uniform.between(-s, s);
@@ -279,9 +273,9 @@ TEST(ProjectedPolygon, StaysFiniteUnderStress) {
     const float last = 0x0.ffffffp0f;
     for (int k = 0; k < 20000; ++k) {
         const double size = uniform.logBetween(1e-6, 1e6), thin = uniform.logBetween(1e-5, 1);
-        const dvec3 n = direction(uniform), u = direction(uniform) * size;
-        const dvec3 v = glm::normalize(glm::cross(u, direction(uniform))) * size * thin;
-        dvec3 corner = direction(uniform) * uniform.logBetween(1e-6, 1e6);
+        const dvec3 n = randomDirection(uniform), u = randomDirection(uniform) * size;
+        const dvec3 v = glm::normalize(glm::cross(u, randomDirection(uniform))) * size * thin;
+        dvec3 corner = randomDirection(uniform) * uniform.logBetween(1e-6, 1e6);
         if (k % 4 == 0)
             corner = -0.3 * u - 0.4 * v + glm::normalize(glm::cross(u, v)) * size * uniform.logBetween(1e-6, 1);
         if (k % 16 == 1) corner = u * 0.1 + v; // in the light's plane

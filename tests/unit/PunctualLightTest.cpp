@@ -22,11 +22,6 @@ using shared::vec3;
 using std::numbers::pi;
 using test::Uniforms;
 
-dvec3 unitVector(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), turn = uniform.between(0, 2 * pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(turn), r * std::sin(turn), z};
-}
-
 // glTF's, by cosines.
 double falloff(double angle, double inner, double outer) {
     const double ramp = (std::cos(angle) - std::cos(outer)) / (std::cos(inner) - std::cos(outer));
@@ -37,8 +32,8 @@ TEST(PunctualLight, SpotsFallOffAsGltfRecommends) {
     Uniforms uniform(1);
     for (int i = 0; i < 20000; ++i) {
         const double outer = glm::radians(uniform.logBetween(0.5, 90)), inner = uniform.between(0, 0.95) * outer;
-        const dvec3 axis = unitVector(uniform);
-        const dvec3 across = glm::normalize(glm::cross(axis, unitVector(uniform)));
+        const dvec3 axis = randomDirection(uniform);
+        const dvec3 across = glm::normalize(glm::cross(axis, randomDirection(uniform)));
         const double angle = uniform.between(0, 1.2) * outer;
         const shared::Light light = spotLight(dvec3(0), axis, dvec3(1), inner, outer);
         const vec3 w(axis * std::cos(angle) + across * std::sin(angle));
@@ -133,7 +128,7 @@ CompiledScene mixedLights(std::uint32_t count, std::uint32_t seed) {
         const dvec3 emission(uniform.logBetween(1e-2, 1e2));
         switch (i % 8) {
             case 0:
-                s.lights.push_back(directionalLight(unitVector(uniform), 0.1 * emission));
+                s.lights.push_back(directionalLight(randomDirection(uniform), 0.1 * emission));
                 break;
             case 1: {
                 shared::Sphere sphere{};
@@ -149,7 +144,8 @@ CompiledScene mixedLights(std::uint32_t count, std::uint32_t seed) {
                 break;
             default: {
                 const double outer = glm::radians(uniform.between(5, 90));
-                s.lights.push_back(spotLight(inBox(uniform, 4), unitVector(uniform), emission, 0.5 * outer, outer));
+                s.lights.push_back(
+                    spotLight(inBox(uniform, 4), randomDirection(uniform), emission, 0.5 * outer, outer));
             }
         }
     }
@@ -170,7 +166,7 @@ TEST_P(PunctualChoice, NeverLeavesOutALightThatContributes) {
     for (int k = 0; k < 2000; ++k) {
         shared::LightContext context{};
         context.position = vec3(inBox(uniform, 4));
-        context.normal = k % 5 == 0 ? vec3(0) : vec3(unitVector(uniform));
+        context.normal = k % 5 == 0 ? vec3(0) : vec3(randomDirection(uniform));
         context.policy = shared::kSelectContribution;
         shared::chooseLight(shared::kFeatureAll, scene, s.globals.lightCount, uniform.pair(), context);
         for (std::uint32_t i = 0; i < s.globals.lightCount; ++i) {
@@ -194,7 +190,7 @@ TEST_P(PunctualChoice, HasTheSumOfAllLightsAsItsMean) {
     const auto scene = shared::viewOf(s, s.globals);
     Uniforms uniform(5);
     for (const std::uint32_t policy : {shared::kSelectUniform, shared::kSelectPower, shared::kSelectContribution}) {
-        const vec3 position(inBox(uniform, 3)), normal(unitVector(uniform));
+        const vec3 position(inBox(uniform, 3)), normal(randomDirection(uniform));
         const auto irradiance = [&](std::uint32_t i) {
             if (!shared::isPunctual(shared::kFeatureAll, s.lights[i])) return 0.0;
             const shared::LightSample sampled = shared::samplePunctualLight(s.lights[i], position, normal);
@@ -259,7 +255,7 @@ TEST(Sky, TurnsAboutTheVertical) {
         Uniforms uniform(7);
         int differing = 0; // by rounding at the edges of texels
         for (int i = 0; i < 10000; ++i) {
-            const dvec3 d = unitVector(uniform);
+            const dvec3 d = randomDirection(uniform);
             const vec3 original(d), moved(rotatedY(d, degrees));
             differing += shared::skyRadiance(shared::kFeatureAll, before, original) !=
                          shared::skyRadiance(shared::kFeatureAll, after, moved);

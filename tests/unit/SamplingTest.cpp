@@ -22,11 +22,6 @@ using test::Uniforms;
 constexpr float kLast = 0x0.ffffffp0f; // the largest uniform
 const std::array kCorners{vec2(0, 0), vec2(kLast, 0), vec2(0, kLast), vec2(kLast, kLast), vec2(0.5f, 0.5f)};
 
-dvec3 randomDirection(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 double frameError(const Frame& f) {
     const glm::dmat3 m(f.tangent, f.bitangent, f.normal);
     const glm::dmat3 gram = glm::transpose(m) * m;

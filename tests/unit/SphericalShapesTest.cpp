@@ -16,11 +16,6 @@ using test::kSignificance;
 using test::Mean;
 using test::Uniforms;
 
-dvec3 randomDirection(Uniforms& uniform) {
-    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 // ---- sphere --------------------------------------------------------------------------------------------------------
 
 TEST(SphereCone, SolidAngleAtEveryDistance) {

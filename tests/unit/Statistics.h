@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -36,6 +37,12 @@ class Uniforms {
 // Uniformly distributed in the cube [-extent, extent)^3.
 inline glm::dvec3 inBox(Uniforms& uniform, double extent) {
     return {uniform.between(-extent, extent), uniform.between(-extent, extent), uniform.between(-extent, extent)};
+}
+
+// Uniformly distributed on the unit sphere.
+inline glm::dvec3 randomDirection(Uniforms& uniform) {
+    const double z = uniform.between(-1, 1), phi = uniform.between(0, 2 * std::numbers::pi), r = std::sqrt(1 - z * z);
+    return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
 // Mean of independent samples and its standard error, by Welford's recurrence.

@@ -83,7 +83,7 @@ inline constexpr Named<bool> kAdaptive[] = {
 inline constexpr Named<bool> kSpecularConnections[] = {
     {"off", false, "By chance", "scattering alone finds it"},
     {"on", true, "Connected",
-     "connections to where it comes from; unbiased; not for sky images, reflections, instances"}};
+     "connections to where it comes from, where chance is noisy; unbiased; not for sky images, instances"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with

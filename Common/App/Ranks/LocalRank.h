@@ -33,12 +33,12 @@ class Queue {
         messages_.pop_front();
         return message;
     }
-    // Until there is one.
+    // Until there is a message.
     void wait() {
         std::unique_lock lock(mutex_);
         arrived_.wait(lock, [this] { return !messages_.empty(); });
     }
-    // Likewise, but not longer than that.
+    // Until there is a message, at most so long.
     void wait(std::chrono::microseconds longest) {
         std::unique_lock lock(mutex_);
         arrived_.wait_for(lock, longest, [this] { return !messages_.empty(); });
@@ -77,7 +77,7 @@ class LocalRank {
         return std::move(next->message);
     }
 
-    // Until there is something to receive, but not longer than that.
+    // Until there is something to receive, at most so long.
     void wait(std::chrono::microseconds longest) { outbox_.wait(longest); }
 
   private:
@@ -122,7 +122,7 @@ inline void connect(LocalRank& rank, Communicator& ranks) {
         }
         if (any)
             idle.wake();
-        else
+        else // without a lease the rank is idle until rank 0 is heard
             rank.wait(leases > 0 ? idle.next() : std::min<IdleWait::Time>(idle.next(), kPollInterval));
     }
 }

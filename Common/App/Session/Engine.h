@@ -113,8 +113,8 @@ enum class Cost {
     Time, // by the processor's clock, in seconds, or by that of the device's shaders, in its ticks
 };
 
-// Packs tiles (FilmTiles.h). May be called once, by any thread and while the engine goes on with other work, but not when
-// that has been destroyed.
+// Packs tiles (FilmTiles.h). May be called once, by any thread and while the engine goes on with other work, but not
+// when that has been destroyed.
 using TilesToPack = std::function<std::vector<std::byte>()>;
 
 // Not thread-safe: one thread drives an engine. Order of calls: setScene, reset, renderSome until finished.
