@@ -18,7 +18,6 @@ using shared::vec3;
 
 static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && Film::kTilePixels == kTilePixels);
 
-constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
 constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
 
 // Exact for what a StateReader returned. In vectors, because GCC 12's vectorizer gets a loop over the components wrong.

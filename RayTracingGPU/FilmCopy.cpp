@@ -9,8 +9,6 @@ namespace {
 using image::Film;
 using shared::kTilePixels;
 
-constexpr std::size_t kTileValues = std::size_t{kTilePixels} * 3;
-
 std::span<const double> toDoubles(std::span<const shared::FilmSum> sums, std::vector<double>& values) {
     values.resize(kTileValues);
     for (std::size_t i = 0; i < kTilePixels; ++i) {

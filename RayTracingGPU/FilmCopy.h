@@ -1,5 +1,6 @@
 // What a device holds of a film, copied to the host.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,8 @@
 #include "Shaders/Records.h"
 
 namespace rt::gpu {
+
+constexpr std::size_t kTileValues = std::size_t{shared::kTilePixels} * 3; // of its pixels' channels
 
 // Of some slots, their pixels one after the other.
 struct FilmCopy {

@@ -24,7 +24,7 @@ namespace {
 
 using image::Image;
 
-constexpr std::uint32_t kSide = 48; // pixels
+constexpr std::uint32_t kPictureSide = 48; // pixels
 
 std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene& builtin) {
     constexpr std::uint32_t kCount = 200; // of scenes that come in every size
@@ -35,8 +35,8 @@ std::shared_ptr<const scene::CompiledScene> smallScene(const scene::BuiltinScene
 
 app::RenderSettings pairSettings(std::uint32_t spp) {
     app::RenderSettings settings;
-    settings.width = kSide;
-    settings.height = kSide;
+    settings.width = kPictureSide;
+    settings.height = kPictureSide;
     settings.spp = spp;
     return settings;
 }
@@ -94,7 +94,7 @@ double agreement(const Pair& images) {
         }
         if (same) ++agree;
     }
-    return static_cast<double>(agree) / (kSide * kSide);
+    return static_cast<double>(agree) / (kPictureSide * kPictureSide);
 }
 
 double leastAgreement(const scene::CompiledScene& scene) {
@@ -104,7 +104,7 @@ double leastAgreement(const scene::CompiledScene& scene) {
 // The mean difference within 4 standard errors + 1e-5 of the mean: common random numbers cancel nearly all noise.
 ::testing::AssertionResult pairedMeansAgree(const Pair& images) {
     for (std::size_t channel = 0; channel < 3; ++channel) {
-        const double n = kSide * kSide;
+        const double n = kPictureSide * kPictureSide;
         double mean = 0;
         double sum = 0;
         double squares = 0;

@@ -9,6 +9,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Image/SamplePlan.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/BoxRender.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 
@@ -20,7 +21,7 @@ using image::Film;
 
 constexpr std::uint32_t kAdaptiveSide = 20; // no multiple of a tile's
 
-app::RenderSettings settingsFor(std::uint32_t spp) {
+app::RenderSettings adaptiveSettings(std::uint32_t spp) {
     app::RenderSettings settings;
     settings.width = settings.height = kAdaptiveSide;
     settings.spp = spp;
@@ -32,42 +33,27 @@ app::RenderSettings settingsFor(std::uint32_t spp) {
 class GpuAdaptive : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, GpuAdaptive, kBothEngines, engineName);
 
-gpu::GpuEngineOptions testedEngine() {
+gpu::GpuEngineOptions adaptiveEngine() {
     gpu::GpuEngineOptions options;
     options.pipelineCache = false;
     options.engine = GpuAdaptive::GetParam();
     return options;
 }
 
-struct Render {
-    std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
-    std::unique_ptr<app::Engine> engine;
-
-    Render(const app::RenderSettings& settings, std::unique_ptr<app::Engine> made) : engine(std::move(made)) {
-        engine->setScene(scene, nullptr);
-        engine->reset(scene->camera, settings);
-    }
-    const Film& finish() {
-        while (!engine->renderSome({1s, nullptr}).finished) {
-        }
-        return engine->film();
-    }
-};
-
-Render gpuRender(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = testedEngine()) {
+BoxRender gpuRender(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = adaptiveEngine()) {
     return {settings, gpu::makeGpuEngine(device(), options)};
 }
 
 TEST_P(GpuAdaptive, NeitherPartsNorLaunchesShow) {
-    const app::RenderSettings settings = settingsFor(36);
-    Render whole = gpuRender(settings);
+    const app::RenderSettings settings = adaptiveSettings(36);
+    BoxRender whole = gpuRender(settings);
     const std::vector<float> expected = whole.finish().resolve().data;
     for (const std::uint32_t slots : {6u, gpu::GpuEngineOptions().regionSlots})
         for (const double seconds : {1e-9, 0.1}) {
-            gpu::GpuEngineOptions options = testedEngine();
+            gpu::GpuEngineOptions options = adaptiveEngine();
             options.regionSlots = slots;
             options.launchSeconds = seconds;
-            Render parts = gpuRender(settings, options);
+            BoxRender parts = gpuRender(settings, options);
             const Film& film = parts.finish();
             EXPECT_TRUE(sameBits(expected, film.resolve().data)) << slots << ", " << seconds;
             EXPECT_EQ(film.totalSamples(), std::uint64_t{kAdaptiveSide} * kAdaptiveSide * settings.spp);
@@ -77,12 +63,12 @@ TEST_P(GpuAdaptive, NeitherPartsNorLaunchesShow) {
 
 // Also what a window shows, which the device resolves.
 TEST_P(GpuAdaptive, GoesOnFromAFilmInAnyPhase) {
-    const app::RenderSettings settings = settingsFor(64);
-    Render whole = gpuRender(settings);
+    const app::RenderSettings settings = adaptiveSettings(64);
+    BoxRender whole = gpuRender(settings);
     const std::vector<float> expected = whole.finish().resolve().data;
-    gpu::GpuEngineOptions options = testedEngine();
+    gpu::GpuEngineOptions options = adaptiveEngine();
     options.launchSeconds = 1e-9;
-    Render slow = gpuRender(settings, options);
+    BoxRender slow = gpuRender(settings, options);
     std::vector<Film> films;
     bool wasPlanned = false;
     for (int slice = 0; !slow.engine->renderSome({0s, nullptr}).finished; ++slice) {
@@ -93,7 +79,7 @@ TEST_P(GpuAdaptive, GoesOnFromAFilmInAnyPhase) {
     films.push_back(slow.engine->film());
     ASSERT_EQ(films.size(), 3u);
     for (Film& film : films) {
-        Render resumed = gpuRender(settings);
+        BoxRender resumed = gpuRender(settings);
         resumed.engine->restore(std::move(film));
         EXPECT_TRUE(sameBits(expected, resumed.finish().resolve().data));
         const app::Snapshot snapshot = resumed.engine->snapshot();
@@ -104,13 +90,13 @@ TEST_P(GpuAdaptive, GoesOnFromAFilmInAnyPhase) {
 
 // From the film of the CPU engine's pilot it goes on as the CPU engine does.
 TEST_P(GpuAdaptive, ThePlanIsThatOfTheCpu) {
-    const app::RenderSettings settings = settingsFor(64);
-    Render cpu(settings, cpu::makeCpuEngine({}));
+    const app::RenderSettings settings = adaptiveSettings(64);
+    BoxRender cpu(settings, cpu::makeCpuEngine({}));
     while (cpu.engine->film().nextSample(image::pilotSamples(settings.spp)) != Film::kNoSample)
         cpu.engine->renderSome({0s, nullptr});
     Film pilot = cpu.engine->film();
     ASSERT_TRUE(pilot.isPilot());
-    Render gpu = gpuRender(settings);
+    BoxRender gpu = gpuRender(settings);
     gpu.engine->restore(std::move(pilot));
     const std::vector<float> counts = gpu.finish().sampleCounts().data;
     EXPECT_EQ(counts, cpu.finish().sampleCounts().data);

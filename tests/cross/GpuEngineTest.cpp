@@ -15,6 +15,7 @@
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Check.h"
 #include "RayTracingGPU/GpuEngine.h"
+#include "tests/cross/BoxRender.h"
 #include "tests/cross/Device.h"
 #include "tests/image/Harness.h"
 
@@ -45,21 +46,10 @@ gpu::GpuEngineOptions testedEngine(std::uint32_t regionSlots = gpu::GpuEngineOpt
     return options;
 }
 
-struct Render {
-    std::shared_ptr<const scene::CompiledScene> scene = app::compile(app::loadScene("cornell-box-lights"), true);
-    std::unique_ptr<app::Engine> engine;
-
+struct Render : BoxRender {
     explicit Render(const app::RenderSettings& settings, const gpu::GpuEngineOptions& options = testedEngine(),
                     vulkan::VulkanContext& context = device())
-        : engine(gpu::makeGpuEngine(context, options)) {
-        engine->setScene(scene, nullptr);
-        engine->reset(scene->camera, settings);
-    }
-    const Film& finish(const app::Budget& budget = {}) {
-        while (!engine->renderSome(budget).finished) {
-        }
-        return engine->film();
-    }
+        : BoxRender(settings, gpu::makeGpuEngine(context, options)) {}
 };
 
 // By an engine that is gone then: through the ray tracing pipeline of an NVIDIA H200 an engine that is made while

@@ -129,14 +129,17 @@ TEST_P(ControlsTest, SaveAsWritesWhereItIsTold) {
     const fs::path file = folder_ / "as-told.exr";
     start();
     ASSERT_FALSE(HasFatalFailure());
+    int patience = 0; // more at each try: a busy machine takes seconds for a few frames
     EXPECT_TRUE(eventually([&] {
+        ++patience;
         key("ctrl+shift+s"); // too early where there is no picture yet
-        pause(1500);
+        pause(1500 * patience);
         key("ctrl+a");
+        pause(200 * patience);
         type(file.string());
-        pause(500);
+        pause(500 * patience);
         key("Return");
-        pause(1000);
+        pause(1000 * patience);
         return fs::exists(file);
     })) << log();
     expectCleanEnd();

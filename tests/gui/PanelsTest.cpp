@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kWindowColor = 0x1b1c20; // of the dark theme
-
 class PanelsTest : public WindowTest {
   protected:
     // Of those at the side, only this one is folded out: its first row stands below the headers.

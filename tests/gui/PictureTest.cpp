@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kWindowColor = 0x1b1c20, kBorder = 0x2b2b2b; // of the dark theme
+constexpr std::uint32_t kBorder = 0x2b2b2b; // of the dark theme
 
 int channel(std::uint32_t color, int index) {
     return static_cast<int>(color >> (16 - 8 * index) & 0xff);

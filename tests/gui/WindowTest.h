@@ -1,6 +1,7 @@
 // A test of either program with its window.
 #pragma once
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "tests/gui/Desktop.h"
 
 namespace rt::test {
+
+constexpr std::uint32_t kWindowColor = 0x1b1c20; // of the dark theme
 
 class WindowTest : public Desktop, public testing::WithParamInterface<const char*> {
   protected:

@@ -1,5 +1,4 @@
 // What parts of the work cost: that each part which is left out is left out. What it costs, no test asserts.
-#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,11 +9,12 @@
 #include "Common/Core/Error.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingCPU/CpuEngine.h"
+#include "tests/unit/FakeEngine.h"
 
 namespace rt::bench {
 namespace {
 
-const std::atomic<bool> kGoOn{false};
+using app::kGoOn;
 
 Engines oneThread() {
     return Engines({{"single",

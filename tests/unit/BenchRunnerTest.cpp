@@ -23,9 +23,8 @@ namespace rt::bench {
 namespace {
 
 using app::FakeEngine;
+using app::kGoOn;
 using test::TempFolder;
-
-const std::atomic<bool> kGoOn{false};
 
 std::shared_ptr<const scene::CompiledScene> someScene() {
     return app::compile(app::loadScene("one-weekend-default"), true, true);

@@ -12,6 +12,8 @@
 
 namespace rt::app {
 
+inline const std::atomic<bool> kGoOn{false}; // the cancellation that never comes
+
 class FakeEngine : public Engine {
   public:
     // Value of sample `sample` of a pixel: its mean is 0.5, and every one is another.

@@ -19,8 +19,6 @@ RenderSettings settings(std::uint32_t spp) {
     return result;
 }
 
-const std::atomic<bool> kGoOn{false};
-
 TEST(FilmRun, EndsWithTheLastSample) {
     FakeEngine engine;
     FilmRun run(engine, {}, settings(3));

@@ -54,13 +54,13 @@ std::string jpegFile(const Kind& kind) {
     return file;
 }
 
-Texels decode(const std::string& file) {
+Texels texelsOf(const std::string& file) {
     return decodeTexels(std::as_bytes(std::span(file)), std::string("a.jpg"));
 }
 
 std::string errorOf(const std::string& file) {
     try {
-        decode(file);
+        texelsOf(file);
     } catch (const InputError& e) {
         return e.what();
     }
@@ -68,7 +68,7 @@ std::string errorOf(const std::string& file) {
 }
 
 void expectAllPixels(const Kind& kind, const std::array<int, 3>& rgb) {
-    const Texels texels = decode(jpegFile(kind));
+    const Texels texels = texelsOf(jpegFile(kind));
     ASSERT_EQ(texels.width, kWidth);
     ASSERT_EQ(texels.height, kHeight);
     ASSERT_EQ(texels.srgb8.size(), std::size_t{3} * kWidth * kHeight);

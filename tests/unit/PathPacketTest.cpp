@@ -88,7 +88,7 @@ std::vector<vec3> traceOneByOne(const KernelContext& context, const TileTask& ta
     return radiances;
 }
 
-bool isSame(vec3 a, vec3 b) {
+bool hasSameBits(vec3 a, vec3 b) {
     const auto same = [](float x, float y) { return std::bit_cast<uint>(x) == std::bit_cast<uint>(y); };
     return same(a.x, b.x) && same(a.y, b.y) && same(a.z, b.z);
 }
@@ -113,7 +113,7 @@ void comparePaths(const TracedScene& scene, const app::RenderSettings& settings)
     KernelCounters counters;
     std::vector<vec3> radiances(expected.size(), vec3(-1.0f));
     ASSERT_TRUE(PathPacket<kFeatureAll>(context, tasks, nullptr, radiances.data(), counters).trace());
-    for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(isSame(radiances[i], expected[i])) << i;
+    for (std::size_t i = 0; i < expected.size(); ++i) ASSERT_TRUE(hasSameBits(radiances[i], expected[i])) << i;
     EXPECT_EQ(counters.scattered, expectedCounters.scattered);
     EXPECT_EQ(counters.shadow, expectedCounters.shadow);
 }

@@ -15,8 +15,8 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kCell = 8.2f;    // the width of a scene's place, in heights of the font
-constexpr float kMargin = 0.35f; // likewise, around what is in it
+constexpr float kCell = 8.2f;        // the width of a scene's place, in heights of the font
+constexpr float kCellMargin = 0.35f; // around what is in a cell
 
 // Scenes of a book are titled "Book: Scene".
 std::string_view bookOf(const scene::BuiltinScene& scene) {
@@ -42,7 +42,7 @@ std::vector<std::string_view> books() {
 }
 
 bool drawCell(Gui& gui, const scene::BuiltinScene& scene, bool isSelected) {
-    const float em = ImGui::GetFontSize(), width = kCell * em, margin = kMargin * em;
+    const float em = ImGui::GetFontSize(), width = kCell * em, margin = kCellMargin * em;
     const float side = width - 2 * margin, lines = 2 * ImGui::GetTextLineHeight();
     ImGui::PushID(scene.id.data());
     const bool chosen = ImGui::Selectable("##scene", isSelected, 0, {width, side + 3 * margin + lines});
