@@ -182,9 +182,9 @@ bool inputText(const char* id, const char* hint, std::string& text) {
         data->Buf = string.data();
         return 0;
     };
-    return ImGui::InputTextWithHint(id, hint, text.data(), text.capacity() + 1,
-                                    ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue, resize,
-                                    &text);
+    constexpr ImGuiInputTextFlags kFlags =
+        ImGuiInputTextFlags_CallbackResize | ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll;
+    return ImGui::InputTextWithHint(id, hint, text.data(), text.capacity() + 1, kFlags, resize, &text);
 }
 
 bool checkbox(const char* label, const char* tip, bool& value) {

@@ -29,7 +29,8 @@ bool inputReal(const char* label, const char* tip, double& value, double min, do
 bool inputVector(const char* label, const char* tip, double (&value)[3]);
 bool sliderReal(const char* label, const char* tip, double& value, double min, double max, const char* format,
                 bool logarithmic = false);
-// A field of text with a hint while it is empty; whether it was left by Enter.
+// A field of text with a hint while it is empty. What is typed after it got the keyboard replaces its text. Whether it
+// was left by Enter.
 bool inputText(const char* id, const char* hint, std::string& text);
 bool checkbox(const char* label, const char* tip, bool& value);
 

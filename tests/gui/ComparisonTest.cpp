@@ -102,6 +102,10 @@ class ComparisonTest : public WindowTest {
 };
 INSTANTIATE_TEST_SUITE_P(, ComparisonTest, kBothPrograms, nameOfProgram);
 
+class SharedComparisonTest : public ComparisonTest {};
+INSTANTIATE_TEST_SUITE_P(, SharedComparisonTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, SharedComparisonTest, kSecondProgram, nameOfProgram);
+
 class NightlyComparisonTest : public ComparisonTest {};
 INSTANTIATE_TEST_SUITE_P(, NightlyComparisonTest, kBothPrograms, nameOfProgram);
 
@@ -151,7 +155,7 @@ TEST_P(ComparisonTest, RunsAreShownMarkedSelectedHiddenAndDeleted) {
 }
 
 // The points of two runs are far from each other, so that each is found by its colour.
-TEST_P(ComparisonTest, TableAndChartAreLinked) {
+TEST_P(SharedComparisonTest, TableAndChartAreLinked) {
     app::RunRecord cpuRun = run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z");
     app::RunRecord gpuRun = run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z");
     cpuRun.renderSeconds = 7;
@@ -203,7 +207,7 @@ TEST_P(ComparisonTest, TableAndChartAreLinked) {
 }
 
 // By a right click on their titles; the last of the menu's rows stands at the window's lower end.
-TEST_P(ComparisonTest, ColumnsCanBeChosen) {
+TEST_P(SharedComparisonTest, ColumnsCanBeChosen) {
     constexpr int kColumns = 9, kTime = 1, kLastItem = 840, kItem = 21;
     keep(
         {run("ray-tracing-cpu", "mis", "2026-01-01T00:00:01Z"), run("ray-tracing-gpu", "mis", "2026-01-01T00:00:02Z")});

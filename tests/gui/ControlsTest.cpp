@@ -25,17 +25,12 @@ constexpr const char* kEveryFeature =
     "spheres,moving-spheres,quads,triangles,instances,smooth-normals,lambertian,metal,dielectric,fuzz,emissive,checker,"
     "noise,images,volumes,sky,thin-lens,lights,many-lights,sphere-lights,quad-lights,triangle-lights,targets";
 
-class ControlsTest : public WindowTest {
-  protected:
-    void openPath(const std::string& path) {
-        key("ctrl+o"); // the field is empty then
-        pause(1500);   // for a frame or two of a busy machine
-        type(path);
-        pause(500);
-        key("Return");
-    }
-};
+class ControlsTest : public WindowTest {};
 INSTANTIATE_TEST_SUITE_P(, ControlsTest, kBothPrograms, nameOfProgram);
+
+class SharedControlsTest : public WindowTest {};
+INSTANTIATE_TEST_SUITE_P(, SharedControlsTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, SharedControlsTest, kSecondProgram, nameOfProgram);
 
 // With the GPU by one pipeline that all scenes share, as a software driver takes seconds for each: those that each
 // scene has of its own, and the lights, are proved by the comparison of the engines.
@@ -55,24 +50,6 @@ TEST_P(ControlsTest, ShowsEveryScene) {
         ASSERT_EQ(title(), wanted) << log();
     }
     expectCleanEnd();
-}
-
-TEST_P(ControlsTest, OpensFilesAndKeepsTheSceneWhereTheyAreBad) {
-    const fs::path good = writeScene("good.json", "Just opened"), bad = folder_ / "bad.json";
-    std::ofstream(bad) << R"({"camera": 12)";
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    const std::string before = title();
-    openPath(bad.string());
-    ASSERT_TRUE(eventually([&] { return log().find("bad.json") != std::string::npos; })) << log();
-    EXPECT_EQ(title(), before);
-    openPath((folder_ / "missing.obj").string());
-    ASSERT_TRUE(eventually([&] { return log().find("missing.obj") != std::string::npos; })) << log();
-    EXPECT_EQ(title(), before);
-    openPath(good.string());
-    EXPECT_TRUE(eventually([&] { return title().find("Just opened") == 0; })) << title() << log();
-    expectCleanEnd();
-    EXPECT_EQ(settings()["recent"][0], good.string());
 }
 
 TEST_P(ControlsTest, SavesThePictureAndRemembersSettings) {
@@ -104,72 +81,6 @@ TEST_P(ControlsTest, SavesThePictureAndRemembersSettings) {
     EXPECT_TRUE(fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"));
 }
 
-// By keys alone: a folder, then the second of the files there whose names match.
-TEST_P(ControlsTest, TheFileBrowserIsWalkedThroughByKeys) {
-    writeScene("b-scene.json", "The other");
-    writeScene("c-scene.json", "Walked to");
-    writeScene("d-other.json", "No match");
-    std::ofstream(folder_ / "a-scene.txt") << "no scene";
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    openPath(folder_.string());
-    pause(1000);
-    type("scene");
-    pause(500);
-    for (int i = 0; i < 2; ++i) {
-        key("Down");
-        pause(300);
-    }
-    key("Return");
-    EXPECT_TRUE(eventually([&] { return title().find("Walked to") == 0; })) << title() << log();
-    expectCleanEnd();
-}
-
-TEST_P(ControlsTest, SaveAsWritesWhereItIsTold) {
-    const fs::path file = folder_ / "as-told.exr";
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    int patience = 0; // more at each try: a busy machine takes seconds for a few frames
-    EXPECT_TRUE(eventually([&] {
-        ++patience;
-        key("ctrl+shift+s"); // too early where there is no picture yet
-        pause(1500 * patience);
-        key("ctrl+a");
-        pause(200 * patience);
-        type(file.string());
-        pause(500 * patience);
-        key("Return");
-        pause(1000 * patience);
-        return fs::exists(file);
-    })) << log();
-    expectCleanEnd();
-    EXPECT_EQ(image::readImage(file).width, 48u);
-    EXPECT_EQ(settings()["save_folder"], folder_.string());
-}
-
-TEST_P(ControlsTest, ASceneFileIsReadAgainWhenItChanges) {
-    const fs::path file = writeScene("edited.json", "Before");
-    start({"--scene", file.string()});
-    ASSERT_FALSE(HasFatalFailure());
-    ASSERT_TRUE(eventually([&] { return title().find("Before") == 0; })) << title() << log();
-    pause(1500); // the window knows the file as it is
-    writeScene("edited.json", "After the change");
-    EXPECT_TRUE(eventually([&] { return title().find("After the change") == 0; })) << title() << log();
-    expectCleanEnd();
-}
-
-TEST_P(ControlsTest, AButtonOfTheToolbarHidesThePanels) {
-    constexpr int kFromTheRight = 80, kMiddle = 16;
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    EXPECT_TRUE(settings()["saw_first_steps"].is_null() || settings()["saw_first_steps"] == true);
-    pause(500);
-    click(kWidth - kFromTheRight, kMiddle);
-    EXPECT_TRUE(eventually([&] { return settings()["show_panels"] == false; })) << settings();
-    expectCleanEnd();
-    EXPECT_EQ(settings()["saw_first_steps"], true); // the hint does not come back
-}
-
 // Both keys are up again before the program sees any of it.
 TEST_P(ControlsTest, ACtrlClickMakesSharpWhatIsThere) {
     start();
@@ -194,8 +105,20 @@ TEST_P(ControlsTest, ACtrlClickMakesSharpWhatIsThere) {
     expectCleanEnd();
 }
 
+TEST_P(SharedControlsTest, AButtonOfTheToolbarHidesThePanels) {
+    constexpr int kFromTheRight = 80, kMiddle = 16;
+    start();
+    ASSERT_FALSE(HasFatalFailure());
+    EXPECT_TRUE(settings()["saw_first_steps"].is_null() || settings()["saw_first_steps"] == true);
+    pause(500);
+    click(kWidth - kFromTheRight, kMiddle);
+    EXPECT_TRUE(eventually([&] { return settings()["show_panels"] == false; })) << settings();
+    expectCleanEnd();
+    EXPECT_EQ(settings()["saw_first_steps"], true); // the hint does not come back
+}
+
 // Where the pictures were seen from is told by their descriptions.
-TEST_P(ControlsTest, ALeftDragOrbits) {
+TEST_P(SharedControlsTest, ALeftDragOrbits) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     const auto isSavedFrom = [this](std::size_t places) {
@@ -227,30 +150,8 @@ TEST_P(ControlsTest, ALeftDragOrbits) {
     expectCleanEnd();
 }
 
-TEST_P(ControlsTest, ExportsRunsAndChart) {
-    start();
-    ASSERT_FALSE(HasFatalFailure());
-    key("F3");
-    ASSERT_TRUE(eventually([&] { return fs::exists(folder_ / "config" / "ray-tracing" / "history.jsonl"); })) << log();
-    // Places from the picture.
-    for (const auto& [file, place] :
-         {std::pair{"ray-tracing-history.csv", "812 638"}, {"ray-tracing-errors.png", "909 638"}}) {
-        EXPECT_TRUE(eventually([&, file = file, place = std::string(place)] {
-            act("mousemove " + place + " sleep 0.3 click 1 sleep 0.3");
-            return fs::exists(folder_ / "pictures" / file);
-        })) << file
-            << log();
-    }
-    std::ifstream csv(folder_ / "pictures" / "ray-tracing-history.csv");
-    std::string header, run;
-    EXPECT_TRUE(std::getline(csv, header) && std::getline(csv, run));
-    EXPECT_NE(run.find(GetParam()), std::string::npos) << run;
-    EXPECT_GT(image::readImage(folder_ / "pictures" / "ray-tracing-errors.png").width, 100u);
-    expectCleanEnd();
-}
-
 // From the picture: the first header is folded.
-TEST_P(ControlsTest, TheKeyboardReachesThePanels) {
+TEST_P(SharedControlsTest, TheKeyboardReachesThePanels) {
     start();
     ASSERT_FALSE(HasFatalFailure());
     act("mousemove 1000 700 click 1");

@@ -41,6 +41,10 @@ class PanelsTest : public WindowTest {
 };
 INSTANTIATE_TEST_SUITE_P(, PanelsTest, kBothPrograms, nameOfProgram);
 
+class SharedPanelsTest : public PanelsTest {};
+INSTANTIATE_TEST_SUITE_P(, SharedPanelsTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, SharedPanelsTest, kSecondProgram, nameOfProgram);
+
 // One thread cannot be divided, rasterised pictures have no samples: their rows stay, and so do those below.
 TEST_P(PanelsTest, ChangedSettingsAreMarkedAndRestoredAndDisabledRowsStayInPlace) {
     start({"--width", "32", "--spp", "7", "--engine", isGpu() ? "compute" : "single"});
@@ -60,7 +64,7 @@ TEST_P(PanelsTest, ChangedSettingsAreMarkedAndRestoredAndDisabledRowsStayInPlace
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, TheSceneBrowserFindsByName) {
+TEST_P(SharedPanelsTest, TheSceneBrowserFindsByName) {
     start({"--width", "32", "--spp", "1"});
     ASSERT_FALSE(HasFatalFailure());
     const scene::BuiltinScene& wanted = scene::builtinScenes().back();
@@ -116,7 +120,7 @@ TEST_P(PanelsTest, MoreSamplesAndBudgetsAreAtHand) {
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, AnErrorStandsAtItsFieldUntilItIsReadAndInTheListBeyond) {
+TEST_P(SharedPanelsTest, AnErrorStandsAtItsFieldUntilItIsReadAndInTheListBeyond) {
     const auto reds = [this](int left, int top, int right, int bottom) {
         const Screenshot shot = screenshot();
         int count = 0;
@@ -150,7 +154,7 @@ TEST_P(PanelsTest, AnErrorStandsAtItsFieldUntilItIsReadAndInTheListBeyond) {
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, TheHintOfTheFirstRunComesOnce) {
+TEST_P(SharedPanelsTest, TheHintOfTheFirstRunComesOnce) {
     const auto isHintThere = [this] { return screenshot().at(395, 812) == kWindowColor; };
     const auto isPictureThere = [this] { // and its border
         return isSaved(".exr") && screenshot().at(380, 400) == 0x2b2b2b;
@@ -170,7 +174,7 @@ TEST_P(PanelsTest, TheHintOfTheFirstRunComesOnce) {
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, ThePictureIsSmoothUnlessZoomedAndItsBorderNeutral) {
+TEST_P(SharedPanelsTest, ThePictureIsSmoothUnlessZoomedAndItsBorderNeutral) {
     // Of two pixels of the window beside each other, how many are the same.
     const auto shareOfEqual = [this] {
         const Screenshot shot = screenshot();
@@ -301,7 +305,7 @@ TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, TheCamerasOfAModelCanBeChosen) {
+TEST_P(SharedPanelsTest, TheCamerasOfAModelCanBeChosen) {
     const std::string model = (folder_ / "model.gltf").string(); // a triangle, its nine floats in base64
     std::ofstream(model) << R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0, 1, 2]}], "nodes": [{"mesh": 0},
         {"camera": 0, "translation": [0, 0, 3]}, {"camera": 1, "translation": [0.25, 0, 5]}],

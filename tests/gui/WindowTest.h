@@ -54,6 +54,12 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
 };
 
 inline const auto kBothPrograms = testing::Values("ray-tracing-cpu", "ray-tracing-gpu");
+
+// One proves what both windows have from Common/Gui. The other one's proof has the prefix Nightly, by which ctest leaves
+// it to the nightly tests.
+inline const auto kFirstProgram = testing::Values("ray-tracing-cpu");
+inline const auto kSecondProgram = testing::Values("ray-tracing-gpu");
+
 inline std::string nameOfProgram(const testing::TestParamInfo<const char*>& info) {
     return std::string(info.param) == "ray-tracing-cpu" ? "Cpu" : "Gpu";
 }

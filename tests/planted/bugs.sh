@@ -50,7 +50,7 @@ bug 'a scale of 0' ObjectReader.cpp 's/factors\.x == 0 \|\| factors\.y == 0 \|\|
 bug 'defocus in a scene file' SceneWriter.cpp 's/\{"defocus_angle", camera\.defocusAngle\}/{"defocus_angle", camera.focusDistance}/' unit.All/BuiltinScenes
 
 # ---- windows, history, benchmark -------------------------------------------------------------------------------------
-bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, \[\]/GLFW_KEY_P, When::Control, []/' gui.ControlsTest
+bug 'the key that opens a file' Shortcuts.cpp 's/GLFW_KEY_O, When::Control, \[\]/GLFW_KEY_P, When::Control, []/' gui.WindowFilesTest
 bug 'the curve of a run' RunHistory.cpp 's/curve\.push_back\(\{point\.seconds, point\.relmse\}\)/curve.push_back({point.relmse, point.seconds})/' unit.RunHistoryTest
 bug 'uncertainty of two errors' Efficiency.cpp 's/hypot\(relativeCi\(\*match\.best, pixels\), /hypot(0.0, /' unit.BenchEfficiency
 
