@@ -91,6 +91,9 @@ SceneDesc caustic(const ObjectDesc::Shape& lamp) {
 
 const QuadDesc kPanel{{-0.3, 5, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, "lamp"};
 
+// Balls of glass in instances of one prototype.
+constexpr const char* kInstances = RT_TEST_DATA_DIR "/scenes/glass-instances.json";
+
 TEST(Connection, ChangesNothingButNoise) {
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"})
         expectSameLight(findBuiltinScene(id), {16, 16});
@@ -105,7 +108,7 @@ TEST(NightlyConnection, ChangesNothingButNoise) {
 
 // Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
 std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
-    const auto scene = connectedThroughAll(*app::compile(findBuiltinScene(id), true, true));
+    const auto scene = connectedThroughAll(*app::compile(app::loadScene(id), true, true));
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     app::RenderSettings settings;
@@ -128,9 +131,9 @@ std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
     return means;
 }
 
-// By 16 regions and 3 scenes fewer than one in 3000 true sets of images fail.
+// By 16 regions and 4 scenes fewer than one in 2000 true sets of images fail.
 void expectSameMeans(std::uint32_t seeds) {
-    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", kInstances}) {
         int differing = 0;
         for (const Mean& mean : differences(id, seeds)) {
             EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError()) << id;
@@ -176,6 +179,12 @@ TEST(Connection, ThroughSpheresOfEveryKind) {
     SceneDesc fog = caustic(kPanel);
     fog.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, 0, -3), dvec3(3, 4, 3)}, 0.2, dvec3(0.9)}});
     expectSameLight(fog, {16, 64});
+}
+
+TEST(Connection, ThroughSpheresOfInstances) {
+    const SceneDesc desc = app::loadScene(kInstances);
+    ASSERT_EQ(app::compile(desc, true, true)->instances.size(), 4u);
+    expectSameLight(desc, {16, 64});
 }
 
 // Walls that emit and reflect light each other, and a sphere of clear glass among them, which changes nothing.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
 #include <vector>
 
+#include "Common/Scene/Affine.h"
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Material/Materials.h"
 
@@ -17,28 +19,58 @@ constexpr double kLeastIor = 1.01;   // below it a sphere focuses nothing
 constexpr double kUsedFlux = 0.9;    // of what falls on a sphere; what passes near its rim is spread widely
 constexpr double kLeastGain = 0.004; // of the irradiance at a sphere; less is not worth a connection
 constexpr double kMostGain = 4;
+constexpr std::size_t kMostInstanced = 1 << 20; // eight of more spheres matter less than the time to choose them
 
 shared::vec2 cosineAndSine(double angle) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-bool isConnectable(const CompiledScene& scene, const shared::Sphere& sphere) {
-    const shared::Material& material = scene.materials[sphere.material];
+bool isClearGlass(const CompiledScene& scene, std::uint32_t index) {
+    const shared::Material& material = scene.materials[index];
     return material.kind == shared::kMaterialDielectric && material.parameter[0] >= kLeastIor &&
-           material.texture == shared::kNone && material.emission == shared::vec3(0.0f) &&
-           sphere.light == shared::kNone;
+           material.texture == shared::kNone && material.emission == shared::vec3(0.0f);
 }
 
-shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t index) {
+// Where spheres stand: in the world, or in an instance that scales all lengths by one factor.
+struct Standing {
+    Affine toWorld;
+    double scale = 1;
+    std::uint32_t instance = shared::kNone;
+    std::uint32_t material = shared::kNone; // replaces theirs unless kNone
+};
+
+// Nothing where spheres do not stay spheres.
+std::optional<Standing> standing(const CompiledScene& scene, std::uint32_t index) {
+    const shared::Instance& instance = scene.instances[index];
+    Standing at;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            at.toWorld.linear[column][row] = static_cast<double>(instance.toWorld[row][column]);
+        at.toWorld.offset[row] = static_cast<double>(instance.toWorld[row].w);
+    }
+    const std::optional<double> scale = uniformScale(at.toWorld);
+    if (!scale) return std::nullopt;
+    at.scale = *scale;
+    at.instance = index;
+    at.material = instance.material;
+    return at;
+}
+
+shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t index, const Standing& at) {
     const shared::Sphere& sphere = scene.spheres[index];
-    const shared::Material& material = scene.materials[sphere.material];
+    const shared::Material& material = scene.materials[at.material != shared::kNone ? at.material : sphere.material];
     shared::SmoothSphere smooth{};
-    smooth.center = sphere.center;
-    smooth.radius = sphere.radius;
-    if (!scene.sphereMotions.empty()) smooth.motion = scene.sphereMotions[index];
+    smooth.center = shared::vec3(at.toWorld.point(sphere.center));
+    smooth.radius = static_cast<float>(static_cast<double>(sphere.radius) * at.scale);
+    if (!scene.sphereMotions.empty()) smooth.motion = shared::vec3(at.toWorld.vector(scene.sphereMotions[index]));
     smooth.inverseEta = 1.0f / material.parameter[0];
     smooth.tint = material.albedo * material.albedo;
     smooth.primitive = index;
+    smooth.instance = at.instance;
+    if (at.instance != shared::kNone) {
+        const double reach = glm::length(glm::dvec3(sphere.center)) + static_cast<double>(sphere.radius);
+        smooth.error = 32 * shared::kEpsilon * static_cast<float>(at.scale * reach + glm::length(at.toWorld.offset));
+    }
     return smooth;
 }
 
@@ -119,8 +151,7 @@ void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
     }
 }
 
-void addSphere(std::uint32_t index, CompiledScene& out) {
-    shared::SmoothSphere sphere = smoothSphere(out, index);
+void addSphere(shared::SmoothSphere sphere, CompiledScene& out) {
     LightsSeen lights;
     double sum = 0;
     for (std::size_t i = 0; i < out.globals.lightCount; ++i) {
@@ -144,40 +175,98 @@ void addSphere(std::uint32_t index, CompiledScene& out) {
     out.smoothSpheres.push_back(sphere);
 }
 
+// A sphere of clear glass, and what falls on it.
 struct Candidate {
-    std::uint32_t index;
-    double flux;     // what falls on the sphere
-    double variance; // as for kWorthConnecting; meaningless without flux
+    shared::SmoothSphere sphere;
+    double flux;
 };
 
-// A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
-// sum(L_i E_i) / pi, its mean sum(E_i) / pi.
-Candidate candidate(const CompiledScene& scene, std::uint32_t index) {
-    const shared::SmoothSphere sphere = smoothSphere(scene, index);
-    double mean = 0, second = 0;
-    for (std::size_t i = 0; i < scene.globals.lightCount; ++i) {
-        const double irradiance = irradianceAt(sphere, scene.lights[i], scene.lightBounds[i]);
-        mean += irradiance;
-        second += irradiance * static_cast<double>(shared::luminance(scene.lights[i].emission));
+// The candidates that most light falls on, those first; of equal ones the first that came.
+class Brightest {
+  public:
+    Brightest(const CompiledScene& scene, double leastVariance) : scene_(scene), leastVariance_(leastVariance) {}
+
+    // A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
+    // sum(L_i E_i) / pi, its mean sum(E_i) / pi.
+    void consider(std::uint32_t index, const Standing& at) {
+        const shared::SmoothSphere sphere = smoothSphere(scene_, index, at);
+        double mean = 0, second = 0;
+        for (std::size_t i = 0; i < scene_.globals.lightCount; ++i) {
+            const double irradiance = irradianceAt(sphere, scene_.lights[i], scene_.lightBounds[i]);
+            mean += irradiance;
+            second += irradiance * static_cast<double>(shared::luminance(scene_.lights[i].emission));
+        }
+        const double radius = static_cast<double>(sphere.radius);
+        const double flux = mean * radius * radius;
+        if (flux > 0 && std::numbers::pi * second / (mean * mean) - 1 >= leastVariance_) add({sphere, flux});
     }
-    const double radius = static_cast<double>(sphere.radius);
-    return {index, mean * radius * radius, std::numbers::pi * second / (mean * mean) - 1};
+
+    const std::vector<Candidate>& spheres() const { return spheres_; }
+
+  private:
+    void add(const Candidate& candidate) {
+        spheres_.insert(std::ranges::upper_bound(spheres_, candidate.flux, std::greater(), &Candidate::flux),
+                        candidate);
+        if (spheres_.size() > shared::kConnectedSpheres) spheres_.pop_back();
+    }
+
+    const CompiledScene& scene_;
+    const double leastVariance_;
+    std::vector<Candidate> spheres_;
+};
+
+void considerWorld(const CompiledScene& scene, Brightest& brightest) {
+    const shared::Geometry& world = scene.geometries.front();
+    for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i)
+        if (isClearGlass(scene, scene.spheres[i].material)) brightest.consider(i, {});
 }
+
+class InstancedGlass {
+  public:
+    explicit InstancedGlass(const CompiledScene& scene) : scene_(scene), own_(scene.geometries.size()) {
+        for (std::size_t g = 1; g < scene.geometries.size(); ++g) {
+            const shared::Geometry& geometry = scene.geometries[g];
+            for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
+                if (isClearGlass(scene, scene.spheres[i].material)) own_[g].push_back(i);
+        }
+        for (const shared::Instance& instance : scene.instances) count_ += countIn(instance);
+    }
+
+    std::size_t count() const { return count_; }
+
+    void consider(Brightest& brightest) const {
+        for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
+            const std::size_t count = countIn(scene_.instances[i]);
+            const std::optional<Standing> at = count > 0 ? standing(scene_, i) : std::nullopt;
+            for (std::size_t k = 0; at && k < count; ++k) brightest.consider(sphereIn(scene_.instances[i], k), *at);
+        }
+    }
+
+  private:
+    // All spheres of an instance whose material replaces theirs, or those of glass.
+    std::size_t countIn(const shared::Instance& instance) const {
+        if (instance.material == shared::kNone) return own_[instance.geometry].size();
+        return isClearGlass(scene_, instance.material) ? scene_.geometries[instance.geometry].sphereCount : 0;
+    }
+    std::uint32_t sphereIn(const shared::Instance& instance, std::size_t k) const {
+        if (instance.material == shared::kNone) return own_[instance.geometry][k];
+        return scene_.geometries[instance.geometry].firstSphere + static_cast<std::uint32_t>(k);
+    }
+
+    const CompiledScene& scene_;
+    std::vector<std::vector<std::uint32_t>> own_; // spheres that are of glass by themselves, of each geometry
+    std::size_t count_ = 0;
+};
 
 } // namespace
 
 void findSmoothSpheres(CompiledScene& out, double leastVariance) {
     if (out.globals.lightCount == 0 || out.globals.lightCount > shared::kContributionLights) return;
-    const shared::Geometry& world = out.geometries.front();
-    std::vector<Candidate> candidates;
-    for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i) {
-        if (!isConnectable(out, out.spheres[i])) continue;
-        const Candidate sphere = candidate(out, i);
-        if (sphere.flux > 0 && sphere.variance >= leastVariance) candidates.push_back(sphere);
-    }
-    std::ranges::stable_sort(candidates, std::greater(), &Candidate::flux);
-    if (candidates.size() > shared::kConnectedSpheres) candidates.resize(shared::kConnectedSpheres);
-    for (const Candidate& sphere : candidates) addSphere(sphere.index, out);
+    Brightest brightest(out, leastVariance);
+    considerWorld(out, brightest);
+    const InstancedGlass glass(out);
+    if (glass.count() <= kMostInstanced) glass.consider(brightest);
+    for (const Candidate& candidate : brightest.spheres()) addSphere(candidate.sphere, out);
 }
 
 } // namespace rt::scene

@@ -214,6 +214,8 @@ struct SmoothSphere {
     float inverseEta;        // index outside over inside, < 1
     vec3 tint;               // of light that has entered and left
     uint primitive;          // into spheres
+    uint instance;           // into instances; kNone: it is one of the world's own
+    float error;             // what the instance's map adds to the rounding of points on the surface
     float nearest;           // least radius over distance at which light through it is thought to matter; 1: nowhere
     vec2 reach[kReachSteps]; // by that ratio: cosine of how far, seen from the centre, a point may be from opposite
                              // a light, and irradiance there over that at the centre

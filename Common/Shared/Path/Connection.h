@@ -1,15 +1,15 @@
 // Connections: light that reaches a vertex which scatters widely through a sphere of glass, refracted where it enters
-// and where it leaves. A light is chosen that the sphere may focus on the vertex, a point on it sampled as the sphere's
-// centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three segments, which have to be
-// free. The weight against scattering, which finds the same paths, needs the vertex, the density of the direction that
-// was taken there and the rate of connections: PathState::chain carries them along. What connections do not cover
-// counts in full where scattering finds it: reflections, other orders of surfaces, lights around the sphere, and
-// vertices where no light is thought to converge.
+// and where it leaves. A light is chosen that the sphere may focus on the vertex (ConnectionChoice.h), a point on it
+// sampled as the sphere's centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three
+// segments, which have to be free. They are weighed against scattering, which finds the same paths (ConnectionChain.h).
+// What connections do not cover counts in full where scattering finds it: reflections, other orders of surfaces, lights
+// around the sphere, and vertices where no light is thought to converge.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
 #include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
+#include "Common/Shared/Path/ConnectionChoice.h"
 #include "Common/Shared/Path/DirectLight.h"
 
 RT_SHARED_BEGIN
@@ -28,116 +28,6 @@ RT_FN Passage noPassage() {
 }
 
 #ifdef RT_FULL
-
-// ---- choosing a sphere and a light ---------------------------------------------------------------------------------
-
-// A sphere as a point sees it.
-struct SphereView {
-    vec3 center;
-    vec3 along; // unit, to the centre
-    float near; // radius over distance
-    vec2 reach; // of SmoothSphere
-    bool isNear;
-};
-
-// Beyond it a point lies on the sphere, or within.
-const float kNearestToSphere = 0.999f;
-
-// All but the reach.
-RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
-    SphereView view;
-    view.center = sphere.center + sphere.motion * time;
-    vec3 toCenter = view.center - x;
-    float inverse = 1.0f / sqrt(max(dot(toCenter, toCenter), 1.0e-30f));
-    view.along = toCenter * inverse;
-    view.near = sphere.radius * inverse;
-    view.isNear = view.near > sphere.nearest && view.near < kNearestToSphere;
-    view.reach = vec2(0.0f);
-    return view;
-}
-
-RT_FN vec2 reachAt(RT_IN(SmoothSphere) sphere, float near) {
-    return sphere.reach[uint(min(near * float(kReachSteps), float(kReachSteps - 1u)))];
-}
-
-RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
-    SphereView view = seeSphere(sphere, x, time);
-    view.reach = reachAt(sphere, view.near);
-    return view;
-}
-
-// What the choice of a light through the sphere is proportional to: an estimate of the irradiance that it brings.
-RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
-    float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
-    float limit = view.reach.x * light.extent.x - sine * light.extent.y;
-    return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
-}
-
-// Sum of the weights of all lights through one sphere.
-RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
-    uint count = loadGlobals(scene).lightCount;
-    float sum = 0.0f;
-    for (uint i = 0u; i < count; i++) sum += reachWeight(loadSphereReach(scene, sphere * count + i), view);
-    return sum;
-}
-
-RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
-    float sum = 0.0f;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
-        if (view.isNear) sum += sphereWeight(scene, k, view);
-    }
-    return sum;
-}
-
-// Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
-RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
-    bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
-    return isWide && v.index + 1u + kPassageSegments <= params.maxDepth;
-}
-
-// Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
-// directly contribute `direct`, by a path of this throughput: as much as it can matter.
-const float kConnectionGain = 2.0f;
-const float kLeastChance = 0.25f; // what is rarer is left to scattering
-
-RT_FN float connectionChance(float total, float direct, vec3 throughput) {
-    float chance = min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
-    return chance < kLeastChance ? 0.0f : chance;
-}
-
-struct ConnectionChoice {
-    uint sphere;
-    uint light;
-    float weight; // 0: none
-    float u;      // what is left of the number that chose, for further use
-};
-
-// The light at this place along the weights, less than their sum.
-RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time, float target) {
-    uint count = loadGlobals(scene).lightCount;
-    ConnectionChoice choice;
-    choice.sphere = 0u;
-    choice.light = 0u;
-    choice.weight = 0.0f;
-    choice.u = 0.0f;
-    float left = target;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
-        if (!view.isNear) continue;
-        for (uint i = 0u; i < count; i++) {
-            float weight = reachWeight(loadSphereReach(scene, k * count + i), view);
-            if (!(weight > 0.0f)) continue;
-            choice.sphere = k;
-            choice.light = i;
-            choice.weight = weight;
-            choice.u = clamp(left / weight, 0.0f, 0.999999940395355f);
-            left -= weight;
-            if (left < 0.0f) return choice;
-        }
-    }
-    return choice;
-}
 
 // ---- the light's end -----------------------------------------------------------------------------------------------
 
@@ -286,7 +176,8 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     p.radiance = throughput * vec3(f) * light;
     float strongest = maxComponent(p.radiance);
     if (!(strongest > 0.0f && strongest < kInfinity)) return p;
-    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius);
+    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius +
+                      sphere.error);
     vec3 entry = center + path.entry * sphere.radius;
     vec3 leave = center + path.leave * sphere.radius;
     p.begin = v.origin;
@@ -361,67 +252,6 @@ RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray
     p.radiance *= rayTransmittance(features, scene, ray, tMax);
     p.segments -= 1u;
     if (p.segments == 0u) radiance += p.radiance;
-}
-
-// ---- the path's side -----------------------------------------------------------------------------------------------
-
-// Which of the spheres a path has hit.
-RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
-    if (hit.kind != kSphere || hit.instance != kNone) return kNone;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        if (loadSmoothSphere(scene, k).primitive == hit.primitive) return k;
-    }
-    return kNone;
-}
-
-// A path arrives at a surface, or in a medium, where hit.t < 0.
-RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
-    bool isSought = s.chain.state == kChainScattered || s.chain.state == kChainInside;
-    s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
-}
-
-// And goes on from there.
-RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
-    uint state = kChainNone;
-    if (b.delta == 0u) {
-        if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;
-        s.chain.from = v.origin;
-        s.chain.pdf = b.pdf;
-    } else if (b.transmitted != 0u && s.chain.sphere != kNone) {
-        if (s.chain.state == kChainScattered && v.front != 0u) {
-            state = kChainInside;
-            s.chain.inside = s.chain.sphere;
-        } else if (s.chain.state == kChainInside && v.front == 0u && s.chain.inside == s.chain.sphere) {
-            state = kChainBeyond;
-        }
-    }
-    s.chain.state = state;
-}
-
-// Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
-RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
-                            vec3 y, vec3 normal) {
-    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, s.chain.inside);
-    SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
-    uint count = loadGlobals(scene).lightCount;
-    float weight = reachWeight(loadSphereReach(scene, s.chain.inside * count + index), view);
-    ConnectionPair c = connectionPair(sphere, view, y);
-    if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
-    RT_IN(Light) light = loadLight(scene, index);
-    vec3 toY = y - view.center;
-    float distance = length(toY);
-    vec3 wi = toY / distance;
-    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, normal);
-    float density = s.chain.rate * weight * endDensity(light, view.center, wi, distance, normal, pdf);
-    if (!(density > 0.0f)) return 1.0f;
-    vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
-    float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
-    Refraction r = refractionAt(c.angles, angleOfSine(sine));
-    uint kind = dot(moment, c.axis) > 0.0f ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
-    if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
-    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
-    float scattering = s.chain.pdf * transmittedTwice(c.angles, r);
-    return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }
 
 #endif

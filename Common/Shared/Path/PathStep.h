@@ -19,7 +19,7 @@
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
-#include "Common/Shared/Path/Connection.h"
+#include "Common/Shared/Path/ConnectionChain.h"
 #include "Common/Shared/Path/Mixture.h"
 
 RT_SHARED_BEGIN
