@@ -1,4 +1,4 @@
-// Connections through spheres of glass change the noise and nothing else.
+// Connections through spheres of glass, and by reflection on smooth ones, change the noise and nothing else.
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -27,6 +27,14 @@ MaterialDesc glassOf(double ior) {
     glass.albedo = dvec3(0.9, 1, 0.8);
     glass.parameters[shared::kDielectricIor] = ior;
     return glass;
+}
+
+MaterialDesc mirrorOf(const dvec3& albedo) {
+    MaterialDesc mirror;
+    mirror.kind = MaterialKind::Metal;
+    mirror.albedo = albedo;
+    mirror.parameters[shared::kMetalFuzz] = 0;
+    return mirror;
 }
 
 // Side and samples of the images, of which 32 are compared.
@@ -183,8 +191,24 @@ TEST(Connection, ThroughSpheresOfEveryKind) {
 
 TEST(Connection, ThroughSpheresOfInstances) {
     const SceneDesc desc = app::loadScene(kInstances);
-    ASSERT_EQ(app::compile(desc, true, true)->instances.size(), 4u);
+    ASSERT_EQ(app::compile(desc, true, true)->instances.size(), 5u);
     expectSameLight(desc, {16, 64});
+}
+
+// A mirror in the place of the glass: at rest; moving, beside a sphere that emits; in fog, beside glass.
+TEST(Connection, ReflectedOnMirrors) {
+    SceneDesc mirror = caustic(kPanel);
+    mirror.materials["mirror"] = mirrorOf(dvec3(0.9, 0.8, 0.7));
+    mirror.objects[1] = {SphereDesc{{0, 1.2, 0}, 0.7, {}, "mirror"}};
+    expectSameLight(mirror, {16, 32});
+    SceneDesc moving = mirror;
+    moving.objects[1] = {SphereDesc{{-0.5, 1.2, 0}, 0.7, dvec3(0.5, 1.4, 0.3), "mirror"}};
+    moving.objects[2] = {SphereDesc{{1.4, 2.2, -0.2}, 0.3, {}, "lamp"}};
+    expectSameLight(moving, {16, 32});
+    SceneDesc fog = mirror;
+    fog.objects.push_back({SphereDesc{{1.4, 0.6, 0.7}, 0.6, {}, "glass"}});
+    fog.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, 0, -3), dvec3(3, 4, 3)}, 0.2, dvec3(0.9)}});
+    expectSameLight(fog, {16, 32});
 }
 
 // Walls that emit and reflect light each other, and a sphere of clear glass among them, which changes nothing.
@@ -199,14 +223,19 @@ TEST(Connection, AFurnaceStaysOne) {
 }
 
 // Through the sphere itself a lamp of area A at distance d brings the irradiance L A / d^2: of what scattering finds of
-// it a sample's relative variance is pi d^2 / A - 1, here 126 and 19.
+// it a sample's relative variance is pi d^2 / A - 1, here 283, 126 and 19. Glass reflects a tenth.
 TEST(Connection, OnlyWhereScatteringIsNoisy) {
-    const auto connectedSpheres = [](double side) {
+    const auto connectedSpheres = [](double side, bool isMirror) {
         const QuadDesc panel{{-side / 2, 5, -side / 2}, {side, 0, 0}, {0, 0, side}, "lamp"};
-        return scene::compileScene(caustic(panel))->smoothSpheres.size();
+        SceneDesc desc = caustic(panel);
+        if (isMirror) desc.materials["glass"] = mirrorOf(dvec3(0.9));
+        return scene::compileScene(desc)->smoothSpheres.size();
     };
-    EXPECT_EQ(connectedSpheres(0.6), 1u);
-    EXPECT_EQ(connectedSpheres(1.5), 0u);
+    EXPECT_EQ(connectedSpheres(0.4, false), 2u);
+    EXPECT_EQ(connectedSpheres(0.6, false), 1u);
+    EXPECT_EQ(connectedSpheres(1.5, false), 0u);
+    EXPECT_EQ(connectedSpheres(0.6, true), 1u);
+    EXPECT_EQ(connectedSpheres(1.5, true), 0u);
     for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy"})
         EXPECT_FALSE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
     for (const char* id : {"cornell-box-lights", "next-week-final"})

@@ -1,5 +1,5 @@
-// Which spheres of glass the scene compiler finds for connections to lights.
-#include <algorithm>
+// Which smooth spheres the scene compiler finds for connections to lights.
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,13 +58,16 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
     const auto instanced = test::connectedThroughAll(*compileScene(instances));
     const auto copied = test::connectedThroughAll(*compileScene(copies));
     ASSERT_EQ(instanced->instances.size(), 3u);
-    ASSERT_EQ(instanced->smoothSpheres.size(), 2u);
-    ASSERT_EQ(copied->smoothSpheres.size(), 2u);
-    ASSERT_EQ(instanced->sphereReaches.size(), 2u);
-    for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(instanced->smoothSpheres.size(), 4u);
+    ASSERT_EQ(copied->smoothSpheres.size(), 4u);
+    ASSERT_EQ(instanced->sphereReaches.size(), 4u);
+    std::uint32_t reflecting = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
         const shared::SmoothSphere& a = instanced->smoothSpheres[i];
         const shared::SmoothSphere& b = copied->smoothSpheres[i];
-        EXPECT_EQ(a.instance, i);
+        reflecting += a.reflects;
+        EXPECT_EQ(a.reflects, b.reflects);
+        EXPECT_EQ(a.instance, a.radius > 0.5f ? 0u : 1u);
         EXPECT_EQ(b.instance, shared::kNone);
         EXPECT_EQ(a.primitive, instanced->geometries[1].firstSphere);
         expectNear(a.center, b.center, 2e-6);
@@ -79,6 +82,7 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
         }
         EXPECT_NEAR(instanced->sphereReaches[i].weight / copied->sphereReaches[i].weight, 1, 1e-5);
     }
+    EXPECT_EQ(reflecting, 2u);
 }
 
 // An instance's material replaces those of its surfaces: by glass, by another glass, by what is none.
@@ -97,16 +101,17 @@ TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
     for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
         radii.push_back(smooth.radius);
         EXPECT_FLOAT_EQ(smooth.inverseEta, 1 / 1.8f);
-        EXPECT_FLOAT_EQ(smooth.tint.x, 0.81f);
+        EXPECT_FLOAT_EQ(smooth.tint.x, smooth.reflects != 0 ? 0.9f : 0.81f);
         EXPECT_TRUE(smooth.instance == 0 || smooth.instance == 2) << smooth.instance;
     }
     EXPECT_FLOAT_EQ(radii[0], 0.42f);
     EXPECT_FLOAT_EQ(radii[1], 0.3f);
 }
 
-// The list stays short, and of a million spheres none is looked at.
+// The list stays short, and empty where it would be a small part of all; of a million spheres none is looked at.
 TEST(SmoothSpheres, OfManyInstancesAreFew) {
     SceneDesc scene = litFloor();
+    scene.prototypes["equal"] = {{sphere({0, 0, 0}, 0.02, "glass")}, {beads("matte")}};
     scene.prototypes["few"] = {{sphere({0, 0, 0}, 0.01, "glass")}, {beads("matte")}};
     scene.prototypes["many"] = {{SphereSetDesc{std::vector<glm::dvec3>(1100, glm::dvec3(0)), 0.01, "glass"}}};
     add(scene, sphere({0, 5, 0}, 0.02, "glass"));
@@ -119,10 +124,12 @@ TEST(SmoothSpheres, OfManyInstancesAreFew) {
     const std::vector<shared::SmoothSphere> few = listed("few", 1000);
     ASSERT_EQ(few.size(), shared::kConnectedSpheres);
     EXPECT_EQ(few[0].instance, shared::kNone);
-    EXPECT_EQ(few[1].instance, 0u); // below the lamp, of which it sees most
+    EXPECT_EQ(few[1].instance, shared::kNone);
+    EXPECT_EQ(few[2].instance, 0u); // below the lamp, of which it sees most
+    EXPECT_EQ(listed("equal", 1000).size(), 0u);
     const std::vector<shared::SmoothSphere> many = listed("many", 1000);
-    ASSERT_EQ(many.size(), 1u);
-    EXPECT_EQ(many[0].instance, shared::kNone);
+    ASSERT_EQ(many.size(), 2u); // it refracts and reflects
+    for (const shared::SmoothSphere& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
 }
 
 } // namespace

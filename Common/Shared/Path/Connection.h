@@ -1,9 +1,9 @@
-// Connections: light that reaches a vertex which scatters widely through a sphere of glass, refracted where it enters
-// and where it leaves. A light is chosen that the sphere may focus on the vertex (ConnectionChoice.h), a point on it
-// sampled as the sphere's centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three
-// segments, which have to be free. They are weighed against scattering, which finds the same paths (ConnectionChain.h).
-// What connections do not cover counts in full where scattering finds it: reflections, other orders of surfaces, lights
-// around the sphere, and vertices where no light is thought to converge.
+// Connections: light that reaches a vertex which scatters widely by way of a smooth sphere, refracted where it enters
+// and where it leaves, or reflected on the outside. A sphere and a light are chosen (ConnectionChoice.h), a point on
+// the light sampled as the sphere's centre sees it, and one of the paths drawn that lead there (SphereRefraction.h):
+// two or three segments, which have to be free. They are weighed against scattering, which finds the same paths
+// (ConnectionChain.h). What connections do not cover counts in full where scattering finds it: other orders of
+// surfaces, lights around the sphere, and vertices that no light is thought to reach.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
@@ -77,8 +77,12 @@ struct ConnectionPair {
     vec3 along; // unit, from the vertex to the centre
     vec3 aside; // unit, across it, towards the light's end
     vec3 axis;  // across both, as long as the sine of the angle between them
+    float inverseEta;
+    uint reflects;
 };
 
+// Of a sphere that reflects the one path is kOppositePath, with an infinite index, the sides changed, and the
+// supplement to turn by; see SphereRefraction.h.
 RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, vec3 y) {
     ConnectionPair c;
     vec3 toY = y - view.center;
@@ -87,11 +91,15 @@ RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView
     c.along = view.along;
     c.axis = cross(view.along, w);
     float sine = sqrt(dot(c.axis, c.axis));
-    c.aside = cross(c.axis, view.along) * (1.0f / max(sine, 1.0e-12f));
-    c.angles.inverseEta = sphere.inverseEta;
+    bool reflects = sphere.reflects != 0u;
+    c.aside = cross(c.axis, view.along) * ((reflects ? -1.0f : 1.0f) / max(sine, 1.0e-12f));
+    c.inverseEta = sphere.inverseEta;
+    c.reflects = sphere.reflects;
+    c.angles.inverseEta = reflects ? 0.0f : sphere.inverseEta;
     c.angles.nearX = view.near;
     c.angles.nearY = sphere.radius * inverse;
-    c.angles.bend = vec2(dot(view.along, w), sine);
+    float cosine = dot(view.along, w);
+    c.angles.bend = vec2(reflects ? -cosine : cosine, sine);
     return c;
 }
 
@@ -102,16 +110,18 @@ RT_FN bool isConnectable(RT_IN(ConnectionPair) c) {
 
 // One path between the ends.
 struct SpherePath {
-    vec3 atX;          // unit direction at the vertex
-    vec3 entry;        // unit normals, outward, where it meets the sphere: on the vertex's side
-    vec3 leave;        // and on the light's
-    float transmitted; // fraction of light
-    float spread;      // solid angle at the vertex over area of the light
-    float share;       // of the choice among the paths
+    vec3 atX;       // unit direction at the vertex
+    vec3 entry;     // unit normals, outward, where it meets the sphere: on the vertex's side
+    vec3 leave;     // and on the light's
+    float fraction; // of light that goes this way
+    float spread;   // solid angle at the vertex over area of the light
+    float share;    // of the choice among the paths
 };
 
-RT_FN float transmittedTwice(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
-    return square(1.0f - fresnel(r.incident.x, p.inverseEta).x);
+// Of the light that meets the sphere, what is reflected, or is refracted twice.
+RT_FN float lightFraction(RT_IN(ConnectionPair) c, RT_IN(Refraction) r) {
+    float reflected = fresnel(max(r.incident.x, 1.0e-12f), c.inverseEta).x;
+    return c.reflects != 0u ? reflected : square(1.0f - reflected);
 }
 
 // Solid angle at the vertex over area at the light, whose normal makes an angle of this cosine with the path.
@@ -130,18 +140,18 @@ RT_FN SpherePath pathAt(RT_IN(ConnectionPair) c, uint kind, bool exists, vec2 an
     SpherePath path;
     path.atX = places.atX;
     path.entry = places.entry;
-    path.leave = places.leave;
-    vec3 toEnd = end.point - (center + places.leave * radius);
+    path.leave = select(c.reflects != 0u, places.entry, places.leave);
+    vec3 toEnd = end.point - (center + path.leave * radius);
     vec3 wy = toEnd * (1.0f / sqrt(max(dot(toEnd, toEnd), 1.0e-30f)));
     float facing = -dot(end.normal, wy);
     facing = max(facing, -facing * end.twoSided);
-    path.transmitted = transmittedTwice(c.angles, r);
+    path.fraction = lightFraction(c, r);
     path.spread = pathSpread(c.angles, r, radius, facing);
     // The irradiance that it brings, weighed against scattering by the cosine.
     float receiver = isSurface(normal) ? max(dot(normal, path.atX), 0.0f) : 1.0f;
-    float scattering = kInvPi * receiver * path.transmitted * path.spread / end.density;
-    float share = receiver * path.transmitted * path.spread / (1.0f + square(scattering));
-    bool isOutside = dot(wy, places.leave) > 0.0f && dot(places.atX, places.entry) < 0.0f;
+    float scattering = kInvPi * receiver * path.fraction * path.spread / end.density;
+    float share = receiver * path.fraction * path.spread / (1.0f + square(scattering));
+    bool isOutside = dot(wy, path.leave) > 0.0f && dot(places.atX, places.entry) < 0.0f;
     bool isValid = exists && isConnectable(c) && isOutside && end.density > 0.0f && share > 0.0f && share < kInfinity;
     path.share = isValid ? share : 0.0f;
     return path;
@@ -170,9 +180,9 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     if (!(path.share > 0.0f)) return p;
     vec4 f = evalScattering(features, v, path.atX);
     float connecting = end.density / path.spread;
-    float scattering = f.w * path.transmitted;
+    float scattering = f.w * path.fraction;
     if (params.lightSampling != kSampleMisBalance) scattering *= scattering / connecting;
-    vec3 light = sphere.tint * end.radiance * (path.transmitted / (path.share * (connecting + scattering)));
+    vec3 light = sphere.tint * end.radiance * (path.fraction / (path.share * (connecting + scattering)));
     p.radiance = throughput * vec3(f) * light;
     float strongest = maxComponent(p.radiance);
     if (!(strongest > 0.0f && strongest < kInfinity)) return p;
@@ -186,7 +196,8 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     p.leave[0] = offsetOrigin(leave, error, path.leave, -path.leave);
     p.leave[1] = offsetOrigin(leave, error, path.leave, path.leave);
     p.end = offsetOrigin(end.point, end.error, end.normal, leave - end.point);
-    p.segments = kPassageSegments;
+    p.segments = kSegmentBeyond | kSegmentBefore;
+    if (sphere.reflects == 0u) p.segments |= kSegmentInside;
     return p;
 }
 
@@ -230,8 +241,10 @@ RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) pa
 
 // The next segment of the passage that has to be free, up to tMax.
 RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
-    vec3 from = p.segments == 3u ? p.leave[1] : p.segments == 2u ? p.begin : p.entry[1];
-    vec3 to = p.segments == 3u ? p.end : p.segments == 2u ? p.entry[0] : p.leave[0];
+    bool isBeyond = (p.segments & kSegmentBeyond) != 0u;
+    bool isBefore = (p.segments & kSegmentBefore) != 0u;
+    vec3 from = isBeyond ? p.leave[1] : isBefore ? p.begin : p.entry[1];
+    vec3 to = isBeyond ? p.end : isBefore ? p.entry[0] : p.leave[0];
     vec3 segment = to - from;
     float segmentLength = length(segment);
     Ray ray;
@@ -250,7 +263,7 @@ RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray
         return;
     }
     p.radiance *= rayTransmittance(features, scene, ray, tMax);
-    p.segments -= 1u;
+    p.segments &= p.segments - 1u;
     if (p.segments == 0u) radiance += p.radiance;
 }
 

@@ -1,4 +1,4 @@
-// The side of scattering: a path that finds a light through a sphere of glass, as a connection from where it scattered
+// The side of scattering: a path that finds a light by way of a smooth sphere, as a connection from where it scattered
 // might have, and the weight of what it finds there. PathState::chain carries along what that takes.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHAIN_H
@@ -32,24 +32,40 @@ RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s
         if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;
         s.chain.from = v.origin;
         s.chain.pdf = b.pdf;
-    } else if (b.transmitted != 0u && s.chain.sphere != kNone) {
+    } else if (s.chain.sphere != kNone) {
         if (s.chain.state == kChainScattered && v.front != 0u) {
-            state = kChainInside;
-            s.chain.inside = s.chain.sphere;
-        } else if (s.chain.state == kChainInside && v.front == 0u && s.chain.inside == s.chain.sphere) {
+            state = b.transmitted != 0u ? kChainInside : kChainReflected;
+            s.chain.met = s.chain.sphere;
+        } else if (s.chain.state == kChainInside && b.transmitted != 0u && v.front == 0u &&
+                   s.chain.met == s.chain.sphere) {
             state = kChainBeyond;
         }
     }
     s.chain.state = state;
 }
 
+// The element of smoothSpheres for what the path's chain has met, and how; kNone: there is none.
+RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(SphereChain) chain) {
+    RT_IN(SmoothSphere) met = loadSmoothSphere(scene, chain.met);
+    uint reflects = chain.state == kChainReflected ? 1u : 0u;
+    for (uint k = chain.met; k < params.connectedSpheres; k++) {
+        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        if (sphere.primitive == met.primitive && sphere.instance == met.instance && sphere.reflects == reflects) {
+            return k;
+        }
+    }
+    return kNone;
+}
+
 // Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
 RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
                             vec3 y, vec3 normal) {
-    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, s.chain.inside);
+    uint k = passedSphere(scene, params, s.chain);
+    if (k == kNone) return 1.0f;
+    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
     SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
     uint count = loadGlobals(scene).lightCount;
-    float weight = reachWeight(loadSphereReach(scene, s.chain.inside * count + index), view);
+    float weight = reachWeight(loadSphereReach(scene, k * count + index), view);
     ConnectionPair c = connectionPair(sphere, view, y);
     if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
     RT_IN(Light) light = loadLight(scene, index);
@@ -62,10 +78,11 @@ RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) p
     vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
     float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
     Refraction r = refractionAt(c.angles, angleOfSine(sine));
-    uint kind = dot(moment, c.axis) > 0.0f ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
+    bool isOpposite = c.reflects != 0u || dot(moment, c.axis) > 0.0f;
+    uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
     if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
     float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
-    float scattering = s.chain.pdf * transmittedTwice(c.angles, r);
+    float scattering = s.chain.pdf * lightFraction(c, r);
     return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }
 

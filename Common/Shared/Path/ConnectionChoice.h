@@ -1,5 +1,5 @@
-// Which light a vertex connects to, and through which sphere of glass: in proportion to an estimate of the irradiance that
-// it brings, and with a probability that says how much that can matter.
+// Which light a vertex connects to, and by way of which smooth sphere: in proportion to an estimate of the irradiance
+// that it brings, and with a probability that says how much that can matter.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHOICE_H
 #define RT_SHARED_CONNECTION_CHOICE_H
@@ -71,17 +71,15 @@ RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, floa
 // Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
 RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
-    return isWide && v.index + 1u + kPassageSegments <= params.maxDepth;
+    return isWide && v.index + 1u + kPassageVertices <= params.maxDepth;
 }
 
 // Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
 // directly contribute `direct`, by a path of this throughput: as much as it can matter.
 const float kConnectionGain = 2.0f;
-const float kLeastChance = 0.25f; // what is rarer is left to scattering
 
 RT_FN float connectionChance(float total, float direct, vec3 throughput) {
-    float chance = min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
-    return chance < kLeastChance ? 0.0f : chance;
+    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
 }
 
 struct ConnectionChoice {
