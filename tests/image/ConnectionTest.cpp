@@ -1,4 +1,5 @@
 // Connections through spheres of glass, and by reflection on smooth ones, change the noise and nothing else.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -115,7 +116,12 @@ TEST(NightlyConnection, ChangesNothingButNoise) {
 }
 
 // Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
-std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
+struct Differences {
+    std::vector<Mean> regions;
+    double largest = 0; // of a region and a seed
+};
+
+Differences differences(const char* id, std::uint32_t seeds) {
     const auto scene = connectedThroughAll(*app::compile(app::loadScene(id), true, true));
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
@@ -123,7 +129,8 @@ std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
     settings.width = settings.height = 16;
     settings.spp = 4;
     constexpr std::size_t kRegions = 16;
-    std::vector<Mean> means(kRegions);
+    Differences differences;
+    differences.regions.resize(kRegions);
     for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
         double sums[kRegions] = {};
         for (const bool connected : {false, true}) {
@@ -134,22 +141,28 @@ std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
                 sums[y / 4 * 4 + x / 4] += (connected ? 1.0 : -1.0) * double(image.data[i]);
             }
         }
-        for (std::size_t r = 0; r < kRegions; ++r) means[r].add(sums[r]);
+        for (std::size_t r = 0; r < kRegions; ++r) {
+            differences.regions[r].add(sums[r]);
+            differences.largest = std::max(differences.largest, std::abs(sums[r]));
+        }
     }
-    return means;
+    return differences;
 }
 
-// By 16 regions and 4 scenes fewer than one in 2000 true sets of images fail.
+// By 16 regions and 4 scenes fewer than one in 2000 true sets of images fail. Scattering finds some light that rarely
+// that no seed has it: of a difference as large as the largest one, in as few seeds as 10 are expected to, all miss it
+// once in 20 000 times.
 void expectSameMeans(std::uint32_t seeds) {
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", kInstances}) {
         int differing = 0;
-        for (const Mean& mean : differences(id, seeds)) {
-            EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError()) << id;
+        const Differences found = differences(id, seeds);
+        for (const Mean& mean : found.regions) {
+            EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError() + 10 * found.largest / seeds) << id;
             if (mean.variance() > 0) ++differing;
         }
         EXPECT_GT(differing, 4) << id;
     }
-    for (const Mean& mean : differences("veach-mis", 3))
+    for (const Mean& mean : differences("veach-mis", 3).regions)
         EXPECT_EQ(mean.variance(), 0) << "without glass nothing changes";
 }
 
