@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLeastIor = 1.01;              // below it a sphere focuses nothing
 constexpr double kLeastShare = 0.1;             // of the light that goes on from spheres; less is not worth the time
+constexpr double kMirrorWorth = 0.25;           // see kWorthConnecting
 constexpr std::size_t kMostInstanced = 1 << 20; // eight of more spheres matter less than the time to choose them
 
 bool isMirror(const shared::Material& material) {
@@ -115,7 +116,8 @@ class Brightest {
         const double radius = static_cast<double>(sphere.radius);
         const double part = sphere.reflects != 0 ? meanReflectance(static_cast<double>(sphere.inverseEta)) : 1;
         const double flux = mean * radius * radius * part;
-        if (flux > 0 && (std::numbers::pi * second / (mean * mean) - 1) * part >= leastVariance_) add({sphere, flux});
+        const double least = sphere.inverseEta == 0.0f ? leastVariance_ * kMirrorWorth : leastVariance_;
+        if (flux > 0 && (std::numbers::pi * second / (mean * mean) - 1) * part >= least) add({sphere, flux});
     }
 
     void add(const Candidate& candidate) {
