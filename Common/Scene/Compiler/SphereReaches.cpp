@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near its rim is spread widely
 // Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
-constexpr double kLeastRefracted = 0.004, kLeastReflected = 1e-4;
+constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
 constexpr double kMostGain = 4;
 
 shared::vec2 cosineAndSine(double angle) {
@@ -70,9 +70,10 @@ double refractionGain(double inverseEta, double nearX, double nearY, double spre
     return std::min(flux * nearX * nearX / (2 * (2 * bent / flux + spread)), kMostGain);
 }
 
-// As refractionGain(): parallel light is reflected into all directions alike.
+// As refractionGain(): parallel light is reflected into all directions alike. A quarter of it: it varies so little over
+// a light that fewer connections do.
 double reflectionGain(double inverseEta, double nearX) {
-    return meanReflectance(inverseEta) * nearX * nearX / 4;
+    return 0.25 * meanReflectance(inverseEta) * nearX * nearX / 4;
 }
 
 // What the lights that a sphere sees have in common.
