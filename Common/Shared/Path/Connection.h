@@ -74,11 +74,11 @@ RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) para
 
 struct ConnectionPair {
     RefractionPair angles;
-    vec3 along; // unit, from the vertex to the centre
-    vec3 aside; // unit, across it, towards the light's end
-    vec3 axis;  // across both, as long as the sine of the angle between them
-    float inverseEta;
-    uint reflects;
+    vec3 along;       // unit, from the vertex to the centre
+    vec3 aside;       // unit, across it, towards the light's end; away from it where the sphere reflects
+    vec3 axis;        // across both, as long as the sine of the angle between them
+    float inverseEta; // SmoothSphere::inverseEta
+    uint reflects;    // SmoothSphere::reflects
 };
 
 // Of a sphere that reflects the one path is kOppositePath, with an infinite index, the sides changed, and the

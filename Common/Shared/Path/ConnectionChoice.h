@@ -44,14 +44,14 @@ RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
     return view;
 }
 
-// What the choice of a light through the sphere is proportional to: an estimate of the irradiance that it brings.
+// What the choice of a light by way of the sphere is proportional to: an estimate of the irradiance that it brings.
 RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
     float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
     float limit = view.reach.x * light.extent.x - sine * light.extent.y;
     return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
 }
 
-// Sum of the weights of all lights through one sphere.
+// Sum of the weights of all lights by way of one sphere.
 RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
     uint count = loadGlobals(scene).lightCount;
     float sum = 0.0f;
