@@ -1,4 +1,4 @@
-// Connections through spheres of glass, sixteen at a time: what a path's sphere and light are is found slot by slot,
+// Connections by way of smooth spheres, sixteen at a time: what a path's sphere and light are is found slot by slot,
 // the paths between their ends in the lanes of vectors. The values are those of one path alone (Connection.h), bit for
 // bit.
 // Included by one translation unit per instruction set; all it defines has internal linkage.
@@ -17,8 +17,8 @@ struct FieldsOf<RefractionRoots> : Fields<FieldList<&RefractionRoots::count, &Re
 
 template <>
 struct FieldsOf<ConnectionPair>
-    : Fields<
-          FieldList<&ConnectionPair::angles, &ConnectionPair::along, &ConnectionPair::aside, &ConnectionPair::axis>> {};
+    : Fields<FieldList<&ConnectionPair::angles, &ConnectionPair::along, &ConnectionPair::aside, &ConnectionPair::axis,
+                       &ConnectionPair::inverseEta, &ConnectionPair::reflects>> {};
 
 template <>
 struct FieldsOf<LightEnd> : Fields<FieldList<&LightEnd::point, &LightEnd::error, &LightEnd::normal, &LightEnd::radiance,
@@ -26,7 +26,7 @@ struct FieldsOf<LightEnd> : Fields<FieldList<&LightEnd::point, &LightEnd::error,
 
 template <>
 struct FieldsOf<SpherePath> : Fields<FieldList<&SpherePath::atX, &SpherePath::entry, &SpherePath::leave,
-                                               &SpherePath::transmitted, &SpherePath::spread, &SpherePath::share>> {};
+                                               &SpherePath::fraction, &SpherePath::spread, &SpherePath::share>> {};
 
 RT_SHARED_END
 

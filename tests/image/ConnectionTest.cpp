@@ -1,7 +1,9 @@
-// Connections through spheres of glass change the noise and nothing else.
+// Connections through spheres of glass, and by reflection on smooth ones, change the noise and nothing else.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -27,6 +29,14 @@ MaterialDesc glassOf(double ior) {
     glass.albedo = dvec3(0.9, 1, 0.8);
     glass.parameters[shared::kDielectricIor] = ior;
     return glass;
+}
+
+MaterialDesc mirrorOf(const dvec3& albedo) {
+    MaterialDesc mirror;
+    mirror.kind = MaterialKind::Metal;
+    mirror.albedo = albedo;
+    mirror.parameters[shared::kMetalFuzz] = 0;
+    return mirror;
 }
 
 // Side and samples of the images, of which 32 are compared.
@@ -91,6 +101,9 @@ SceneDesc caustic(const ObjectDesc::Shape& lamp) {
 
 const QuadDesc kPanel{{-0.3, 5, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, "lamp"};
 
+// Balls of glass in instances of one prototype.
+constexpr const char* kInstances = RT_TEST_DATA_DIR "/scenes/glass-instances.json";
+
 TEST(Connection, ChangesNothingButNoise) {
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"})
         expectSameLight(findBuiltinScene(id), {16, 16});
@@ -104,15 +117,21 @@ TEST(NightlyConnection, ChangesNothingButNoise) {
 }
 
 // Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
-std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
-    const auto scene = connectedThroughAll(*app::compile(findBuiltinScene(id), true, true));
+struct Differences {
+    std::vector<Mean> regions;
+    double largest = 0; // of a region and a seed
+};
+
+Differences differences(const char* id, std::uint32_t seeds) {
+    const auto scene = connectedThroughAll(*app::compile(app::loadScene(id), true, true));
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     app::RenderSettings settings;
     settings.width = settings.height = 16;
     settings.spp = 4;
     constexpr std::size_t kRegions = 16;
-    std::vector<Mean> means(kRegions);
+    Differences differences;
+    differences.regions.resize(kRegions);
     for (settings.seed = 0; settings.seed < seeds; ++settings.seed) {
         double sums[kRegions] = {};
         for (const bool connected : {false, true}) {
@@ -123,22 +142,28 @@ std::vector<Mean> differences(const char* id, std::uint32_t seeds) {
                 sums[y / 4 * 4 + x / 4] += (connected ? 1.0 : -1.0) * double(image.data[i]);
             }
         }
-        for (std::size_t r = 0; r < kRegions; ++r) means[r].add(sums[r]);
+        for (std::size_t r = 0; r < kRegions; ++r) {
+            differences.regions[r].add(sums[r]);
+            differences.largest = std::max(differences.largest, std::abs(sums[r]));
+        }
     }
-    return means;
+    return differences;
 }
 
-// By 16 regions and 3 scenes fewer than one in 3000 true sets of images fail.
+// By 16 regions and 4 scenes fewer than one in 2000 true sets of images fail. Scattering finds some light that rarely
+// that no seed may have it: a difference as large as the largest one, expected in 10 of the seeds, is in none of them
+// once in 20 000 times.
 void expectSameMeans(std::uint32_t seeds) {
-    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"}) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", kInstances}) {
         int differing = 0;
-        for (const Mean& mean : differences(id, seeds)) {
-            EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError()) << id;
+        const Differences found = differences(id, seeds);
+        for (const Mean& mean : found.regions) {
+            EXPECT_LE(std::abs(mean.mean()), 4.5 * mean.standardError() + 10 * found.largest / seeds) << id;
             if (mean.variance() > 0) ++differing;
         }
         EXPECT_GT(differing, 4) << id;
     }
-    for (const Mean& mean : differences("veach-mis", 3))
+    for (const Mean& mean : differences("veach-mis", 3).regions)
         EXPECT_EQ(mean.variance(), 0) << "without glass nothing changes";
 }
 
@@ -178,6 +203,39 @@ TEST(Connection, ThroughSpheresOfEveryKind) {
     expectSameLight(fog, {16, 64});
 }
 
+// As they are, and with the prototype so far from its origin that its instances round places by a ten-thousandth.
+TEST(Connection, ThroughSpheresOfInstances) {
+    SceneDesc desc = app::loadScene(kInstances);
+    ASSERT_EQ(app::compile(desc, true, true)->instances.size(), 5u);
+    expectSameLight(desc, {16, 64});
+    const dvec3 offset(3000, -2000, 1000);
+    for (ObjectDesc& object : desc.prototypes.at("ball")) {
+        if (auto* sphere = std::get_if<SphereDesc>(&object.shape)) sphere->center += offset;
+        if (auto* beads = std::get_if<SphereSetDesc>(&object.shape))
+            for (dvec3& center : beads->centers) center += offset;
+    }
+    for (ObjectDesc& object : desc.objects)
+        if (auto* instance = std::get_if<InstanceDesc>(&object.shape))
+            instance->transform.insert(instance->transform.begin(), Translate{-offset});
+    expectSameLight(desc, {16, 64});
+}
+
+// A mirror in the place of the glass: at rest; moving, beside a sphere that emits; in fog, beside glass.
+TEST(Connection, ReflectedOnMirrors) {
+    SceneDesc mirror = caustic(kPanel);
+    mirror.materials["mirror"] = mirrorOf(dvec3(0.9, 0.8, 0.7));
+    mirror.objects[1] = {SphereDesc{{0, 1.2, 0}, 0.7, {}, "mirror"}};
+    expectSameLight(mirror, {16, 32});
+    SceneDesc moving = mirror;
+    moving.objects[1] = {SphereDesc{{-0.5, 1.2, 0}, 0.7, dvec3(0.5, 1.4, 0.3), "mirror"}};
+    moving.objects[2] = {SphereDesc{{1.4, 2.2, -0.2}, 0.3, {}, "lamp"}};
+    expectSameLight(moving, {16, 32});
+    SceneDesc fog = mirror;
+    fog.objects.push_back({SphereDesc{{1.4, 0.6, 0.7}, 0.6, {}, "glass"}});
+    fog.objects.push_back({MediumDesc{BoxBoundary{dvec3(-3, 0, -3), dvec3(3, 4, 3)}, 0.2, dvec3(0.9)}});
+    expectSameLight(fog, {16, 32});
+}
+
 // Walls that emit and reflect light each other, and a sphere of clear glass among them, which changes nothing.
 TEST(Connection, AFurnaceStaysOne) {
     SceneDesc desc = shell(true, 0.5, 0.5);
@@ -190,14 +248,20 @@ TEST(Connection, AFurnaceStaysOne) {
 }
 
 // Through the sphere itself a lamp of area A at distance d brings the irradiance L A / d^2: of what scattering finds of
-// it a sample's relative variance is pi d^2 / A - 1, here 126 and 19.
+// it a sample's relative variance is pi d^2 / A - 1, here 283, 126, 19 and 4. Glass reflects a tenth.
 TEST(Connection, OnlyWhereScatteringIsNoisy) {
-    const auto connectedSpheres = [](double side) {
+    const auto connectedSpheres = [](double side, bool isMirror) {
         const QuadDesc panel{{-side / 2, 5, -side / 2}, {side, 0, 0}, {0, 0, side}, "lamp"};
-        return scene::compileScene(caustic(panel))->smoothSpheres.size();
+        SceneDesc desc = caustic(panel);
+        if (isMirror) desc.materials["glass"] = mirrorOf(dvec3(0.9));
+        return scene::compileScene(desc)->smoothSpheres.size();
     };
-    EXPECT_EQ(connectedSpheres(0.6), 1u);
-    EXPECT_EQ(connectedSpheres(1.5), 0u);
+    EXPECT_EQ(connectedSpheres(0.4, false), 2u);
+    EXPECT_EQ(connectedSpheres(0.6, false), 1u);
+    EXPECT_EQ(connectedSpheres(1.5, false), 0u);
+    EXPECT_EQ(connectedSpheres(0.6, true), 1u);
+    EXPECT_EQ(connectedSpheres(1.5, true), 1u);
+    EXPECT_EQ(connectedSpheres(3, true), 0u);
     for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy"})
         EXPECT_FALSE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
     for (const char* id : {"cornell-box-lights", "next-week-final"})

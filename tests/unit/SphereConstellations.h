@@ -1,5 +1,5 @@
-// A sphere of glass at the origin, of radius 1, between a point and a quad that emits: constellations of them, and the
-// light that rays traced in double precision find.
+// A sphere of glass, or a mirror, at the origin, of radius 1, between a point and a quad that emits, or beside them:
+// constellations of them, and the light that rays traced in double precision find.
 #pragma once
 #include <array>
 #include <cmath>
@@ -14,12 +14,14 @@ namespace rt::test {
 using glm::dvec3;
 
 constexpr double kPiD = 3.14159265358979323846;
+constexpr double kMirror = 0; // in place of an index of refraction
 
-// A ray that has been refracted by the unit sphere at the origin, and the fraction of its light that is left.
+// A ray that has been refracted by the unit sphere at the origin or reflected on it, and the fraction of its light that
+// is left.
 struct Traced {
     dvec3 origin{};
     dvec3 direction{};
-    double transmitted = 0; // 0: it missed the sphere
+    double left = 0; // 0: it missed the sphere
 };
 
 inline double reflectance(double c, double t, double eta) {
@@ -27,18 +29,34 @@ inline double reflectance(double c, double t, double eta) {
     return 0.5 * (across * across + along * along);
 }
 
-inline Traced traceThrough(const dvec3& x, const dvec3& direction, double eta) {
+// Where a ray meets the sphere. False: it misses.
+inline bool meetSphere(const dvec3& x, const dvec3& direction, dvec3& entry) {
     const double b = -glm::dot(x, direction);
     const dvec3 foot = x + b * direction;
     const double squared = 1 - glm::dot(foot, foot);
-    if (squared <= 0 || b <= 0) return {};
-    const dvec3 entry = x + (b - std::sqrt(squared)) * direction;
+    if (squared <= 0 || b <= 0) return false;
+    entry = x + (b - std::sqrt(squared)) * direction;
+    return true;
+}
+
+inline Traced traceThrough(const dvec3& x, const dvec3& direction, double eta) {
+    dvec3 entry;
+    if (eta == kMirror || !meetSphere(x, direction, entry)) return {};
     const double c = -glm::dot(direction, entry);
     const double t = std::sqrt(1 - (1 - c * c) / (eta * eta));
     const dvec3 inside = direction / eta + entry * (c / eta - t);
     const dvec3 leave = entry - 2 * glm::dot(inside, entry) * inside;
     const double kept = 1 - reflectance(c, t, eta);
     return {leave, glm::normalize(eta * inside - leave * (eta * t - c)), kept * kept};
+}
+
+inline Traced traceOff(const dvec3& x, const dvec3& direction, double eta) {
+    dvec3 entry;
+    if (!meetSphere(x, direction, entry)) return {};
+    const double c = -glm::dot(direction, entry);
+    const dvec3 reflected = glm::normalize(direction + 2 * c * entry);
+    if (eta == kMirror) return {entry, reflected, 1};
+    return {entry, reflected, reflectance(c, std::sqrt(1 - (1 - c * c) / (eta * eta)), eta)};
 }
 
 struct Constellation {
@@ -63,6 +81,21 @@ inline const std::array kConstellations = {
     Constellation{"small light", 1.5, {0.5, 0, -3}, {0, 0, 9}, {0.1, 0, 0}, {0, 0.1, 0}},
 };
 
+// In which light is reflected on the sphere.
+inline const std::array kReflections = {
+    Constellation{"behind", kMirror, {0, 0, -2}, {-0.5, -0.5, -6}, {1, 0, 0}, {0, 1, 0}},
+    Constellation{"before", kMirror, {0, 0, -5}, {-0.2, -0.2, -3}, {0.4, 0, 0}, {0, 0.4, 0}},
+    Constellation{"at a right angle", kMirror, {1, 0, -2}, {3, -0.5, -0.5}, {0, 1, 0}, {0, 0, 1}},
+    Constellation{"grazing", kMirror, {3, 0.2, 0}, {-2.5, -0.5, 2}, {0, 1, 0}, {0, 0, 1}},
+    Constellation{"partly hidden", kMirror, {3, 0, 0}, {-4, -1, 1.5}, {0, 2, 0}, {0, 0, 2.5}},
+    Constellation{"touching it", kMirror, {1.001, 0, 0}, {2, 1, -1}, {0, 0, 2}, {1, 1, 0}},
+    Constellation{"light touching it", kMirror, {2, 1, 0}, {-0.4, 1.002, -0.4}, {0.8, 0, 0}, {0, 0, 0.8}},
+    Constellation{"both far", kMirror, {30, 0, 0}, {-1, 40, 0}, {2, 0, 0}, {0, 0, 2}},
+    Constellation{"small light", kMirror, {1.2, 0.9, 0.1}, {1, 6, 1}, {0.05, 0, 0}, {0, 0, 0.05}},
+    Constellation{"glass", 1.5, {1, 0, -2}, {3, -0.5, -0.5}, {0, 1, 0}, {0, 0, 1}},
+    Constellation{"diamond, grazing", 2.4, {3, 0.2, 0}, {-2.5, -0.5, 2}, {0, 1, 0}, {0, 0, 1}},
+};
+
 // A unit vector across another one.
 inline dvec3 acrossOf(const dvec3& v) {
     return glm::normalize(glm::cross(v, std::abs(v.x) > 0.5 ? dvec3(0, 1, 0) : dvec3(1, 0, 0)));
@@ -84,16 +117,21 @@ struct LightQuad {
     explicit LightQuad(const Constellation& c)
         : at(c), area(glm::length(glm::cross(c.edgeU, c.edgeV))), normal(glm::cross(c.edgeU, c.edgeV) / area) {}
 
-    // Light that arrives at x along a direction, and the point y that it comes from.
+    // Light that arrives at x through the sphere along a direction, and the point y that it comes from.
     double along(const dvec3& direction, dvec3& y, Traced& ray) const {
         ray = traceThrough(at.x, direction, at.eta);
-        if (ray.transmitted == 0) return 0;
+        return along(ray, y);
+    }
+
+    // As much as is left of it.
+    double along(const Traced& ray, dvec3& y) const {
+        if (ray.left == 0) return 0;
         const double t = glm::dot(at.corner - ray.origin, normal) / glm::dot(ray.direction, normal);
         y = ray.origin + t * ray.direction;
         const dvec3 v = y - at.corner;
         const double a = glm::dot(glm::cross(v, at.edgeV), normal) / area;
         const double b = glm::dot(glm::cross(at.edgeU, v), normal) / area;
-        return t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1 ? ray.transmitted : 0;
+        return t > 0 && a >= 0 && a <= 1 && b >= 0 && b <= 1 ? ray.left : 0;
     }
 
     Constellation at;

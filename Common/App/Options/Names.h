@@ -83,7 +83,7 @@ inline constexpr Named<bool> kAdaptive[] = {
 inline constexpr Named<bool> kSpecularConnections[] = {
     {"off", false, "By chance", "scattering alone finds it"},
     {"on", true, "Connected",
-     "connections to where it comes from, where chance is noisy; unbiased; not for sky images, instances"}};
+     "connections to where it comes from, where chance is noisy; unbiased; not for sky images"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -101,8 +101,8 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.quadLight...);
     visit("triangle_light", "Sampling strategy for triangle lights", "where a triangle is sampled", kFlatLights,
           settings.triangleLight...);
-    visit("specular_connections", "Through glass", "how light through spheres of glass is found", kSpecularConnections,
-          settings.specularConnections...);
+    visit("specular_connections", "Glass, mirrors", "how light that smooth spheres refract or reflect is found",
+          kSpecularConnections, settings.specularConnections...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
     visit("adaptive", "Sample density", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }

@@ -41,7 +41,7 @@ constexpr std::uint32_t kLightSampling =
     shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
     shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
 
-// Whether lights are connected to through spheres of glass. What layers of partial opacity let through is not traced.
+// Whether lights are connected to by way of smooth spheres. What layers of partial opacity let through is not traced.
 bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
     const bool usesMis =
         settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;

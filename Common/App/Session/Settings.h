@@ -47,7 +47,7 @@ struct RenderSettings {
     ShapeSampling triangleLight = ShapeSampling::Auto;
     SamplerKind sampler = SamplerKind::Sobol;
     bool russianRoulette = true;
-    bool specularConnections = true; // of lights through spheres of glass
+    bool specularConnections = true; // to lights, by way of smooth spheres
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
     bool secondMoments = false;            // keep what error estimates need

@@ -201,19 +201,23 @@ struct LightPick {
     float total;  // of all weights
 };
 
-// ---- spheres that lights are connected through ---------------------------------------------------------------------
+// ---- spheres by way of which lights are connected to ----------------------------------------------------------------
 
 const uint kConnectedSpheres = 8u; // at most
 const uint kReachSteps = 16u;
 
-// A sphere of clear glass, through which light reaches a point by refraction where it enters and where it leaves.
+// A sphere of clear glass, through which light reaches a point by refraction where it enters and where it leaves; or a
+// sphere of glass or a mirror, from which light reaches a point by reflection on the outside. Glass may be there twice.
 struct SmoothSphere {
     vec3 center; // at time 0
     float radius;
     vec3 motion;             // displacement over the shutter
-    float inverseEta;        // index outside over inside, < 1
-    vec3 tint;               // of light that has entered and left
+    float inverseEta;        // index outside over inside, < 1; 0: a mirror
+    vec3 tint;               // of light that has entered and left, or has been reflected
+    uint reflects;           // 1: light is reflected; 0: it is refracted
     uint primitive;          // into spheres
+    uint instance;           // into instances; kNone: it is one of the world's own
+    float error;             // what the instance's map adds to the rounding of points on the surface
     float nearest;           // least radius over distance at which light through it is thought to matter; 1: nowhere
     vec2 reach[kReachSteps]; // by that ratio: cosine of how far, seen from the centre, a point may be from opposite
                              // a light, and irradiance there over that at the centre
@@ -221,7 +225,7 @@ struct SmoothSphere {
 
 // A light as one of these spheres sees it. kConnectedSpheres rows of them, an element for each light.
 struct SphereReach {
-    vec3 axis;    // unit, from the sphere to the light
+    vec3 axis;    // unit, from the sphere to the light; from the light to a sphere that reflects
     vec2 extent;  // cosine and sine of the angle that bounds the light
     float weight; // irradiance at the sphere; 0: none arrives
 };
@@ -373,14 +377,15 @@ const uint kChainNone = 0u;
 const uint kChainScattered = 1u; // by a surface or in a medium, with a density
 const uint kChainInside = 2u;    // then refracted into a sphere
 const uint kChainBeyond = 3u;    // and out of it
+const uint kChainReflected = 4u; // or, instead of both, reflected on its outside
 
 // How a path goes on since it scattered, for the weight against a connection from there through a sphere.
 struct SphereChain {
     vec3 from;   // where it scattered
     float pdf;   // density of the direction that it took there
     float rate;  // probability of a connection there over the sum of weights that it was chosen by; 0: there was none
-    uint sphere; // of smoothSpheres, that is at the path's vertex; kNone: another surface
-    uint inside; // the one that the path was refracted into
+    uint sphere; // the first of smoothSpheres that is at the path's vertex; kNone: another surface
+    uint met;    // the one that the path was refracted into or reflected on
     uint state;  // kChain...
 };
 
@@ -404,16 +409,21 @@ struct DirectLight {
     float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
 };
 
-const uint kPassageSegments = 3u;
+const uint kPassageVertices = 3u; // at most, behind the one that connects: two on the sphere, and the light
 
-// What a connection through a sphere adds to a path unless something is in the way of one of its segments.
+// Segments of a passage; the one of the lowest bit is traced first.
+const uint kSegmentBeyond = 1u; // from the sphere to the light
+const uint kSegmentBefore = 2u; // from the vertex to the sphere
+const uint kSegmentInside = 4u;
+
+// What a connection by way of a sphere adds to a path unless something is in the way of one of its segments.
 struct Passage {
     vec3 radiance;
     vec3 begin;    // where the path scattered
     vec3 entry[2]; // where the light leaves the sphere's surface and arrives there: outside, inside
     vec3 leave[2]; // on the light's side: inside, outside
     vec3 end;      // at the light
-    uint segments; // that have yet to be found free; 0: there is no connection
+    uint segments; // kSegment... that have yet to be found free; 0: there is no connection
 };
 
 RT_SHARED_END

@@ -8,6 +8,9 @@
 // terms is where eta > 1, and 0 for i = 0: at most one path turns by +bend and at most two by -bend, on either side of
 // the minimum. Newton's method that begins where the function is positive stays on that side of the root, and needs no
 // bracket. Angles are kept as rotations, so that no arc function is evaluated. Without a branch, for loops over lanes.
+//
+// Reflection on the outside turns a path by (i - a) + (i - b) about C, which has to be the angle between Cx and Cy.
+// That is turn(i) for eta = infinity, where r = 0: there is one path, and it turns by the supplement of bend.
 #ifndef RT_SHARED_SPHERE_REFRACTION_H
 #define RT_SHARED_SPHERE_REFRACTION_H
 #include "Common/Shared/Base/Sampling.h"

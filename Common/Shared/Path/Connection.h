@@ -1,15 +1,15 @@
-// Connections: light that reaches a vertex which scatters widely through a sphere of glass, refracted where it enters
-// and where it leaves. A light is chosen that the sphere may focus on the vertex, a point on it sampled as the sphere's
-// centre sees it, and one of the paths drawn that lead there (SphereRefraction.h): three segments, which have to be
-// free. The weight against scattering, which finds the same paths, needs the vertex, the density of the direction that
-// was taken there and the rate of connections: PathState::chain carries them along. What connections do not cover
-// counts in full where scattering finds it: reflections, other orders of surfaces, lights around the sphere, and
-// vertices where no light is thought to converge.
+// Connections: light that reaches a vertex which scatters widely by way of a smooth sphere, refracted where it enters
+// and where it leaves, or reflected on the outside. A sphere and a light are chosen (ConnectionChoice.h), a point on
+// the light sampled as the sphere's centre sees it, and one of the paths drawn that lead there (SphereRefraction.h):
+// two or three segments, which have to be free. They are weighed against scattering, which finds the same paths
+// (ConnectionChain.h). What connections do not cover counts in full where scattering finds it: other orders of
+// surfaces, lights around the sphere, and vertices that no light is thought to reach.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
 #include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
+#include "Common/Shared/Path/ConnectionChoice.h"
 #include "Common/Shared/Path/DirectLight.h"
 
 RT_SHARED_BEGIN
@@ -28,116 +28,6 @@ RT_FN Passage noPassage() {
 }
 
 #ifdef RT_FULL
-
-// ---- choosing a sphere and a light ---------------------------------------------------------------------------------
-
-// A sphere as a point sees it.
-struct SphereView {
-    vec3 center;
-    vec3 along; // unit, to the centre
-    float near; // radius over distance
-    vec2 reach; // of SmoothSphere
-    bool isNear;
-};
-
-// Beyond it a point lies on the sphere, or within.
-const float kNearestToSphere = 0.999f;
-
-// All but the reach.
-RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
-    SphereView view;
-    view.center = sphere.center + sphere.motion * time;
-    vec3 toCenter = view.center - x;
-    float inverse = 1.0f / sqrt(max(dot(toCenter, toCenter), 1.0e-30f));
-    view.along = toCenter * inverse;
-    view.near = sphere.radius * inverse;
-    view.isNear = view.near > sphere.nearest && view.near < kNearestToSphere;
-    view.reach = vec2(0.0f);
-    return view;
-}
-
-RT_FN vec2 reachAt(RT_IN(SmoothSphere) sphere, float near) {
-    return sphere.reach[uint(min(near * float(kReachSteps), float(kReachSteps - 1u)))];
-}
-
-RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
-    SphereView view = seeSphere(sphere, x, time);
-    view.reach = reachAt(sphere, view.near);
-    return view;
-}
-
-// What the choice of a light through the sphere is proportional to: an estimate of the irradiance that it brings.
-RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
-    float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
-    float limit = view.reach.x * light.extent.x - sine * light.extent.y;
-    return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
-}
-
-// Sum of the weights of all lights through one sphere.
-RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
-    uint count = loadGlobals(scene).lightCount;
-    float sum = 0.0f;
-    for (uint i = 0u; i < count; i++) sum += reachWeight(loadSphereReach(scene, sphere * count + i), view);
-    return sum;
-}
-
-RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
-    float sum = 0.0f;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
-        if (view.isNear) sum += sphereWeight(scene, k, view);
-    }
-    return sum;
-}
-
-// Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
-RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
-    bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
-    return isWide && v.index + 1u + kPassageSegments <= params.maxDepth;
-}
-
-// Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
-// directly contribute `direct`, by a path of this throughput: as much as it can matter.
-const float kConnectionGain = 2.0f;
-const float kLeastChance = 0.25f; // what is rarer is left to scattering
-
-RT_FN float connectionChance(float total, float direct, vec3 throughput) {
-    float chance = min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
-    return chance < kLeastChance ? 0.0f : chance;
-}
-
-struct ConnectionChoice {
-    uint sphere;
-    uint light;
-    float weight; // 0: none
-    float u;      // what is left of the number that chose, for further use
-};
-
-// The light at this place along the weights, less than their sum.
-RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time, float target) {
-    uint count = loadGlobals(scene).lightCount;
-    ConnectionChoice choice;
-    choice.sphere = 0u;
-    choice.light = 0u;
-    choice.weight = 0.0f;
-    choice.u = 0.0f;
-    float left = target;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
-        if (!view.isNear) continue;
-        for (uint i = 0u; i < count; i++) {
-            float weight = reachWeight(loadSphereReach(scene, k * count + i), view);
-            if (!(weight > 0.0f)) continue;
-            choice.sphere = k;
-            choice.light = i;
-            choice.weight = weight;
-            choice.u = clamp(left / weight, 0.0f, 0.999999940395355f);
-            left -= weight;
-            if (left < 0.0f) return choice;
-        }
-    }
-    return choice;
-}
 
 // ---- the light's end -----------------------------------------------------------------------------------------------
 
@@ -184,11 +74,15 @@ RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) para
 
 struct ConnectionPair {
     RefractionPair angles;
-    vec3 along; // unit, from the vertex to the centre
-    vec3 aside; // unit, across it, towards the light's end
-    vec3 axis;  // across both, as long as the sine of the angle between them
+    vec3 along;       // unit, from the vertex to the centre
+    vec3 aside;       // unit, across it, towards the light's end; away from it where the sphere reflects
+    vec3 axis;        // across both, as long as the sine of the angle between them
+    float inverseEta; // SmoothSphere::inverseEta
+    uint reflects;    // SmoothSphere::reflects
 };
 
+// Of a sphere that reflects the one path is kOppositePath, with an infinite index, the sides changed, and the
+// supplement to turn by; see SphereRefraction.h.
 RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, vec3 y) {
     ConnectionPair c;
     vec3 toY = y - view.center;
@@ -197,11 +91,15 @@ RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView
     c.along = view.along;
     c.axis = cross(view.along, w);
     float sine = sqrt(dot(c.axis, c.axis));
-    c.aside = cross(c.axis, view.along) * (1.0f / max(sine, 1.0e-12f));
-    c.angles.inverseEta = sphere.inverseEta;
+    bool reflects = sphere.reflects != 0u;
+    c.aside = cross(c.axis, view.along) * ((reflects ? -1.0f : 1.0f) / max(sine, 1.0e-12f));
+    c.inverseEta = sphere.inverseEta;
+    c.reflects = sphere.reflects;
+    c.angles.inverseEta = reflects ? 0.0f : sphere.inverseEta;
     c.angles.nearX = view.near;
     c.angles.nearY = sphere.radius * inverse;
-    c.angles.bend = vec2(dot(view.along, w), sine);
+    float cosine = dot(view.along, w);
+    c.angles.bend = vec2(reflects ? -cosine : cosine, sine);
     return c;
 }
 
@@ -212,16 +110,18 @@ RT_FN bool isConnectable(RT_IN(ConnectionPair) c) {
 
 // One path between the ends.
 struct SpherePath {
-    vec3 atX;          // unit direction at the vertex
-    vec3 entry;        // unit normals, outward, where it meets the sphere: on the vertex's side
-    vec3 leave;        // and on the light's
-    float transmitted; // fraction of light
-    float spread;      // solid angle at the vertex over area of the light
-    float share;       // of the choice among the paths
+    vec3 atX;       // unit direction at the vertex
+    vec3 entry;     // unit normals, outward, where it meets the sphere: on the vertex's side
+    vec3 leave;     // and on the light's
+    float fraction; // of light that goes this way
+    float spread;   // solid angle at the vertex over area of the light
+    float share;    // of the choice among the paths
 };
 
-RT_FN float transmittedTwice(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
-    return square(1.0f - fresnel(r.incident.x, p.inverseEta).x);
+// Of the light that meets the sphere, what is reflected, or is refracted twice.
+RT_FN float lightFraction(RT_IN(ConnectionPair) c, RT_IN(Refraction) r) {
+    float reflected = fresnel(max(r.incident.x, 1.0e-12f), c.inverseEta).x;
+    return c.reflects != 0u ? reflected : square(1.0f - reflected);
 }
 
 // Solid angle at the vertex over area at the light, whose normal makes an angle of this cosine with the path.
@@ -240,18 +140,18 @@ RT_FN SpherePath pathAt(RT_IN(ConnectionPair) c, uint kind, bool exists, vec2 an
     SpherePath path;
     path.atX = places.atX;
     path.entry = places.entry;
-    path.leave = places.leave;
-    vec3 toEnd = end.point - (center + places.leave * radius);
+    path.leave = select(c.reflects != 0u, places.entry, places.leave);
+    vec3 toEnd = end.point - (center + path.leave * radius);
     vec3 wy = toEnd * (1.0f / sqrt(max(dot(toEnd, toEnd), 1.0e-30f)));
     float facing = -dot(end.normal, wy);
     facing = max(facing, -facing * end.twoSided);
-    path.transmitted = transmittedTwice(c.angles, r);
+    path.fraction = lightFraction(c, r);
     path.spread = pathSpread(c.angles, r, radius, facing);
     // The irradiance that it brings, weighed against scattering by the cosine.
     float receiver = isSurface(normal) ? max(dot(normal, path.atX), 0.0f) : 1.0f;
-    float scattering = kInvPi * receiver * path.transmitted * path.spread / end.density;
-    float share = receiver * path.transmitted * path.spread / (1.0f + square(scattering));
-    bool isOutside = dot(wy, places.leave) > 0.0f && dot(places.atX, places.entry) < 0.0f;
+    float scattering = kInvPi * receiver * path.fraction * path.spread / end.density;
+    float share = receiver * path.fraction * path.spread / (1.0f + square(scattering));
+    bool isOutside = dot(wy, path.leave) > 0.0f && dot(places.atX, places.entry) < 0.0f;
     bool isValid = exists && isConnectable(c) && isOutside && end.density > 0.0f && share > 0.0f && share < kInfinity;
     path.share = isValid ? share : 0.0f;
     return path;
@@ -280,13 +180,14 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     if (!(path.share > 0.0f)) return p;
     vec4 f = evalScattering(features, v, path.atX);
     float connecting = end.density / path.spread;
-    float scattering = f.w * path.transmitted;
+    float scattering = f.w * path.fraction;
     if (params.lightSampling != kSampleMisBalance) scattering *= scattering / connecting;
-    vec3 light = sphere.tint * end.radiance * (path.transmitted / (path.share * (connecting + scattering)));
+    vec3 light = sphere.tint * end.radiance * (path.fraction / (path.share * (connecting + scattering)));
     p.radiance = throughput * vec3(f) * light;
     float strongest = maxComponent(p.radiance);
     if (!(strongest > 0.0f && strongest < kInfinity)) return p;
-    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius);
+    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius +
+                      sphere.error);
     vec3 entry = center + path.entry * sphere.radius;
     vec3 leave = center + path.leave * sphere.radius;
     p.begin = v.origin;
@@ -295,7 +196,8 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     p.leave[0] = offsetOrigin(leave, error, path.leave, -path.leave);
     p.leave[1] = offsetOrigin(leave, error, path.leave, path.leave);
     p.end = offsetOrigin(end.point, end.error, end.normal, leave - end.point);
-    p.segments = kPassageSegments;
+    p.segments = kSegmentBeyond | kSegmentBefore;
+    if (sphere.reflects == 0u) p.segments |= kSegmentInside;
     return p;
 }
 
@@ -339,8 +241,10 @@ RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) pa
 
 // The next segment of the passage that has to be free, up to tMax.
 RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
-    vec3 from = p.segments == 3u ? p.leave[1] : p.segments == 2u ? p.begin : p.entry[1];
-    vec3 to = p.segments == 3u ? p.end : p.segments == 2u ? p.entry[0] : p.leave[0];
+    bool isBeyond = (p.segments & kSegmentBeyond) != 0u;
+    bool isBefore = (p.segments & kSegmentBefore) != 0u;
+    vec3 from = isBeyond ? p.leave[1] : isBefore ? p.begin : p.entry[1];
+    vec3 to = isBeyond ? p.end : isBefore ? p.entry[0] : p.leave[0];
     vec3 segment = to - from;
     float segmentLength = length(segment);
     Ray ray;
@@ -359,69 +263,8 @@ RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray
         return;
     }
     p.radiance *= rayTransmittance(features, scene, ray, tMax);
-    p.segments -= 1u;
+    p.segments &= p.segments - 1u;
     if (p.segments == 0u) radiance += p.radiance;
-}
-
-// ---- the path's side -----------------------------------------------------------------------------------------------
-
-// Which of the spheres a path has hit.
-RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
-    if (hit.kind != kSphere || hit.instance != kNone) return kNone;
-    for (uint k = 0u; k < params.connectedSpheres; k++) {
-        if (loadSmoothSphere(scene, k).primitive == hit.primitive) return k;
-    }
-    return kNone;
-}
-
-// A path arrives at a surface, or in a medium, where hit.t < 0.
-RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
-    bool isSought = s.chain.state == kChainScattered || s.chain.state == kChainInside;
-    s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
-}
-
-// And goes on from there.
-RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
-    uint state = kChainNone;
-    if (b.delta == 0u) {
-        if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;
-        s.chain.from = v.origin;
-        s.chain.pdf = b.pdf;
-    } else if (b.transmitted != 0u && s.chain.sphere != kNone) {
-        if (s.chain.state == kChainScattered && v.front != 0u) {
-            state = kChainInside;
-            s.chain.inside = s.chain.sphere;
-        } else if (s.chain.state == kChainInside && v.front == 0u && s.chain.inside == s.chain.sphere) {
-            state = kChainBeyond;
-        }
-    }
-    s.chain.state = state;
-}
-
-// Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
-RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
-                            vec3 y, vec3 normal) {
-    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, s.chain.inside);
-    SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
-    uint count = loadGlobals(scene).lightCount;
-    float weight = reachWeight(loadSphereReach(scene, s.chain.inside * count + index), view);
-    ConnectionPair c = connectionPair(sphere, view, y);
-    if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
-    RT_IN(Light) light = loadLight(scene, index);
-    vec3 toY = y - view.center;
-    float distance = length(toY);
-    vec3 wi = toY / distance;
-    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, normal);
-    float density = s.chain.rate * weight * endDensity(light, view.center, wi, distance, normal, pdf);
-    if (!(density > 0.0f)) return 1.0f;
-    vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
-    float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
-    Refraction r = refractionAt(c.angles, angleOfSine(sine));
-    uint kind = dot(moment, c.axis) > 0.0f ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
-    if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
-    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
-    float scattering = s.chain.pdf * transmittedTwice(c.angles, r);
-    return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }
 
 #endif

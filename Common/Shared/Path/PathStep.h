@@ -4,7 +4,7 @@
 //                          surface
 //   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
-//   connect                mis, with spheres of glass: connectLight(), which leaves three segments
+//   connect                mis, with smooth spheres: connectLight(), which leaves two or three segments
 //   scatter                the bsdf's sample, or the mixture's in its place
 //   go on                  throughput, next ray, roulette
 //
@@ -19,7 +19,7 @@
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
-#include "Common/Shared/Path/Connection.h"
+#include "Common/Shared/Path/ConnectionChain.h"
 #include "Common/Shared/Path/Mixture.h"
 
 RT_SHARED_BEGIN
@@ -48,7 +48,7 @@ RT_FN PathState startPath(RT_IN(Ray) ray) {
     s.chain.pdf = 0.0f;
     s.chain.rate = 0.0f;
     s.chain.sphere = kNone;
-    s.chain.inside = kNone;
+    s.chain.met = kNone;
     s.chain.state = kChainNone;
     return s;
 }
@@ -90,7 +90,7 @@ RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params
 #ifdef RT_FULL
     if (has(features, kFeatureConnections)) {
         arriveChain(scene, params, hit, s);
-        if (s.chain.state == kChainBeyond && surface.light != kNone) {
+        if (s.chain.state >= kChainBeyond && surface.light != kNone) {
             return passageWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
         }
     }

@@ -1,0 +1,147 @@
+#include "Common/Scene/Compiler/SphereReaches.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "Common/Shared/Light/LightContribution.h"
+#include "Common/Shared/Material/Dielectric.h"
+
+namespace rt::scene {
+
+namespace {
+
+constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near its rim is spread widely
+// Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
+constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
+constexpr double kMostGain = 4;
+
+shared::vec2 cosineAndSine(double angle) {
+    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
+}
+
+shared::vec3 middleOf(const shared::SmoothSphere& sphere) { // of its way while the shutter is open
+    return sphere.center + 0.5f * sphere.motion;
+}
+
+// How the sphere sees a light at the middle of the shutter.
+shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::Light& light,
+                            const shared::LightBound& bound) {
+    const shared::vec3 toLight = bound.center - middleOf(sphere);
+    const double distance = glm::length(toLight);
+    const double sine = distance > bound.radius ? bound.radius / distance : 1;
+    shared::SphereReach reach{};
+    reach.axis = distance > 0 ? toLight / static_cast<float>(distance) : shared::vec3(0, 0, 1);
+    if (sphere.reflects != 0) reach.axis = -reach.axis;
+    reach.extent = cosineAndSine(std::asin(sine));
+    reach.weight = irradianceAt(sphere, light, bound);
+    return reach;
+}
+
+// Greatest angle, seen from the centre, between where a point is and where it would be opposite an end of the path at
+// which `near` is at most nearY: over all paths but those near the rim that pass the centre on the other side.
+double refractionAngle(double inverseEta, double nearX, double nearY) {
+    constexpr int kSteps = 1000;
+    double most = 0;
+    for (int k = 1; k <= kSteps; ++k) {
+        const double incident = std::numbers::pi / 2 * k / kSteps, sine = std::sin(incident);
+        const double turn =
+            2 * (incident - std::asin(inverseEta * sine)) - std::asin(nearX * sine) - std::asin(nearY * sine);
+        most = std::max(most, sine * sine < kUsedFlux ? std::abs(turn) : -turn);
+    }
+    return most;
+}
+
+// Mean irradiance where light from a distance of radius / nearY falls at one of radius / nearX, over that at the
+// centre: as if it fell evenly on a disc. `spread` is 1 less the cosine of the extent of the light.
+double refractionGain(double inverseEta, double nearX, double nearY, double spread) {
+    constexpr int kSteps = 64;
+    double flux = 0, bent = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        const double sine = std::sqrt((k + 0.5) / kSteps), incident = std::asin(sine);
+        const double refracted = std::asin(inverseEta * sine);
+        const double turn = 2 * (incident - refracted) - std::asin(nearX * sine) - std::asin(nearY * sine);
+        const double across = std::sin(incident - refracted) / std::sin(incident + refracted);
+        const double along = std::tan(incident - refracted) / std::tan(incident + refracted);
+        const double entered = 1 - 0.5 * (across * across + along * along);
+        flux += entered * entered / kSteps;
+        bent += entered * entered * (1 - std::cos(turn)) / kSteps;
+    }
+    return std::min(flux * nearX * nearX / (2 * (2 * bent / flux + spread)), kMostGain);
+}
+
+// As refractionGain(): parallel light is reflected into all directions alike. A quarter of it: it varies so little over
+// a light that fewer connections do.
+double reflectionGain(double inverseEta, double nearX) {
+    return 0.25 * meanReflectance(inverseEta) * nearX * nearX / 4;
+}
+
+// What the lights that a sphere sees have in common.
+struct LightsSeen {
+    double nearest = 0;  // greatest radius of the sphere over distance of a light
+    double widest = 0;   // angle
+    double meanNear = 0; // of that ratio, by weight
+    double spread = 0;   // likewise, 1 less the cosine of the extent
+};
+
+// Fills `reach` and `nearest`.
+void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
+    const double inverseEta = static_cast<double>(sphere.inverseEta);
+    const bool reflects = sphere.reflects != 0;
+    const double leastGain = reflects ? kLeastReflected : kLeastRefracted;
+    sphere.nearest = 1;
+    for (std::uint32_t step = shared::kReachSteps; step-- > 0;) {
+        const double farthest = static_cast<double>(step) / shared::kReachSteps;
+        const double nearest = (step + 1.0) / shared::kReachSteps, middle = (step + 0.5) / shared::kReachSteps;
+        const double angle = std::min(
+            reflects ? std::numbers::pi - std::asin(farthest) : refractionAngle(inverseEta, nearest, lights.nearest),
+            std::numbers::pi - lights.widest);
+        const double gain = reflects ? reflectionGain(inverseEta, middle)
+                                     : refractionGain(inverseEta, middle, lights.meanNear, lights.spread);
+        sphere.reach[step] = {static_cast<float>(std::cos(angle)), static_cast<float>(gain)};
+        if (angle > 0 && gain > leastGain) sphere.nearest = static_cast<float>(farthest);
+    }
+}
+
+} // namespace
+
+float irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
+    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
+    return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
+}
+
+double meanReflectance(double inverseEta) {
+    constexpr int kSteps = 16;
+    double sum = 0;
+    for (int k = 0; k < kSteps; ++k) {
+        const double cosine = std::sqrt((k + 0.5) / kSteps);
+        sum += static_cast<double>(shared::fresnel(static_cast<float>(cosine), static_cast<float>(inverseEta)).x);
+    }
+    return sum / kSteps;
+}
+
+void addSmoothSphere(shared::SmoothSphere sphere, CompiledScene& out) {
+    LightsSeen lights;
+    double sum = 0;
+    for (std::size_t i = 0; i < out.globals.lightCount; ++i) {
+        const shared::SphereReach reach = reachOf(sphere, out.lights[i], out.lightBounds[i]);
+        out.sphereReaches.push_back(reach);
+        if (!(reach.weight > 0)) continue;
+        const shared::LightBound& bound = out.lightBounds[i];
+        const double distance = glm::length(bound.center - middleOf(sphere));
+        const double nearest = std::max(distance - static_cast<double>(bound.radius), 0.0);
+        const double radius = static_cast<double>(sphere.radius);
+        lights.nearest = std::max(lights.nearest, radius / std::max(nearest, radius));
+        lights.widest = std::max(lights.widest, std::acos(static_cast<double>(reach.extent.x)));
+        const double weight = static_cast<double>(reach.weight);
+        sum += weight;
+        lights.meanNear += weight * radius / std::max<double>(distance, radius);
+        lights.spread += weight * (1 - static_cast<double>(reach.extent.x));
+    }
+    lights.meanNear /= sum;
+    lights.spread /= sum;
+    boundReach(lights, sphere);
+    out.smoothSpheres.push_back(sphere);
+}
+
+} // namespace rt::scene

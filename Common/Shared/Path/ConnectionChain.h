@@ -1,0 +1,93 @@
+// The side of scattering: a path that finds a light by way of a smooth sphere, as a connection from where it scattered
+// might have, and the weight of what it finds there. PathState::chain carries along what that takes.
+// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+#ifndef RT_SHARED_CONNECTION_CHAIN_H
+#define RT_SHARED_CONNECTION_CHAIN_H
+#include "Common/Shared/Path/Connection.h"
+
+RT_SHARED_BEGIN
+
+#ifdef RT_FULL
+
+// Which of the spheres a path has hit.
+RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
+    if (hit.kind != kSphere) return kNone;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        if (sphere.primitive == hit.primitive && sphere.instance == hit.instance) return k;
+    }
+    return kNone;
+}
+
+// A path arrives at a surface, or in a medium, where hit.t < 0.
+RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
+    bool isSought = s.chain.state == kChainScattered || s.chain.state == kChainInside;
+    s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
+}
+
+// And goes on from there.
+RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
+    uint state = kChainNone;
+    if (b.delta == 0u) {
+        if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;
+        s.chain.from = v.origin;
+        s.chain.pdf = b.pdf;
+    } else if (s.chain.sphere != kNone) {
+        if (s.chain.state == kChainScattered && v.front != 0u) {
+            state = b.transmitted != 0u ? kChainInside : kChainReflected;
+            s.chain.met = s.chain.sphere;
+        } else if (s.chain.state == kChainInside && b.transmitted != 0u && v.front == 0u &&
+                   s.chain.met == s.chain.sphere) {
+            state = kChainBeyond;
+        }
+    }
+    s.chain.state = state;
+}
+
+// The element of smoothSpheres for what the path's chain has met, and how; kNone: there is none.
+RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(SphereChain) chain) {
+    RT_IN(SmoothSphere) met = loadSmoothSphere(scene, chain.met);
+    uint reflects = chain.state == kChainReflected ? 1u : 0u;
+    for (uint k = chain.met; k < params.connectedSpheres; k++) {
+        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        if (sphere.primitive == met.primitive && sphere.instance == met.instance && sphere.reflects == reflects) {
+            return k;
+        }
+    }
+    return kNone;
+}
+
+// Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
+RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
+                            vec3 y, vec3 normal) {
+    uint k = passedSphere(scene, params, s.chain);
+    if (k == kNone) return 1.0f;
+    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+    SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
+    uint count = loadGlobals(scene).lightCount;
+    float weight = reachWeight(loadSphereReach(scene, k * count + index), view);
+    ConnectionPair c = connectionPair(sphere, view, y);
+    if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
+    RT_IN(Light) light = loadLight(scene, index);
+    vec3 toY = y - view.center;
+    float distance = length(toY);
+    vec3 wi = toY / distance;
+    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, normal);
+    float density = s.chain.rate * weight * endDensity(light, view.center, wi, distance, normal, pdf);
+    if (!(density > 0.0f)) return 1.0f;
+    vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
+    float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
+    Refraction r = refractionAt(c.angles, angleOfSine(sine));
+    bool isOpposite = c.reflects != 0u || dot(moment, c.axis) > 0.0f;
+    uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
+    if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
+    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
+    float scattering = s.chain.pdf * lightFraction(c, r);
+    return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
+}
+
+#endif
+
+RT_SHARED_END
+
+#endif

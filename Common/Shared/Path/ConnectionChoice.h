@@ -1,0 +1,122 @@
+// Which light a vertex connects to, and by way of which smooth sphere: in proportion to an estimate of the irradiance
+// that it brings, and with a probability that says how much that can matter.
+// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+#ifndef RT_SHARED_CONNECTION_CHOICE_H
+#define RT_SHARED_CONNECTION_CHOICE_H
+#include "Common/Shared/Path/Vertex.h"
+
+RT_SHARED_BEGIN
+
+#ifdef RT_FULL
+
+// A sphere as a point sees it.
+struct SphereView {
+    vec3 center;
+    vec3 along; // unit, to the centre
+    float near; // radius over distance
+    vec2 reach; // of SmoothSphere
+    bool isNear;
+};
+
+// Beyond it a point lies on the sphere, or within.
+const float kNearestToSphere = 0.999f;
+
+// All but the reach.
+RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+    SphereView view;
+    view.center = sphere.center + sphere.motion * time;
+    vec3 toCenter = view.center - x;
+    float inverse = 1.0f / sqrt(max(dot(toCenter, toCenter), 1.0e-30f));
+    view.along = toCenter * inverse;
+    view.near = sphere.radius * inverse;
+    view.isNear = view.near > sphere.nearest && view.near < kNearestToSphere;
+    view.reach = vec2(0.0f);
+    return view;
+}
+
+RT_FN vec2 reachAt(RT_IN(SmoothSphere) sphere, float near) {
+    return sphere.reach[uint(min(near * float(kReachSteps), float(kReachSteps - 1u)))];
+}
+
+RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+    SphereView view = seeSphere(sphere, x, time);
+    view.reach = reachAt(sphere, view.near);
+    return view;
+}
+
+// What the choice of a light by way of the sphere is proportional to: an estimate of the irradiance that it brings.
+RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
+    float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
+    float limit = view.reach.x * light.extent.x - sine * light.extent.y;
+    return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
+}
+
+// Sum of the weights of all lights by way of one sphere.
+RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
+    uint count = loadGlobals(scene).lightCount;
+    float sum = 0.0f;
+    for (uint i = 0u; i < count; i++) sum += reachWeight(loadSphereReach(scene, sphere * count + i), view);
+    return sum;
+}
+
+RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
+    float sum = 0.0f;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
+        if (view.isNear) sum += sphereWeight(scene, k, view);
+    }
+    return sum;
+}
+
+// Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
+RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+    bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
+    return isWide && v.index + 1u + kPassageVertices <= params.maxDepth;
+}
+
+// Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
+// directly contribute `direct`, by a path of this throughput: as much as it can matter.
+const float kConnectionGain = 2.0f;
+
+RT_FN float connectionChance(float total, float direct, vec3 throughput) {
+    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
+}
+
+struct ConnectionChoice {
+    uint sphere;
+    uint light;
+    float weight; // 0: none
+    float u;      // what is left of the number that chose, for further use
+};
+
+// The light at this place along the weights, less than their sum.
+RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time, float target) {
+    uint count = loadGlobals(scene).lightCount;
+    ConnectionChoice choice;
+    choice.sphere = 0u;
+    choice.light = 0u;
+    choice.weight = 0.0f;
+    choice.u = 0.0f;
+    float left = target;
+    for (uint k = 0u; k < params.connectedSpheres; k++) {
+        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
+        if (!view.isNear) continue;
+        for (uint i = 0u; i < count; i++) {
+            float weight = reachWeight(loadSphereReach(scene, k * count + i), view);
+            if (!(weight > 0.0f)) continue;
+            choice.sphere = k;
+            choice.light = i;
+            choice.weight = weight;
+            choice.u = clamp(left / weight, 0.0f, 0.999999940395355f);
+            left -= weight;
+            if (left < 0.0f) return choice;
+        }
+    }
+    return choice;
+}
+
+#endif
+
+RT_SHARED_END
+
+#endif

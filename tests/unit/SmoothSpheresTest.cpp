@@ -1,0 +1,136 @@
+// Which smooth spheres the scene compiler finds for connections to lights.
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "tests/ConnectedScene.h"
+#include "tests/unit/CompilerScenes.h"
+
+namespace rt::scene {
+namespace {
+
+// So many that a prototype with them becomes a real instance.
+SphereSetDesc beads(const std::string& material) {
+    SphereSetDesc set;
+    set.radius = 0.01;
+    set.material = material;
+    for (int i = 0; i < 64; ++i) set.centers.push_back({0.1 * i, -1, 0});
+    return set;
+}
+
+SceneDesc litFloor() {
+    SceneDesc scene = withMaterials();
+    scene.camera.lookFrom = {1, 2, 8};
+    scene.materials["dense"] = glass(1.8);
+    scene.materials["dense"].albedo = glm::dvec3(0.9, 0.8, 1);
+    add(scene, QuadDesc{{-0.1, 6, -0.1}, {0.2, 0, 0}, {0, 0, 0.2}, "lamp"});
+    return scene;
+}
+
+InstanceDesc instanceOf(const std::string& prototype, Transform transform, const std::string& material = "") {
+    InstanceDesc instance;
+    instance.prototype = prototype;
+    instance.transform = std::move(transform);
+    instance.material = material;
+    return instance;
+}
+
+const Transform kTurned = {Scale{glm::dvec3(1.7)}, Rotate{{1, 2, 3}, 50}, Translate{{-2, 1, 0}}};
+const Transform kMirrored = {Scale{{-0.6, 0.6, 0.6}}, Rotate{{0, 1, 0}, 20}, Translate{{2, 0, 1}}};
+const Transform kFlattened = {Scale{{1, 0.8, 1}}, Translate{{0, 1, 2}}};
+
+// Those of prototypes are found where copies of them would be.
+TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
+    const std::vector<ObjectDesc> ball = {{sphere({0.3, 0.5, -0.2}, 0.5, "glass")}, {beads("matte")}};
+    SceneDesc instances = litFloor(), copies = litFloor();
+    instances.prototypes["ball"] = ball;
+    for (const Transform& transform : {kTurned, kMirrored, kFlattened}) {
+        add(instances, instanceOf("ball", transform));
+        GroupDesc group;
+        group.transform = transform;
+        group.objects = ball;
+        add(copies, std::move(group));
+    }
+    const auto instanced = test::connectedThroughAll(*compileScene(instances));
+    const auto copied = test::connectedThroughAll(*compileScene(copies));
+    ASSERT_EQ(instanced->instances.size(), 3u);
+    ASSERT_EQ(instanced->smoothSpheres.size(), 4u);
+    ASSERT_EQ(copied->smoothSpheres.size(), 4u);
+    ASSERT_EQ(instanced->sphereReaches.size(), 4u);
+    std::uint32_t reflecting = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const shared::SmoothSphere& a = instanced->smoothSpheres[i];
+        const shared::SmoothSphere& b = copied->smoothSpheres[i];
+        reflecting += a.reflects;
+        EXPECT_EQ(a.reflects, b.reflects);
+        EXPECT_EQ(a.instance, a.radius > 0.5f ? 0u : 1u);
+        EXPECT_EQ(b.instance, shared::kNone);
+        EXPECT_EQ(a.primitive, instanced->geometries[1].firstSphere);
+        expectNear(a.center, b.center, 2e-6);
+        EXPECT_NEAR(a.radius, b.radius, 1e-6);
+        EXPECT_EQ(a.inverseEta, b.inverseEta);
+        EXPECT_EQ(a.tint, b.tint);
+        EXPECT_GT(a.error, 0);
+        EXPECT_EQ(b.error, 0);
+        for (std::size_t k = 0; k < shared::kReachSteps; ++k) {
+            EXPECT_NEAR(a.reach[k].x, b.reach[k].x, 1e-5);
+            EXPECT_NEAR(a.reach[k].y, b.reach[k].y, 1e-5);
+        }
+        EXPECT_NEAR(instanced->sphereReaches[i].weight / copied->sphereReaches[i].weight, 1, 1e-5);
+    }
+    EXPECT_EQ(reflecting, 2u);
+}
+
+// An instance's material replaces those of its surfaces: by glass, by another glass, by what is none.
+TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
+    SceneDesc scene = litFloor();
+    scene.prototypes["ball"] = {{sphere({0, 0, 0}, 0.5, "glass")}, {beads("matte")}};
+    scene.prototypes["stone"] = {{sphere({0, 0, 0}, 0.7, "matte")}, {beads("matte")}};
+    for (const char* name : {"ball", "stone"}) {
+        add(scene, instanceOf(name, kMirrored, "dense"));
+        add(scene, instanceOf(name, kTurned, "matte"));
+    }
+    const auto compiled = test::connectedThroughAll(*compileScene(scene));
+    ASSERT_EQ(compiled->instances.size(), 4u);
+    ASSERT_EQ(compiled->smoothSpheres.size(), shared::kConnectedSpheres);
+    std::vector<float> radii;
+    for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
+        radii.push_back(smooth.radius);
+        EXPECT_FLOAT_EQ(smooth.inverseEta, 1 / 1.8f);
+        EXPECT_FLOAT_EQ(smooth.tint.x, smooth.reflects != 0 ? 0.9f : 0.81f);
+        EXPECT_TRUE(smooth.instance == 0 || smooth.instance == 2) << smooth.instance;
+    }
+    EXPECT_FLOAT_EQ(radii[0], 0.42f);
+    EXPECT_FLOAT_EQ(radii[1], 0.3f);
+}
+
+// The list stays short, and empty where it would be a small part of all; of a million spheres none is looked at.
+TEST(SmoothSpheres, OfManyInstancesAreFew) {
+    SceneDesc scene = litFloor();
+    scene.prototypes["equal"] = {{sphere({0, 0, 0}, 0.02, "glass")}, {beads("matte")}};
+    scene.prototypes["few"] = {{sphere({0, 0, 0}, 0.01, "glass")}, {beads("matte")}};
+    scene.prototypes["many"] = {{SphereSetDesc{std::vector<glm::dvec3>(1100, glm::dvec3(0)), 0.01, "glass"}}};
+    add(scene, sphere({0, 5, 0}, 0.02, "glass"));
+    const auto listed = [&scene](const std::string& prototype, int count) {
+        SceneDesc filled = scene;
+        for (int i = 0; i < count; ++i)
+            add(filled, instanceOf(prototype, {Translate{{0.03 * (i % 100), 0, 0.03 * (i / 100)}}}));
+        return test::connectedThroughAll(*compileScene(filled))->smoothSpheres;
+    };
+    const std::vector<shared::SmoothSphere> few = listed("few", 1000);
+    ASSERT_EQ(few.size(), shared::kConnectedSpheres);
+    EXPECT_EQ(few[0].instance, shared::kNone);
+    EXPECT_EQ(few[1].instance, shared::kNone);
+    EXPECT_EQ(few[2].instance, 0u); // below the lamp, of which it sees most
+    EXPECT_EQ(listed("equal", 1000).size(), 0u);
+    const std::vector<shared::SmoothSphere> many = listed("many", 1000);
+    ASSERT_EQ(many.size(), 2u); // it refracts and reflects
+    for (const shared::SmoothSphere& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
+}
+
+} // namespace
+} // namespace rt::scene
