@@ -2,6 +2,8 @@
 #include "tests/fuzz/Seeds.h"
 
 #include <iterator>
+#include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +12,7 @@
 
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Interactive/RunHistory.h"
+#include "Common/App/Options/Options.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
@@ -195,6 +198,15 @@ void writeTexts(const Seeds& seeds) {
     seeds.write("flags", "share",
                 "--tiles=1/3\n--checkpoint\na.rtc\n--light-sampling\nmixture\n--features\nspheres,quads\n--seed=3\n"
                 "--camera={\"look_from\": [0, 0, 1], \"look_at\": [0, 0, 0]}\n--russian-roulette=off");
+    seeds.write("flags", "gpu", "gpu\n--device\n0\n--engine=query\n--validation\n--spp=4\n--list-devices");
+    std::set<std::string> flags;
+    for (const std::string program : {rt::app::kCpuProgram, rt::app::kGpuProgram}) {
+        std::stringstream help;
+        rt::app::parseOptions(program, {"--help"}, help);
+        for (std::string word; help >> word;)
+            if (word.starts_with("--")) flags.insert(word.substr(0, word.find_first_of(",;:")));
+    }
+    seeds.writeWords("flags", flags);
     seeds.write("config", "lines",
                 "# a\nspp = 5\nscene = \"a b\"\noutput = [\"a.png\", # b\n 'b.exr',\n]\naov=depth,albedo");
     seeds.write("config", "json", "{\"spp\": 5, \"output\": [\"a.png\"]}");

@@ -30,13 +30,16 @@ class Seeds {
         write(target, name, document.dump());
         std::set<std::string>& words = words_[target];
         collect(document, words);
-        fs::create_directories(folder_ / "words");
-        std::ofstream file(folder_ / "words" / target);
-        for (const std::string& word : words) file << '"' << word << "\"\n";
         // Numbers at the limits of types, and structures.
         for (const char* word : {"-1", "4294967295", "2147483648", "18446744073709551615", "1e300", "1e-300", "0.5",
                                  "null", "{}", "[]", "[0]", "true"})
-            file << '"' << word << "\"\n";
+            words.insert(word);
+        writeWords(target, words);
+    }
+    void writeWords(const std::string& target, const std::set<std::string>& words) const {
+        fs::create_directories(folder_ / "words");
+        std::ofstream file(folder_ / "words" / target);
+        for (const std::string& word : words) file << '"' << word << "\"\n";
     }
 
   private:

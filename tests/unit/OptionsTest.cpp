@@ -328,6 +328,34 @@ TEST_F(OptionsTest, EnvironmentCountsBetweenFlagAndFile) {
     EXPECT_EQ(error({}), "RT_THREADS many: must be a whole number from 0 to 4096");
 }
 
+// What a line said, or was refused for, is forgotten with the next one.
+TEST_F(OptionsTest, AParserReadsEachLineAsIfItWereTheFirst) {
+    OptionParser parser("ray-tracing-cpu");
+    std::ostringstream out;
+    const std::string bad = writeFile("bad.toml", "# mine\nspp = 0\n");
+    EXPECT_THROW(parser.parse({"--config", bad}, out), UsageError);
+    try {
+        parser.parse({"--no-config", "--spp", "0"}, out);
+        ADD_FAILURE() << "taken";
+    } catch (const UsageError& error) { // no longer of the file
+        EXPECT_EQ(std::string(error.what()).rfind("--spp 0: ", 0), 0u) << error.what();
+    }
+    const Options full = parser
+                             .parse({"--no-config", "--headless", "--spp", "7", "--width=9", "--region", "1,2,3,4",
+                                     "-o", "a.png", "-o", "b.png", "--aov", "depth", "--time-limit", "3", "--quiet"},
+                                    out)
+                             .value();
+    EXPECT_EQ(full.outputs, (std::vector<std::string>{"a.png", "b.png"}));
+    EXPECT_THROW(parser.parse({"--no-config", "--unknown"}, out), UsageError);
+    EXPECT_FALSE(parser.parse({"--version"}, out));
+
+    const Options none = parser.parse({"--headless"}, out).value();
+    EXPECT_EQ(none.settings, RenderSettings{});
+    EXPECT_EQ(none.size, SizeRequest{});
+    EXPECT_TRUE(none.keepsUserFiles && !none.quiet && !none.region && !none.timeLimit);
+    EXPECT_TRUE(none.outputs.empty() && none.aovs.empty() && none.given.empty());
+}
+
 TEST_F(OptionsTest, ConfigurationFiles) {
     const std::string json =
         writeFile("c.json", R"({"spp": 5, "sampler": "stratified", "quiet": true, "aov": ["depth", "albedo"],

@@ -301,6 +301,14 @@ TEST(Principled, ScenesWithoutItHaveNoneOfIt) {
     EXPECT_EQ(translucent->glassAlbedos.size(), 2u * kAlbedoSteps * kAlbedoSteps);
 }
 
+// Few tables are kept, and those are what would be made again.
+TEST(Principled, TablesOfGlassDoNotDependOnThoseBefore) {
+    const std::vector<float> first = scene::glassAlbedos(1.5f);
+    for (int i = 0; i < 17; ++i) EXPECT_NE(scene::glassAlbedos(1.6f + 0.01f * float(i)), first);
+    EXPECT_EQ(scene::glassAlbedos(1.5f), first);
+    EXPECT_EQ(scene::glassAlbedos(1.5f), first);
+}
+
 // The bit that a normal of the coat's own costs is set where there is one, and by it alone.
 TEST(Principled, CoatNormalsAreAFeatureOfTheirOwn) {
     scene::SceneDesc desc;

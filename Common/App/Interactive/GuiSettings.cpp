@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -110,10 +111,9 @@ void GuiSettings::removeRecent(const std::string& file) {
     recent.erase(std::remove(recent.begin(), recent.end(), file), recent.end());
 }
 
-GuiSettings loadGuiSettings(const std::filesystem::path& file) {
+GuiSettings parseGuiSettings(std::string_view text) {
     GuiSettings settings;
-    std::ifstream in(file, std::ios::binary);
-    const nlohmann::json json = nlohmann::json::parse(in, nullptr, false); // discarded where it is no JSON
+    const nlohmann::json json = nlohmann::json::parse(text, nullptr, false); // discarded where it is no JSON
     const Reader reader(json);
     reader.read("color_mode", kColorModes, settings.colorMode);
     reader.read("ui_scale", settings.uiScale, kLeastUiScale, kMostUiScale);
@@ -156,7 +156,7 @@ GuiSettings loadGuiSettings(const std::filesystem::path& file) {
     return settings;
 }
 
-void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
+std::string toText(const GuiSettings& s) {
     const Json json{{"version", kSettingsVersion},
                     {"color_mode", nameOf(kColorModes, s.colorMode)},
                     {"ui_scale", s.uiScale},
@@ -186,10 +186,19 @@ void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& s) {
                       {"device", s.engine.device},
                       {"policy", nameOf(kPolicies, s.engine.policy)},
                       {"threads", s.engine.threads}}}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+GuiSettings loadGuiSettings(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return parseGuiSettings(std::string(std::istreambuf_iterator<char>(in), {}));
+}
+
+void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& settings) {
     std::error_code ignored; // opening the file tells
     std::filesystem::create_directories(file.parent_path(), ignored);
     AtomicFile target(file);
-    target.stream() << json.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    target.stream() << toText(settings);
     target.commit();
 }
 

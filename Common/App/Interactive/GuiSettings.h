@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveSession.h"
@@ -49,7 +50,12 @@ struct GuiSettings {
     void removeRecent(const std::string& file);
 };
 
-// What is missing or makes no sense keeps its default: a damaged file is no error.
+// The text of a settings file.
+std::string toText(const GuiSettings& settings);
+// What is missing or makes no sense keeps its default: a damaged text is no error.
+GuiSettings parseGuiSettings(std::string_view text);
+
+// Defaults where there is no file.
 GuiSettings loadGuiSettings(const std::filesystem::path& file);
 // Replaces the file. Throws RenderError.
 void saveGuiSettings(const std::filesystem::path& file, const GuiSettings& settings);

@@ -23,6 +23,7 @@ class ConfigFile : public CLI::ConfigBase {
     // "FILE:LINE: ", or without the line, where the flag's value comes from the file; else empty.
     std::string placeOf(const std::string& flag) const;
     std::string path() const { return findOption(app_, "--config")->as<std::string>(); }
+    void forgetPlaces() { places_.clear(); }
     // Whether the command line has --config. Some versions of CLI11 count the user's own file as given, too.
     void setNamed(bool named) { isNamed_ = named; }
 

@@ -112,6 +112,7 @@ bool FlagSet::given(const std::string& flag) const {
 }
 
 bool FlagSet::parse(std::vector<std::string> arguments, std::ostream& out) {
+    config_->forgetPlaces();
     config_->setNamed(std::any_of(arguments.begin(), arguments.end(), [](const std::string& argument) {
         return argument == "--config" || argument.starts_with("--config=");
     }));

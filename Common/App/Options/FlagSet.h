@@ -17,7 +17,8 @@ namespace rt::app {
 
 class ConfigFile;
 
-// `flags` is a comma-separated list of spellings, of which errors name the first. Targets must outlive parse().
+// `flags` is a comma-separated list of spellings, of which errors name the first. Targets must outlive parse(), which
+// leaves those alone that nothing was said about.
 class FlagSet {
   public:
     // Is called with the flag's (or the environment variable's) name and the text of the value.

@@ -12,6 +12,17 @@
 #include "Common/Image/Film.h"
 
 namespace rt::app {
+
+// What the flags say before it is made consistent.
+struct ParsedFlags {
+    Options options;
+    bool listScenes = false;
+    bool listDevices = false;
+    bool headless = false;
+    bool window = false;
+    std::string engine;
+};
+
 namespace {
 
 constexpr std::uint32_t kMaxSpp = 0x7fffffff;
@@ -49,19 +60,9 @@ constexpr const char* kStoredFlags[] = {"--scene",
                                         "--policy",
                                         "--engine"};
 
-// What the flags say before it is made consistent.
-struct Parsed {
-    Options options;
-    bool listScenes = false;
-    bool listDevices = false;
-    bool headless = false;
-    bool window = false;
-    std::string engine;
-};
-
 // ---- the flags -----------------------------------------------------------------------------------------------------
 
-void addScene(FlagSet& flags, Parsed& parsed) {
+void addScene(FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     flags.group("Scene");
     flags
@@ -179,7 +180,7 @@ void addDuration(FlagSet& flags, Options& options) {
     flags.addFile("--resume", options.resume, "go on from a checkpoint as if never stopped")->configurable(false);
 }
 
-void addProcessor(FlagSet& flags, Parsed& parsed) {
+void addProcessor(FlagSet& flags, ParsedFlags& parsed) {
     flags.group("Machine");
     flags.addWhole("--threads", parsed.options.threads, 0, kMaxThreads, "0: all; RT_THREADS")->default_str("0");
     flags.readEnvironment("--threads", "RT_THREADS");
@@ -194,7 +195,7 @@ void addProcessor(FlagSet& flags, Parsed& parsed) {
     for (const char* flag : {"--device", "--list-devices"}) flags.refuse(flag, "a flag of ray-tracing-gpu");
 }
 
-void addDevice(FlagSet& flags, Parsed& parsed) {
+void addDevice(FlagSet& flags, ParsedFlags& parsed) {
     flags.group("Machine");
     flags.add("--device", "N|TEXT", "Vulkan device by index or part of its name; RT_DEVICE",
               [&parsed](const std::string& flag, const std::string& text) {
@@ -211,7 +212,7 @@ void addDevice(FlagSet& flags, Parsed& parsed) {
     for (const char* flag : {"--threads", "--policy"}) flags.refuse(flag, "a flag of ray-tracing-cpu");
 }
 
-void addProgram(FlagSet& flags, Parsed& parsed) {
+void addProgram(FlagSet& flags, ParsedFlags& parsed) {
     flags.group("Program");
     flags.addSwitch("--headless", parsed.headless, "no window; implied by --output, --stats and --time-limit");
     flags.addSwitch(
@@ -227,7 +228,7 @@ void addProgram(FlagSet& flags, Parsed& parsed) {
 
 // ---- what goes together --------------------------------------------------------------------------------------------
 
-void settleCommand(const FlagSet& flags, Parsed& parsed) {
+void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
     Options& options = parsed.options;
     if (options.json && !parsed.listScenes) throw UsageError("--json: only with --list-scenes");
     if (parsed.listScenes && !options.exportFile.empty()) throw UsageError("--export-scene: contradicts --list-scenes");
@@ -281,7 +282,7 @@ void settleFiles(Options& options) {
                          std::string(": needs --checkpoint or --output"));
 }
 
-void settlePolicy(const FlagSet& flags, Parsed& parsed) {
+void settlePolicy(const FlagSet& flags, ParsedFlags& parsed) {
     Policy& policy = parsed.options.policy;
     if (parsed.engine.empty()) return;
     const bool single = parsed.engine == "single";
@@ -290,7 +291,7 @@ void settlePolicy(const FlagSet& flags, Parsed& parsed) {
     if (single) policy = Policy::Seq;
 }
 
-void settleValidation(const Parsed& parsed) {
+void settleValidation(const ParsedFlags& parsed) {
     const Options& options = parsed.options;
     if (options.program != kGpuProgram && options.validation && !options.window)
         throw UsageError("--validation: a flag of ray-tracing-gpu, or of a window");
@@ -304,21 +305,30 @@ std::uint32_t rounded(double pixels, const std::string& what) {
 
 } // namespace
 
-std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out) {
-    Parsed parsed;
-    parsed.options.program = program;
-    const bool gpu = program == kGpuProgram;
-    FlagSet flags(program, std::string("Path tracer on the ") + (gpu ? "GPU" : "CPU") +
-                               ". Any two of --width, --height, --aspect give the size.");
-    addScene(flags, parsed);
-    addImage(flags, parsed.options);
-    addPart(flags, parsed.options);
-    addEstimator(flags, parsed.options.settings);
-    addOutput(flags, parsed.options);
-    addDuration(flags, parsed.options);
-    gpu ? addDevice(flags, parsed) : addProcessor(flags, parsed);
-    addProgram(flags, parsed);
-    if (!flags.parse(std::move(arguments), out)) return std::nullopt;
+OptionParser::OptionParser(const std::string& program)
+    : program_(program),
+      parsed_(std::make_unique<ParsedFlags>()),
+      flags_(std::make_unique<FlagSet>(program, std::string("Path tracer on the ") +
+                                                    (program == kGpuProgram ? "GPU" : "CPU") +
+                                                    ". Any two of --width, --height, --aspect give the size.")) {
+    addScene(*flags_, *parsed_);
+    addImage(*flags_, parsed_->options);
+    addPart(*flags_, parsed_->options);
+    addEstimator(*flags_, parsed_->options.settings);
+    addOutput(*flags_, parsed_->options);
+    addDuration(*flags_, parsed_->options);
+    program == kGpuProgram ? addDevice(*flags_, *parsed_) : addProcessor(*flags_, *parsed_);
+    addProgram(*flags_, *parsed_);
+}
+
+OptionParser::~OptionParser() = default;
+
+std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, std::ostream& out) {
+    ParsedFlags& parsed = *parsed_;
+    const FlagSet& flags = *flags_;
+    parsed = {};
+    parsed.options.program = program_;
+    if (!flags_->parse(std::move(arguments), out)) return std::nullopt;
 
     parsed.options.keepsUserFiles = !flags.given("--no-config");
     settleCommand(flags, parsed);
@@ -329,6 +339,10 @@ std::optional<Options> parseOptions(const std::string& program, std::vector<std:
     for (const char* flag : kStoredFlags)
         if (flags.given(flag)) parsed.options.given.insert(flag);
     return parsed.options;
+}
+
+std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out) {
+    return OptionParser(program).parse(std::move(arguments), out);
 }
 
 std::string checkpointBeside(const std::string& output) {

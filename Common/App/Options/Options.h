@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <set>
@@ -89,8 +90,26 @@ inline constexpr const char* kNoWindowOfRanks =
 inline constexpr const char* kCpuProgram = "ray-tracing-cpu";
 inline constexpr const char* kGpuProgram = "ray-tracing-gpu"; // its flags differ where machines do
 
-// Reads the command line (without the program's name), else the environment, else the configuration file. Nothing is
-// returned after --help and --version, which are answered on `out`. Throws UsageError.
+class FlagSet;
+struct ParsedFlags;
+
+// Reads command lines of one program: making its flags takes much longer than reading a line.
+class OptionParser {
+  public:
+    explicit OptionParser(const std::string& program); // environment and configuration file are looked for now
+    ~OptionParser();
+
+    // Of the command line (without the program's name), else the environment, else the configuration file. Nothing is
+    // returned after --help and --version, which are answered on `out`. Throws UsageError.
+    std::optional<Options> parse(std::vector<std::string> arguments, std::ostream& out);
+
+  private:
+    const std::string program_;
+    const std::unique_ptr<ParsedFlags> parsed_;
+    const std::unique_ptr<FlagSet> flags_;
+};
+
+// The one command line of a program.
 std::optional<Options> parseOptions(const std::string& program, std::vector<std::string> arguments, std::ostream& out);
 
 // Sets settings.width and height: 600 pixels wide and of the scene's own aspect where nothing is said. Throws

@@ -1,6 +1,8 @@
 #include "Common/Scene/Compiler/DirectionalAlbedos.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
 
 #include "Common/Core/Parallel.h"
 #include "Common/Shared/Material/Bsdf.h"
@@ -14,6 +16,7 @@ using namespace shared;
 constexpr uint kNormals = 512; // of facets, in a Hammersley set
 constexpr uint kHeights = 48;  // of wi over sheen
 constexpr uint kTurns = 24;
+constexpr std::size_t kMostKept = 16; // tables of glass, 8 KiB each
 
 // The direction in the plane y = 0. Grazing ones stay above the surface.
 vec3 outgoing(float cosine) {
@@ -86,14 +89,7 @@ std::vector<vec3> makeTable() {
     return table;
 }
 
-} // namespace
-
-const std::vector<vec3>& directionalAlbedos() {
-    static const std::vector<vec3> table = makeTable();
-    return table;
-}
-
-std::vector<float> glassAlbedos(float ior) {
+std::vector<float> makeGlassTable(float ior) {
     std::vector<float> table(std::size_t{2} * kAlbedoSteps * kAlbedoSteps);
     parallelFor(0, std::size_t{2} * kAlbedoSteps, [&](std::size_t i) { // rows leaving, then rows entering
         const float eta = i < kAlbedoSteps ? 1.0f / ior : ior;
@@ -102,6 +98,27 @@ std::vector<float> glassAlbedos(float ior) {
             table[i * kAlbedoSteps + column] =
                 glass(static_cast<float>(column) / (kAlbedoSteps - 1), square(roughness), eta);
     });
+    return table;
+}
+
+} // namespace
+
+const std::vector<vec3>& directionalAlbedos() {
+    static const std::vector<vec3> table = makeTable();
+    return table;
+}
+
+std::vector<float> glassAlbedos(float ior) {
+    static std::mutex mutex;
+    static std::map<float, std::vector<float>> kept;
+    {
+        const std::scoped_lock lock(mutex);
+        if (const auto known = kept.find(ior); known != kept.end()) return known->second;
+    }
+    std::vector<float> table = makeGlassTable(ior); // whose loop may do other work that asks for a table meanwhile
+    const std::scoped_lock lock(mutex);
+    if (kept.size() >= kMostKept) kept.clear();
+    kept.emplace(ior, table);
     return table;
 }
 
