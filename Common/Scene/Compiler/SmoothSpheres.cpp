@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeastIor = 1.01;              // below it a sphere focuses nothing
 constexpr double kLeastShare = 0.1;             // of the light that goes on from spheres; less is not worth the time
 constexpr double kMirrorWorth = 0.25;           // see kWorthConnecting
-constexpr std::size_t kMostInstanced = 1 << 20; // eight of more spheres matter less than the time to choose them
+constexpr std::size_t kMostInstanced = 1 << 18; // eight of more spheres matter less than the time to choose them
 
 bool isMirror(const shared::Material& material) {
     return material.kind == shared::kMaterialMetal && material.parameter[shared::kMetalFuzz] <= shared::kMirrorFuzz;
