@@ -67,7 +67,10 @@ function(rt_set_kernel_options source isa)
         set(options.x86_64_v3 /arch:AVX2)
         set(options.x86_64_v4 /arch:AVX512)
     else()
-        set(options $<$<NOT:$<CONFIG:Debug>>:-O3> -fno-math-errno -fno-trapping-math)
+        set(options -fno-math-errno -fno-trapping-math)
+        if(NOT RT_SANITIZE) # whose checks take compilers many minutes at this level
+            list(PREPEND options $<$<NOT:$<CONFIG:Debug>>:-O3>)
+        endif()
         set(options.x86_64_v2 -march=x86-64-v2)
         set(options.x86_64_v3 -march=x86-64-v3)
         # What v4 brings is its 32 registers; vectors of 16 floats were measured to bring nothing.
