@@ -146,8 +146,10 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
     waitForPresenting();
     window_.hide(); // what follows may take a while
     kept_.keep(window_);
-    if (const std::vector<std::string> failures = session_.close(); !failures.empty())
-        throw RenderError(failures.front());
+    const std::vector<std::string> failures = session_.close();
+    // A signal before there is anything to write loses nothing.
+    const bool losesNothing = isInterrupted && failures == std::vector<std::string>{app::kNothingRendered};
+    if (!failures.empty() && !losesNothing) throw RenderError(failures.front());
     return isInterrupted ? ExitCode::Interrupted : ExitCode::Done;
 }
 

@@ -72,7 +72,8 @@ class InteractiveSession {
     void tell(const WindowFigures& figures) { state_.tell(figures); }
 
     // Ends the render and its thread, within 100 ms but for what the engine is building. Returns what of writeAtEnd()
-    // could not be written, one line each. Nothing but state() may be called any more.
+    // could not be written, one line each; kNothingRendered alone where there is no film. Nothing but state() may be
+    // called any more.
     std::vector<std::string> close();
 
     SessionState state() const;

@@ -148,6 +148,9 @@ struct SaveRequest {
     bool operator==(const SaveRequest&) const = default;
 };
 
+// What InteractiveSession::close() returns where there is no film that could be written.
+inline constexpr const char* kNothingRendered = "nothing was rendered that could be written";
+
 // What a session begins with.
 struct SessionSetup {
     Options options; // what the window does not change

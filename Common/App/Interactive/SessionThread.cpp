@@ -325,7 +325,7 @@ void SessionThread::writeEnd(StopReason reason) {
     endIsWritten_ = true;
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
     endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
-                               : std::vector<std::string>{"nothing was rendered that could be written"};
+                               : std::vector<std::string>{kNothingRendered};
     for (const std::string& failure : endFailures_)
         state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
