@@ -10,15 +10,17 @@ folder=$1 seconds=$2 jobs=$3
 cd "$folder"
 export inputs_per_second=10000
 
-# Bytes of the longest input of a target: half as many again as the longest of its seeds has, as what is longer yet tells
-# little that is new and takes its time.
+# Bytes of the longest input of a target: half as many again as the longest of its seeds has, as what is longer yet
+# tells little that is new and takes its time.
 most_bytes() {
-    wc -c "seeds/$1"/* | awk '$2 != "total" && $1 > most { most = $1 } END { print most < 1024 ? 1536 : int(1.5 * most) }'
+    wc -c "seeds/$1"/* |
+        awk '$2 != "total" && $1 > most { most = $1 } END { print most < 1024 ? 1536 : int(1.5 * most) }'
 }
 
 # One kind of input: its outcome as a line, of a find also what was found and how to replay it. Of every allocation one
 # place is noted, which takes a tenth of the time less than all that call it: replays tell those. Features that were
-# seen four times are no longer rare for libFuzzer, whose look through the list of rare ones would take half of the time.
+# seen four times are no longer rare for libFuzzer, whose look through the list of rare ones would take half of the
+# time.
 fuzz() {
     local target=$1 seconds=$2 log=logs/$1.log status=0 words=() end=(-max_total_time="$2")
     [[ -z ${CI:-} ]] || end=(-seed=1 -runs=$((seconds * inputs_per_second)))

@@ -55,8 +55,8 @@ class WindowTest : public Desktop, public testing::WithParamInterface<const char
 
 inline const auto kBothPrograms = testing::Values("ray-tracing-cpu", "ray-tracing-gpu");
 
-// One proves what both windows have from Common/Gui. The other one's proof has the prefix Nightly, by which ctest leaves
-// it to the nightly tests.
+// One proves what both windows have from Common/Gui. The other one's proof has the prefix Nightly, by which ctest
+// leaves it to the nightly tests.
 inline const auto kFirstProgram = testing::Values("ray-tracing-cpu");
 inline const auto kSecondProgram = testing::Values("ray-tracing-gpu");
 

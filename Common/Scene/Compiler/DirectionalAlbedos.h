@@ -9,8 +9,8 @@ namespace rt::scene {
 // the first time that it is asked for. Errors are below 0.005.
 const std::vector<shared::vec3>& directionalAlbedos();
 
-// What glassAlbedo() reads of one index of refraction, from outside and from inside. The last few are kept: a scene that
-// is read again mostly has those of before.
+// What glassAlbedo() reads of one index of refraction, from outside and from inside. The last few are kept: a scene
+// that is read again mostly has those of before.
 std::vector<float> glassAlbedos(float ior);
 
 } // namespace rt::scene

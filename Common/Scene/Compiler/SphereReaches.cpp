@@ -81,7 +81,7 @@ struct LightsSeen {
     double nearest = 0;  // greatest radius of the sphere over distance of a light
     double widest = 0;   // angle
     double meanNear = 0; // of that ratio, by weight
-    double spread = 0;   // likewise, 1 less the cosine of the extent
+    double spread = 0;   // mean of 1 less the cosine of the extent, by weight
 };
 
 // Fills `reach` and `nearest`.
