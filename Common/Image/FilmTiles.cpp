@@ -1,7 +1,6 @@
 #include "Common/Image/FilmTiles.h"
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -54,7 +53,7 @@ class TileReader {
     template <class T>
     void read(std::span<T> values) {
         if (bytes_.size() < values.size_bytes()) throw RenderError("tiles of a film were received incompletely");
-        std::memcpy(values.data(), bytes_.data(), values.size_bytes());
+        std::ranges::copy(bytes_.first(values.size_bytes()), std::as_writable_bytes(values).begin());
         bytes_ = bytes_.subspan(values.size_bytes());
     }
 
