@@ -63,6 +63,8 @@ class MpiCommunicator final : public Communicator {
     int localRank() const override { return localRank_; }
     int localSize() const override { return localSize_; }
 
+    void setProcessorsRender(bool render) override { processorsRender_ = render; }
+
     void send(int to, Bytes message) override {
         forgetSent();
         Sending& sending = sending_.emplace_back();
@@ -97,13 +99,14 @@ class MpiCommunicator final : public Communicator {
 
     // A large message goes out piece by piece, whenever MPI is called: a result would take as long as its rank is
     // asleep between two looks. Rank 0, which sends little, does not wait for a rank that may have stopped. The pauses
-    // leave the processor to threads that render, the longer the longer rank 0 does not look.
+    // leave the processor to threads that render, if there are any, the longer the longer rank 0 does not look.
     void push() {
         const auto begin = std::chrono::steady_clock::now();
         auto pause = kShortestPushPause;
         forgetSent();
         while (rank_ != 0 && !sending_.empty() && std::chrono::steady_clock::now() - begin < kPush) {
-            std::this_thread::sleep_for(std::exchange(pause, std::min(2 * pause, kLongestPushPause)));
+            std::this_thread::sleep_for(pause);
+            if (processorsRender_) pause = std::min(2 * pause, kLongestPushPause);
             forgetSent();
         }
     }
@@ -117,6 +120,7 @@ class MpiCommunicator final : public Communicator {
     }
 
     int rank_ = 0, size_ = 1, localRank_ = 0, localSize_ = 1;
+    bool processorsRender_ = true;
     std::list<Sending> sending_;
 };
 

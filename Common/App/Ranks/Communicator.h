@@ -20,6 +20,9 @@ struct Communicator {
     virtual int size() const = 0;
     virtual int localRank() const = 0; // among those on the same host
     virtual int localSize() const = 0;
+    // Whether threads of this rank render on its processors, to which sending then leaves them; otherwise large
+    // messages go out faster.
+    virtual void setProcessorsRender(bool) {}
     // Returns at once. At most 1 GiB.
     virtual void send(int to, Bytes message) = 0;
     // A message that has arrived. Does not wait for one.

@@ -104,6 +104,7 @@ class LocalRank {
 // Takes messages from rank 0 to this rank, and back, until rank 0 ends it.
 inline void connect(LocalRank& rank, Communicator& ranks) {
     IdleWait idle(rank.processorsRender());
+    ranks.setProcessorsRender(rank.processorsRender());
     int leases = 0; // that the rank holds
     for (bool isEnd = false; !isEnd;) {
         bool any = false;
