@@ -43,7 +43,7 @@ const Transform kTurned = {Scale{glm::dvec3(1.7)}, Rotate{{1, 2, 3}, 50}, Transl
 const Transform kMirrored = {Scale{{-0.6, 0.6, 0.6}}, Rotate{{0, 1, 0}, 20}, Translate{{2, 0, 1}}};
 const Transform kFlattened = {Scale{{1, 0.8, 1}}, Translate{{0, 1, 2}}};
 
-// Those of prototypes are found where copies of them would be.
+// Smooth spheres of prototypes are listed as copies of these spheres in their place would be.
 TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
     const std::vector<ObjectDesc> ball = {{sphere({0.3, 0.5, -0.2}, 0.5, "glass")}, {beads("matte")}};
     SceneDesc instances = litFloor(), copies = litFloor();
