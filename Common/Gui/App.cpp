@@ -146,10 +146,10 @@ ExitCode App::run(const std::atomic<bool>& isInterrupted) {
     waitForPresenting();
     window_.hide(); // what follows may take a while
     kept_.keep(window_);
-    const std::vector<std::string> failures = session_.close();
+    const app::EndFiles files = session_.close();
     // A signal before there is anything to write loses nothing.
-    const bool losesNothing = isInterrupted && failures == std::vector<std::string>{app::kNothingRendered};
-    if (!failures.empty() && !losesNothing) throw RenderError(failures.front());
+    const bool losesNothing = isInterrupted && !files.hasFilm;
+    if (!files.failures.empty() && !losesNothing) throw RenderError(files.failures.front());
     return isInterrupted ? ExitCode::Interrupted : ExitCode::Done;
 }
 

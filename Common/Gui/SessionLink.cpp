@@ -96,8 +96,7 @@ void SessionLink::followFile() {
     const std::optional<app::FileMark> mark = app::markOf(gui_.state.source);
     const bool isSettled = std::exchange(seenMark_, mark) == mark;
     if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_) return;
-    askedMark_ = mark; // once, also where it does not load
-    gui_.openScene(mark->file);
+    if (gui_.session.reopen(mark->file)) askedMark_ = mark; // once, also where it does not load
 }
 
 void SessionLink::send() {

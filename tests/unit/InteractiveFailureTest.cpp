@@ -107,7 +107,7 @@ TEST_F(InteractiveFailureTest, AFilmThatFailedKeepsItsSamples) {
     ASSERT_TRUE(reaches(session, [](const SessionState& state) { return state.messageSerial == 1; }));
     EXPECT_EQ(session.state().activity, Activity::Failed);
     EXPECT_EQ(made, 1);
-    EXPECT_TRUE(session.close().empty());
+    EXPECT_TRUE(session.close().failures.empty());
     FakeEngine engine;
     RenderSettings settings = session.state().settings;
     settings.spp = 20;

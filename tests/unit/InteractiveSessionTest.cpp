@@ -152,6 +152,18 @@ TEST_F(InteractiveSessionTest, ACameraOfAnotherSceneIsIgnored) {
     EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return isFinished(s) && s.picture.serial > serial; }));
 }
 
+// A file that changes while its user opens another one does not come back by that.
+TEST_F(InteractiveSessionTest, AChangedFileGivesWayToWhatIsBeingOpened) {
+    InteractiveSession session(setup(1));
+    ASSERT_TRUE(reaches(session, isFinished));
+    const std::string other = "white-spheres:200000"; // takes a while
+    session.open(other);
+    EXPECT_FALSE(session.reopen("cornell-box-lights"));
+    ASSERT_TRUE(reaches(session, [&](const SessionState& s) { return s.source == other && isFinished(s); }));
+    EXPECT_TRUE(session.reopen(other));
+    EXPECT_TRUE(reaches(session, [&](const SessionState& s) { return s.sceneLoads == 3 && isFinished(s); }));
+}
+
 // Takes a microsecond for each sample, and calls back when it has taken some.
 class PacedEngine : public FakeEngine {
   public:

@@ -72,14 +72,14 @@ TEST_F(WindowFilesTest, AreWrittenWhenTheFirstRenderEnds) {
     std::filesystem::remove(path("a.exr"));
     session->reset();
     ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.picture.serial > 1; }));
-    EXPECT_TRUE(session->close().empty());
+    EXPECT_TRUE(session->close().failures.empty());
     EXPECT_FALSE(std::filesystem::exists(path("a.exr")));
 }
 
 TEST_F(WindowFilesTest, AreWrittenAtTheLatestWhenTheWindowCloses) {
     const auto session = start(0x7fffffff);
     ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.status.samplesDone > 0; }));
-    EXPECT_TRUE(session->close().empty());
+    EXPECT_TRUE(session->close().failures.empty());
     EXPECT_EQ(statistics()["stopped_by"], "interrupted");
     EXPECT_GT(statistics()["spp_done"], 0);
     EXPECT_TRUE(std::filesystem::exists(path("a.exr")));
@@ -90,7 +90,7 @@ TEST_F(WindowFilesTest, ThatCannotBeWrittenAreTold) {
     const auto session = start(5);
     ASSERT_TRUE(reaches(*session, [](const SessionState& s) { return s.errorSerial > 0; }));
     EXPECT_NE(session->state().errors.back().text.find("missing/a."), std::string::npos);
-    const auto failures = session->close();
+    const auto failures = session->close().failures;
     ASSERT_EQ(failures.size(), 2u); // the image, and what lies beside it
     EXPECT_NE(failures.front().find("missing/a.exr"), std::string::npos);
     EXPECT_EQ(statistics()["outputs"].size(), 0u); // those that can be written are
@@ -102,7 +102,9 @@ TEST_F(WindowFilesTest, NothingRenderedIsAFailure) {
     setup.scene = {"no-such-scene", true};
     InteractiveSession session(std::move(setup));
     session.writeAtEnd(request_);
-    EXPECT_EQ(session.close().size(), 1u);
+    const EndFiles files = session.close();
+    EXPECT_FALSE(files.hasFilm);
+    EXPECT_EQ(files.failures.size(), 1u);
 }
 
 } // namespace

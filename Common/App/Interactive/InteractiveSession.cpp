@@ -34,24 +34,30 @@ InteractiveSession::InteractiveSession(Setup setup)
     state_.setStage("Loading " + setup_.scene.source);
     loader_.request(setup_.scene);
     // The engine is made, used and destroyed on this thread.
-    thread_ = std::thread([this] { endFailures_ = SessionThread(setup_, mailbox_, state_, loader_).run(); });
+    thread_ = std::thread([this] { endFiles_ = SessionThread(setup_, mailbox_, state_, loader_).run(); });
 }
 
 InteractiveSession::~InteractiveSession() {
     close();
 }
 
-std::vector<std::string> InteractiveSession::close() {
+EndFiles InteractiveSession::close() {
     if (thread_.joinable()) {
         mailbox_.post(Cancel::Build, [](Requests& requests) { requests.quit = true; });
         thread_.join();
     }
-    return endFailures_;
+    return endFiles_;
 }
 
 void InteractiveSession::open(const std::string& source) {
     state_.setStage("Loading " + source);
     loader_.open(source);
+}
+
+bool InteractiveSession::reopen(const std::string& source) {
+    if (!state().stage.empty()) return false;
+    open(source);
+    return true;
 }
 
 void InteractiveSession::change(const RenderRequest& request) {

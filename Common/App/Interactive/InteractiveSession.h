@@ -24,6 +24,8 @@ class InteractiveSession {
 
     // Requests. None of them waits; the last of a kind counts.
     void open(const std::string& source);
+    // For a file that has changed: gives way to what is being loaded or prepared. Whether it was requested.
+    bool reopen(const std::string& source);
     void change(const RenderRequest& request);
     void choose(const EngineChoice& engine) {
         mailbox_.post(Cancel::FirstPicture, [&](Requests& requests) { requests.engine = engine; });
@@ -71,10 +73,9 @@ class InteractiveSession {
     // How the window has answered so far, for the statistics.
     void tell(const WindowFigures& figures) { state_.tell(figures); }
 
-    // Ends the render and its thread, within 100 ms but for what the engine is building. Returns what of writeAtEnd()
-    // could not be written, one line each; kNothingRendered alone where there is no film. Nothing but state() may be
-    // called any more.
-    std::vector<std::string> close();
+    // Ends the render and its thread, within 100 ms but for what the engine is building. Returns how it went with
+    // the files of writeAtEnd(). Nothing but state() may be called any more.
+    EndFiles close();
 
     SessionState state() const;
 
@@ -88,7 +89,7 @@ class InteractiveSession {
     Mailbox mailbox_;
     PublishedState state_;
     SceneLoader loader_; // its thread posts to the mailbox
-    std::vector<std::string> endFailures_;
+    EndFiles endFiles_;
     std::thread thread_;
 };
 

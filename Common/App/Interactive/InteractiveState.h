@@ -32,7 +32,7 @@ struct EngineChoice {
 // A device that serves ray-tracing-gpu.
 struct EngineDevice {
     std::string name;
-    std::string request; // as --device takes it: the name, or the index where names are alike
+    std::string request;                // as --device takes it: the name, or the index where names are alike
     std::vector<GpuEngineKind> engines; // that it has
 };
 using EngineMaker = std::function<std::unique_ptr<Engine>(const EngineChoice&)>;
@@ -148,8 +148,11 @@ struct SaveRequest {
     bool operator==(const SaveRequest&) const = default;
 };
 
-// What InteractiveSession::close() returns where there is no film that could be written.
-inline constexpr const char* kNothingRendered = "nothing was rendered that could be written";
+// How it went with the files of InteractiveSession::writeAtEnd(), if it was called.
+struct EndFiles {
+    bool hasFilm = true;                 // false: there was none that could be written
+    std::vector<std::string> failures{}; // a line for each that is missing, or one where there was no film
+};
 
 // What a session begins with.
 struct SessionSetup {

@@ -22,7 +22,7 @@ SessionThread::SessionThread(const SessionSetup& setup, Mailbox& mailbox, Publis
       previewIsWanted_(setup.preview),
       atEnd_(setup.atEnd) {}
 
-std::vector<std::string> SessionThread::run() {
+EndFiles SessionThread::run() {
     lowerThreadPriority();
     while (true) {
         Requests requests = mailbox_.take(!hasWork());
@@ -43,7 +43,7 @@ std::vector<std::string> SessionThread::run() {
     }
     for (const SaveRequest& save : std::exchange(waiting_, {})) write(save);
     writeEnd(activity_ == Activity::Failed ? StopReason::Failure : StopReason::Interrupted);
-    return endFailures_;
+    return endFiles_;
 }
 
 // ---- what was asked for --------------------------------------------------------------------------------------------
@@ -324,9 +324,10 @@ void SessionThread::writeEnd(StopReason reason) {
     if (!atEnd_ || endIsWritten_) return;
     endIsWritten_ = true;
     // A film without samples is written, too: whoever waits for the files is told so by their notes and statistics.
-    endFailures_ = film_.run() ? writeFiles(*atEnd_, reason)
-                               : std::vector<std::string>{kNothingRendered};
-    for (const std::string& failure : endFailures_)
+    endFiles_.hasFilm = film_.run().has_value();
+    endFiles_.failures = endFiles_.hasFilm ? writeFiles(*atEnd_, reason)
+                                           : std::vector<std::string>{"nothing was rendered that could be written"};
+    for (const std::string& failure : endFiles_.failures)
         state_.fail(std::make_exception_ptr(RenderError(failure)), ErrorSource::Save);
 }
 

@@ -17,7 +17,7 @@ class SessionThread {
     SessionThread(const SessionSetup& setup, Mailbox& mailbox, PublishedState& state, SceneLoader& loader);
 
     // Until it is asked to quit. Returns what of the end's files could not be written, one line each.
-    std::vector<std::string> run();
+    EndFiles run();
 
   private:
     // What was asked for.
@@ -69,7 +69,7 @@ class SessionThread {
     std::vector<SaveRequest> waiting_; // to be written
     std::optional<SaveRequest> atEnd_; // of the first render
     bool endIsWritten_ = false;
-    std::vector<std::string> endFailures_;
+    EndFiles endFiles_;
 };
 
 } // namespace rt::app
