@@ -12,6 +12,8 @@
 #include <thread>
 #include <unistd.h>
 
+#include "tests/FileBytes.h"
+
 namespace rt::test {
 namespace {
 
@@ -46,17 +48,10 @@ int spawn(const std::vector<std::string>& arguments,
     _exit(127);
 }
 
-std::string read(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
-
 // Of a process or a thread, from its folder of /proc.
 std::pair<char, int> stateAndParent(const fs::path& folder) {
     // "pid (name) state parent ...": the name may hold anything.
-    const std::string stat = read(folder / "stat");
+    const std::string stat = bytesOf(folder / "stat");
     const std::size_t end = stat.rfind(')');
     std::pair<char, int> found{};
     if (end != std::string::npos) std::istringstream(stat.substr(end + 1)) >> found.first >> found.second;
@@ -85,14 +80,14 @@ void Desktop::SetUp() {
     screen_ = spawn({"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"}, {},
                     folder_ / "screen.log");
     ASSERT_TRUE(eventually([this] {
-        std::istringstream lines(read(folder_ / "screen.log"));
+        std::istringstream lines(bytesOf(folder_ / "screen.log"));
         int number = -1;
         for (std::string line; std::getline(lines, line);)
             if (!line.empty() && line.find_first_not_of("0123456789") == std::string::npos) number = std::stoi(line);
         display_ = ":" + std::to_string(number);
         return number >= 0;
     })) << "Xvfb does not start; Debian, Ubuntu: apt install xvfb xdotool\n"
-        << read(folder_ / "screen.log");
+        << bytesOf(folder_ / "screen.log");
 }
 
 void Desktop::TearDown() {
@@ -165,7 +160,7 @@ int Desktop::waitForEnd() {
 }
 
 std::string Desktop::log() const {
-    return read(folder_ / "program.log");
+    return bytesOf(folder_ / "program.log");
 }
 
 void Desktop::act(const std::string& commands) {

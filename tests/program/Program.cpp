@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+
+#include "tests/FileBytes.h"
 
 #ifndef _WIN32
 #include <sys/wait.h>
@@ -13,13 +14,6 @@ namespace rt::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
 
 #ifdef _WIN32
 
@@ -78,7 +72,7 @@ void ProgramTest::TearDown() {
 }
 
 std::string ProgramTest::bytesOf(const std::string& name) const {
-    return read(folder_ / name);
+    return bytesOf(folder_ / name);
 }
 
 void ProgramTest::writeFile(const std::string& name, const std::string& content) const {
@@ -103,8 +97,8 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     command += " > " + quoted(out) + " 2> " + quoted(err);
     Outcome outcome;
     outcome.exitCode = exitCodeOf(std::system(command.c_str()));
-    outcome.out = read(out);
-    outcome.err = read(err);
+    outcome.out = bytesOf(out);
+    outcome.err = bytesOf(err);
     fs::remove(out);
     fs::remove(err);
     return outcome;

@@ -1,7 +1,6 @@
 // Scenes and engines that cannot be had, and engines that fail, in a window that goes on.
 #include <fstream>
 #include <memory>
-#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,6 +8,7 @@
 #include "Common/App/Session/FilmRun.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
+#include "tests/FileBytes.h"
 #include "tests/unit/InteractiveFixture.h"
 
 namespace rt::app {
@@ -115,9 +115,8 @@ TEST_F(InteractiveFailureTest, AFilmThatFailedKeepsItsSamples) {
     FilmRun(engine, session.state().scene->camera, settings).untilStopped(goOn);
     EXPECT_EQ(image::readImage(saved).data, engine.film().resolve().data);
     EXPECT_EQ(image::readImage(atEnd).data, engine.film().resolve().data);
-    std::stringstream text;
-    text << std::ifstream(folder_ / "stats.json").rdbuf();
-    EXPECT_NE(text.str().find("\"stopped_by\": \"failure\""), std::string::npos) << text.str();
+    const std::string text = test::bytesOf(folder_ / "stats.json");
+    EXPECT_NE(text.find("\"stopped_by\": \"failure\""), std::string::npos) << text;
 }
 
 TEST_F(InteractiveFailureTest, AnEngineThatCannotBeHadLeavesTheOneBeforeAtWork) {
