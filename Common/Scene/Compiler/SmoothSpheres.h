@@ -12,7 +12,8 @@ namespace rt::scene {
 constexpr double kWorthConnecting = 25;
 
 // The smooth spheres by way of which lights are connected to, those that most light goes on from first, and how they
-// see the lights, which are complete. None where there are more lights than kContributionLights.
+// see the lights, which are complete: those with the most noise, and bright patches of the sky image. Replaces what
+// the scene has of them.
 void findSmoothSpheres(CompiledScene& out, double leastVariance = kWorthConnecting);
 
 } // namespace rt::scene
