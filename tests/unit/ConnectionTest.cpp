@@ -234,7 +234,7 @@ TEST(Connection, WithScatteringTheLightOfTheSkyIsThatOfTracedRays) {
         at("touching a mirror", test::kMirror, 0, 1.002),
         at("far from a mirror", test::kMirror, -20, 20),
     };
-    const Worth worth = expectLightOfTracedRays(places, litBySky, 60000, 57);
+    const Worth worth = expectLightOfTracedRays(places, litBySky, 30000, 57);
     EXPECT_EQ(worth.covered, 24);
     EXPECT_GE(worth.better, 16);
 }
