@@ -23,9 +23,13 @@ class SkyTexels {
           image_(scene.images[scene.globals.skyImage]),
           irradiance_(4 * std::numbers::pi * luminance(scene.lights[scene.globals.skyLight].emission)) {
         const double step = std::numbers::pi / image_.height;
-        for (std::uint32_t y = 0; y < image_.height; ++y)
+        for (std::uint32_t y = 0; y < image_.height; ++y) {
             solidAngles_.push_back(2 * std::numbers::pi / image_.width *
                                    (std::cos(y * step) - std::cos((y + 1) * step)));
+            rows_.push_back(cosineAndSineOf((y + 0.5) * step));
+        }
+        for (std::uint32_t x = 0; x < image_.width; ++x)
+            columns_.push_back(cosineAndSineOf(2 * std::numbers::pi * (x + 0.5) / image_.width));
     }
 
     std::uint32_t width() const { return image_.width; }
@@ -37,14 +41,21 @@ class SkyTexels {
     }
     double radiance(std::uint32_t x, std::uint32_t y) const { return irradiance(x, y) / solidAngles_[y]; }
 
-    // In the world, at a place in the image in texels.
-    shared::vec3 direction(double x, double y) const {
-        const double polar = std::numbers::pi * y / height(), azimuth = 2 * std::numbers::pi * x / width();
-        const glm::dvec3 d(-std::sin(polar) * std::cos(azimuth), std::cos(polar), -std::sin(polar) * std::sin(azimuth));
-        return shared::fromSkyImage(scene_.globals, shared::vec3(d));
+    // In the image's frame: of a texel's middle, and of its upper left corner.
+    glm::dvec3 middle(std::uint32_t x, std::uint32_t y) const { return directionOf(rows_[y], columns_[x]); }
+    glm::dvec3 corner(std::uint32_t x, std::uint32_t y) const {
+        return directionOf(cosineAndSineOf(std::numbers::pi * y / height()),
+                           cosineAndSineOf(2 * std::numbers::pi * x / width()));
+    }
+    shared::vec3 toWorld(const glm::dvec3& direction) const {
+        return shared::fromSkyImage(scene_.globals, shared::vec3(direction));
     }
 
   private:
+    static glm::dvec2 cosineAndSineOf(double angle) { return {std::cos(angle), std::sin(angle)}; }
+    static glm::dvec3 directionOf(const glm::dvec2& polar, const glm::dvec2& azimuth) {
+        return {-polar.y * azimuth.x, polar.x, -polar.y * azimuth.y};
+    }
     double widthAt(std::size_t i) const {
         return static_cast<double>(scene_.skyCdf[i + 1]) - static_cast<double>(scene_.skyCdf[i]);
     }
@@ -52,7 +63,8 @@ class SkyTexels {
     const CompiledScene& scene_;
     const shared::Image& image_;
     const double irradiance_;
-    std::vector<double> solidAngles_; // of a texel, by row
+    std::vector<double> solidAngles_;        // of a texel, by row
+    std::vector<glm::dvec2> rows_, columns_; // cosine and sine of the angles of their middle
 };
 
 bool overlap(const shared::SkyPatch& a, const shared::SkyPatch& b) {
@@ -80,7 +92,7 @@ class PatchFinder {
         forEachTexel(all(), [&](auto x, auto y) { noise += texels_.irradiance(x, y) * texels_.radiance(x, y); });
         for (std::size_t i = 0; i < kMostPatches; ++i) {
             const shared::SkyPatch brightest = brightestTexel();
-            if (!isFree(brightest)) break;
+            if (!isFree(brightest) || !(texels_.radiance(brightest.begin.x, brightest.begin.y) > 0)) break;
             const BrightPatch patch = measured(grown(brightest));
             taken_.push_back(patch.texels);
             if (patch.irradiance * patch.radiance >= kLeastNoise * noise) sky.patches.push_back(patch);
@@ -144,17 +156,21 @@ class PatchFinder {
             const double irradiance = texels_.irradiance(x, y);
             patch.irradiance += irradiance;
             noise += irradiance * texels_.radiance(x, y);
-            sum += irradiance * glm::dvec3(texels_.direction(x + 0.5, y + 0.5));
+            sum += irradiance * texels_.middle(x, y);
         });
         patch.radiance = noise / patch.irradiance;
-        patch.axis = glm::length(sum) > 0 ? shared::vec3(glm::normalize(sum)) : shared::vec3(0, 1, 0);
+        const glm::dvec3 axis = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 1, 0);
         double least = 1;
-        const auto reach = [&](double x, double y) {
-            least = std::min(least, static_cast<double>(glm::dot(patch.axis, texels_.direction(x, y))));
-        };
-        forEachTexel(texels, [&](auto x, auto y) {
-            for (const std::uint32_t corner : {0u, 1u, 2u, 3u}) reach(x + (corner & 1u), y + (corner >> 1u));
-        });
+        const auto reach = [&](auto x, auto y) { least = std::min(least, glm::dot(axis, texels_.corner(x, y))); };
+        for (std::uint32_t x = texels.begin.x; x <= texels.end.x; ++x) {
+            reach(x, texels.begin.y);
+            reach(x, texels.end.y);
+        }
+        for (std::uint32_t y = texels.begin.y; y <= texels.end.y; ++y) {
+            reach(texels.begin.x, y);
+            reach(texels.end.x, y);
+        }
+        patch.axis = texels_.toWorld(axis);
         patch.angle = std::acos(std::max(least, -1.0));
         return patch;
     }

@@ -13,7 +13,8 @@ struct LightOnSphere {
     std::uint32_t light;    // into the scene's lights
     std::uint32_t skyPatch; // into BrightSky::patches; kNone: any other light
     double irradiance;      // luminance, of the sphere's centre
-    double radiance;        // luminance, as scattering finds it
+    double radiance;        // luminance, mean by irradiance
+    // Its part of the second moment with which scattering finds all lights.
     double noise() const { return irradiance * radiance; }
 };
 
