@@ -57,8 +57,8 @@ RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sphere
     return kNone;
 }
 
-// The element of sphereReaches for a light, or for the sky the patch that holds this texel, by way of the sphere; kNone:
-// it is not connected to.
+// The element of sphereReaches for a light by way of the sphere, for the sky that of the patch which holds this texel;
+// kNone: it is not connected to.
 RT_FN uint reachOf(uint features, SceneRef scene, RT_IN(SmoothSphere) sphere, uint light, uvec2 texel) {
     for (uint i = sphere.firstReach; i < sphere.firstReach + sphere.reachCount; i++) {
         RT_IN(SphereReach) reach = loadSphereReach(scene, i);
