@@ -170,6 +170,20 @@ TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
     }
 }
 
+// Where the lights that a sphere can be connected to are too few to matter, it is not worth the time.
+TEST(SmoothSpheres, OfManyEqualLightsAreNone) {
+    const auto listed = [](int lights) {
+        SceneDesc scene = withMaterials();
+        add(scene, sphere({0, 0, 0}, 1, "glass"));
+        SphereSetDesc lamps{{}, 0.001, "lamp"};
+        for (int i = 0; i < lights; ++i) lamps.centers.push_back({0.01 * i, 20, 0});
+        add(scene, lamps);
+        return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
+    };
+    EXPECT_EQ(listed(2 * shared::kReachedLights - 1), 2u);
+    EXPECT_EQ(listed(2 * shared::kReachedLights + 1), 0u);
+}
+
 // Nor are many spheres looked at where there are many lights, however much goes on from one of them.
 TEST(SmoothSpheres, OfManyUnderManyLightsAreNone) {
     const auto listed = [](std::size_t spheres) {
@@ -178,8 +192,8 @@ TEST(SmoothSpheres, OfManyUnderManyLightsAreNone) {
         add(scene, SphereSetDesc{std::vector<glm::dvec3>(spheres - 1, glm::dvec3(0)), 0.01, "glass"});
         SphereSetDesc lamps{{}, 0.001, "lamp"};
         for (int i = 0; i < 1 << 15; ++i) lamps.centers.push_back({0.1 * (i % 128), 20, 0.1 * (i / 128)});
-        lamps.centers[0] = {0, 6.2, 0};
         add(scene, lamps);
+        add(scene, SphereSetDesc{{{0, 6.2, 0}}, 0.1, "lamp"}); // brighter than all of them on the first
         return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
     };
     EXPECT_GT(listed(255), 0u);

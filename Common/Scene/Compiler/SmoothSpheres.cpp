@@ -110,6 +110,7 @@ class Brightest {
     void consider(const shared::SmoothSphere& sphere) {
         if (!sky_) sky_ = findBrightSky(scene_);
         const LightsOnSphere lights = lightsOn(sphere, scene_, *sky_);
+        if (lights.connected.empty()) return;
         const double mean = lights.irradiance;
         double second = 0;
         for (const LightOnSphere& light : lights.connected) second += light.noise();

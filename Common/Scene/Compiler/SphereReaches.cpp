@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "Common/Shared/Light/LightContribution.h"
@@ -17,6 +18,7 @@ constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near
 // Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
 constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
 constexpr double kMostGain = 4;
+constexpr double kLeastReached = 0.5; // of the light that could be connected to; with less, noise stays
 
 shared::vec2 cosineAndSine(double angle) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
@@ -30,6 +32,22 @@ shared::vec3 middleOf(const shared::SmoothSphere& sphere) { // of its way while 
 double irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
     const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
     return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
+}
+
+double irradianceOf(std::span<const LightOnSphere> lights) {
+    double sum = 0;
+    for (const LightOnSphere& light : lights) sum += light.irradiance;
+    return sum;
+}
+
+// As many as a sphere can be connected to; none if that is too small a part of their light.
+void keepNoisiest(std::vector<LightOnSphere>& lights) {
+    const double least = kLeastReached * irradianceOf(lights);
+    const auto end = lights.begin() + shared::kReachedLights;
+    std::ranges::partial_sort(lights, end, std::greater(), &LightOnSphere::noise);
+    lights.erase(end, lights.end());
+    if (irradianceOf(lights) < least) return lights.clear();
+    std::ranges::sort(lights, {}, [](const LightOnSphere& light) { return std::pair(light.light, light.skyPatch); });
 }
 
 // How the sphere sees a light at the middle of the shutter.
@@ -129,13 +147,7 @@ LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene&
     }
     for (std::uint32_t i = 0; i < sky.patches.size(); ++i)
         lights.connected.push_back({scene.globals.skyLight, i, sky.patches[i].irradiance, sky.patches[i].radiance});
-    if (lights.connected.size() > shared::kReachedLights) {
-        const auto end = lights.connected.begin() + shared::kReachedLights;
-        std::ranges::partial_sort(lights.connected, end, std::greater(), &LightOnSphere::noise);
-        lights.connected.erase(end, lights.connected.end());
-        std::ranges::sort(lights.connected, {},
-                          [](const LightOnSphere& light) { return std::pair(light.light, light.skyPatch); });
-    }
+    if (lights.connected.size() > shared::kReachedLights) keepNoisiest(lights.connected);
     return lights;
 }
 

@@ -19,8 +19,10 @@ struct LightOnSphere {
 };
 
 struct LightsOnSphere {
-    std::vector<LightOnSphere> connected; // those with the most noise, kReachedLights at most; by light
-    double irradiance = 0;                // of all, and of the whole sky
+    // Those with the most noise, kReachedLights at most, by light; none where that is less than half of the light of
+    // all that could be.
+    std::vector<LightOnSphere> connected;
+    double irradiance = 0; // of all, and of the whole sky
 };
 
 LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky);
