@@ -58,7 +58,6 @@ struct ConnectionLanes {
 // totalWeight() of all paths.
 RT_CALL void addWeights(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, FloatLanes& totals) {
     const Vec3Lanes& positions = lanesOf<&Vertex::origin>(lanes.vertices);
-    const uint count = scene.globals.lightCount;
     totals = FloatLanes{};
     for (uint k = 0u; k < params.connectedSpheres; ++k) {
         const SmoothSphere& sphere = scene.smoothSpheres[k];
@@ -77,8 +76,8 @@ RT_CALL void addWeights(const CpuScene& scene, const RenderParams& params, const
         if (any == 0u) continue;
         for (uint i = 0u; i < kLanes; ++i) set(reach, i, reachAt(sphere, near.at[i]));
         FloatLanes sums{};
-        for (uint l = 0u; l < count; ++l) {
-            const SphereReach light = scene.sphereReaches[k * count + l];
+        for (uint l = 0u; l < sphere.reachCount; ++l) {
+            const SphereReach light = scene.sphereReaches[sphere.firstReach + l];
             for (uint i = 0u; i < kLanes; ++i) {
                 SphereView view{};
                 view.along = get(along, i);

@@ -9,8 +9,6 @@ namespace rt::test {
 
 inline std::shared_ptr<const scene::CompiledScene> connectedThroughAll(const scene::CompiledScene& scene) {
     const auto connected = std::make_shared<scene::CompiledScene>(scene);
-    connected->smoothSpheres.clear();
-    connected->sphereReaches.clear();
     scene::findSmoothSpheres(*connected, 0);
     return connected;
 }

@@ -215,7 +215,8 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
     }
 }
 
-// Lights that are connected to by way of spheres of glass and mirrors: at rest, moving, among media, in instances.
+// Lights that are connected to by way of spheres of glass and mirrors: at rest, moving, among media, in instances; the
+// sun of a sky image, and more lights than a table holds.
 class ConnectionAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, ConnectionAgreementTest, kFirstEngine, engineName);
 INSTANTIATE_TEST_SUITE_P(Queries, ConnectionAgreementTest, kQueries, engineName);
@@ -223,8 +224,8 @@ INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engine
 
 TEST_P(ConnectionAgreementTest, SampleForSample) {
     if (lacks(GetParam())) return;
-    for (const char* id :
-         {"rest-of-life-cornell-box-glass", "next-week-final", RT_TEST_DATA_DIR "/scenes/glass-instances.json"}) {
+    for (const char* id : {"rest-of-life-cornell-box-glass", "next-week-final", "many-lights:100",
+                           RT_TEST_DATA_DIR "/scenes/glass-instances.json", RT_TEST_DATA_DIR "/scenes/sun.json"}) {
         const auto scene = connectedThroughAll(*app::compile(app::loadScene(id), true));
         EnginePair engines(scene, GetParam());
         app::RenderSettings one = pairSettings(1), many = pairSettings(16);

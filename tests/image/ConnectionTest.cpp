@@ -99,6 +99,9 @@ SceneDesc caustic(const ObjectDesc::Shape& lamp) {
     return desc;
 }
 
+// The sun of a sky image through a ball of glass, and on two balls of metal.
+constexpr const char* kSun = RT_TEST_DATA_DIR "/scenes/sun.json";
+
 const QuadDesc kPanel{{-0.3, 5, -0.3}, {0.6, 0, 0}, {0, 0, 0.6}, "lamp"};
 
 // Balls of glass in instances of one prototype.
@@ -109,11 +112,15 @@ TEST(Connection, ChangesNothingButNoise) {
         expectSameLight(findBuiltinScene(id), {16, 16});
     expectSameLight(caustic(kPanel), {16, 64});
     expectSameLight(caustic(kPanel), {16, 64}, 5); // paths that end early
+    expectSameLight(app::loadScene(kSun), {16, 64});
+    expectSameLight(app::loadScene(kSun), {16, 64}, 4);
+    expectSameLight(app::loadScene("many-lights:100"), {16, 64});
 }
 
 TEST(NightlyConnection, ChangesNothingButNoise) {
-    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final"})
-        expectSameLight(findBuiltinScene(id), {32, 256});
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", "many-lights:100",
+                           "many-lights:1000", kSun})
+        expectSameLight(app::loadScene(id), {32, 256});
 }
 
 // Of the differences between images with connections and without, of equal seeds: the mean over each of 16 regions.
@@ -150,11 +157,12 @@ Differences differences(const char* id, std::uint32_t seeds) {
     return differences;
 }
 
-// By 16 regions and 4 scenes fewer than one in 2000 true sets of images fail. Scattering finds some light that rarely
+// By 16 regions and 6 scenes fewer than one in 1500 true sets of images fail. Scattering finds some light that rarely
 // that no seed may have it: a difference as large as the largest one, expected in 10 of the seeds, is in none of them
 // once in 20 000 times.
 void expectSameMeans(std::uint32_t seeds) {
-    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", kInstances}) {
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "next-week-final", kInstances, kSun,
+                           "many-lights:100"}) {
         int differing = 0;
         const Differences found = differences(id, seeds);
         for (const Mean& mean : found.regions) {
@@ -262,8 +270,8 @@ TEST(Connection, OnlyWhereScatteringIsNoisy) {
     EXPECT_EQ(connectedSpheres(0.6, true), 1u);
     EXPECT_EQ(connectedSpheres(1.5, true), 1u);
     EXPECT_EQ(connectedSpheres(3, true), 0u);
-    for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy"})
-        EXPECT_FALSE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
+    for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy", "many-lights", kSun})
+        EXPECT_FALSE(app::compile(app::loadScene(id), true, true)->smoothSpheres.empty()) << id;
     for (const char* id : {"cornell-box-lights", "next-week-final"})
         EXPECT_TRUE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
 }

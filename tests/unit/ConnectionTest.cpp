@@ -1,8 +1,11 @@
 // Connections by way of smooth spheres as the engines make them, together with scattering weighed against them, against
 // rays traced in double precision.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 
 #include <gtest/gtest.h>
@@ -12,6 +15,7 @@
 #include "Common/Shared/Path/PathStep.h"
 #include "tests/ConnectedScene.h"
 #include "tests/unit/CompilerScenes.h"
+#include "tests/unit/SkyImages.h"
 #include "tests/unit/SphereConstellations.h"
 
 namespace rt::shared {
@@ -20,6 +24,7 @@ namespace {
 using glm::dvec3;
 using test::Constellation;
 using test::kConstellations;
+using test::kPiD;
 using test::kReflections;
 using test::LightQuad;
 using test::Mean;
@@ -28,16 +33,56 @@ using test::Uniforms;
 
 constexpr double kPhaseDensity = 1 / (4 * test::kPiD);
 
-std::shared_ptr<const scene::CompiledScene> compiled(const Constellation& c) {
+// A constellation's scene, and the light that is left of rays in it.
+struct Lit {
+    std::shared_ptr<const scene::CompiledScene> scene;    // with one light
+    std::function<double(const Traced&, dvec3& y)> along; // y: a point that it comes from
+};
+
+scene::SceneDesc sphereOf(double eta) {
     scene::SceneDesc desc = scene::withMaterials();
     desc.camera.lookFrom = dvec3(0);
-    desc.materials["glass"] = c.eta == test::kMirror ? scene::metal(dvec3(1), 0) : scene::glass(c.eta);
+    desc.materials["glass"] = eta == test::kMirror ? scene::metal(dvec3(1), 0) : scene::glass(eta);
+    desc.objects = {{scene::SphereDesc{{0, 0, 0}, 1, {}, "glass"}}, {scene::SphereDesc{{900, 0, 0}, 1, {}, "matte"}}};
+    return desc;
+}
+
+Lit litByQuad(const Constellation& c) {
+    scene::SceneDesc desc = sphereOf(c.eta);
     desc.materials["lamp"] = scene::emitter(dvec3(1));
     desc.materials["lamp"].sides = scene::Sides::Both;
-    desc.objects = {{scene::SphereDesc{{0, 0, 0}, 1, {}, "glass"}},
-                    {scene::QuadDesc{c.corner, c.edgeU, c.edgeV, "lamp"}},
-                    {scene::SphereDesc{{900, 0, 0}, 1, {}, "matte"}}};
-    return test::connectedThroughAll(*scene::compileScene(desc));
+    desc.objects.push_back({scene::QuadDesc{c.corner, c.edgeU, c.edgeV, "lamp"}});
+    const LightQuad light(c);
+    return {test::connectedThroughAll(*scene::compileScene(desc)),
+            [light](const Traced& ray, dvec3& y) { return light.along(ray, y); }};
+}
+
+// A sky with a sun of six texels that differ, on the left edge of the image where it is cut in two, and a dim rest.
+constexpr std::uint32_t kSkyWidth = 128, kSkyHeight = 64;
+
+float skyTexelAt(std::uint32_t x, std::uint32_t y) {
+    const bool isSun = (x < 2 || x == kSkyWidth - 1) && (y == 20 || y == 21);
+    return isSun ? 10.0f + 5.0f * float((x + y) % 3) : 0.01f * float(1 + (x + 3 * y) % 5);
+}
+
+// What directions lead to the middle of the sun.
+dvec3 sunDirection() {
+    const double polar = kPiD * 21 / kSkyHeight, azimuth = kPiD / kSkyWidth;
+    return {-std::sin(polar) * std::cos(azimuth), std::cos(polar), -std::sin(polar) * std::sin(azimuth)};
+}
+
+double skyAlong(const Traced& ray) {
+    if (ray.left == 0) return 0;
+    const dvec3& d = ray.direction;
+    const double turn = std::atan2(-d.z, -d.x) / (2 * kPiD), u = turn < 0 ? turn + 1 : turn;
+    const auto x = std::uint32_t(u * kSkyWidth), y = std::uint32_t(std::acos(d.y) / kPiD * kSkyHeight);
+    return ray.left * double(skyTexelAt(std::min(x, kSkyWidth - 1), std::min(y, kSkyHeight - 1)));
+}
+
+Lit litBySky(const Constellation& c) {
+    const scene::SkyPicture picture{kSkyWidth, kSkyHeight, skyTexelAt};
+    return {test::connectedThroughAll(*scene::compileUnder(picture, sphereOf(c.eta))),
+            [](const Traced& ray, dvec3&) { return skyAlong(ray); }};
 }
 
 // A vertex at x that scatters into all directions alike, nothing absorbed.
@@ -53,7 +98,8 @@ Vertex vertexAt(const dvec3& x) {
 
 class Scattered {
   public:
-    Scattered(const Constellation& c, std::uint32_t heuristic) : c_(c), light_(c), compiled_(compiled(c)) {
+    Scattered(const Constellation& c, const Lit& lit, std::uint32_t heuristic)
+        : c_(c), lit_(lit), compiled_(lit.scene) {
         app::RenderSettings settings;
         settings.lightSampling = static_cast<app::LightSampling>(heuristic);
         settings.specularConnections = true;
@@ -80,7 +126,7 @@ class Scattered {
   private:
     double traced(const Traced& ray, uint state, Uniforms& u, bool weighed) const {
         dvec3 y;
-        const double light = light_.along(ray, y) * kPhaseDensity * coneSolidAngle(c_);
+        const double light = lit_.along(ray, y) * kPhaseDensity * coneSolidAngle(c_);
         if (!weighed || light == 0) return light;
         PathState s = pathAt();
         connection(u, s); // what connections are made there
@@ -113,7 +159,7 @@ class Scattered {
     }
 
     Constellation c_;
-    LightQuad light_;
+    Lit lit_;
     std::shared_ptr<const scene::CompiledScene> compiled_;
     RenderParams params_{};
     SceneView view_;
@@ -126,13 +172,15 @@ struct Worth {
 
 // By both heuristics.
 template <std::size_t kCount>
-Worth expectLightOfTracedRays(const std::array<Constellation, kCount>& constellations, int weighings,
+Worth expectLightOfTracedRays(const std::array<Constellation, kCount>& constellations,
+                              const std::function<Lit(const Constellation&)>& light, int weighings,
                               std::uint32_t seed) {
     const int tracings = 7 * weighings;
     Worth worth;
-    for (const std::uint32_t heuristic : {kSampleMis, kSampleMisBalance}) {
-        for (const Constellation& c : constellations) {
-            const Scattered scattered(c, heuristic);
+    for (const Constellation& c : constellations) {
+        const Lit lit = light(c);
+        for (const std::uint32_t heuristic : {kSampleMis, kSampleMisBalance}) {
+            const Scattered scattered(c, lit, heuristic);
             EXPECT_EQ(scattered.scene().smoothSpheres.size(), c.eta == test::kMirror ? 1u : 2u);
             Uniforms u(seed++);
             Mean traced, weighed, connected;
@@ -156,15 +204,39 @@ Worth expectLightOfTracedRays(const std::array<Constellation, kCount>& constella
 }
 
 TEST(Connection, WithScatteringTheLightIsThatOfTracedRays) {
-    const Worth worth = expectLightOfTracedRays(kConstellations, 60000, 7);
+    const Worth worth = expectLightOfTracedRays(kConstellations, litByQuad, 60000, 7);
     EXPECT_GE(worth.covered, 6);
     EXPECT_GE(worth.better, 2);
 }
 
 TEST(Connection, WithScatteringTheLightIsThatOfReflectedRays) {
-    const Worth worth = expectLightOfTracedRays(kReflections, 30000, 31);
+    const Worth worth = expectLightOfTracedRays(kReflections, litByQuad, 30000, 31);
     EXPECT_GE(worth.covered, 12);
     EXPECT_GE(worth.better, 4);
+}
+
+TEST(Connection, WithScatteringTheLightOfTheSkyIsThatOfTracedRays) {
+    const dvec3 sun = sunDirection(), aside = test::acrossOf(sun);
+    const auto at = [&](const char* name, double eta, double behind, double beside) {
+        return Constellation{name, eta, aside * beside - sun * behind, {}, {}, {}};
+    };
+    const std::array places = {
+        at("on the axis", 1.5, 4, 0),
+        at("focus", 1.5, 1.5, 0),
+        at("fold", 1.5, 1.3, 0.22),
+        at("touching the sphere", 1.5, 1.002, 0),
+        at("ice", 1.31, 2, 0.2),
+        at("diamond", 2.4, 1.1, 0.3),
+        at("beside", 1.5, 1, 2),
+        at("between sun and mirror", test::kMirror, -2, 0.3),
+        at("beside a mirror", test::kMirror, 0, 1.5),
+        at("grazing a mirror", test::kMirror, 3, 1.4),
+        at("touching a mirror", test::kMirror, 0, 1.002),
+        at("far from a mirror", test::kMirror, -20, 20),
+    };
+    const Worth worth = expectLightOfTracedRays(places, litBySky, 30000, 57);
+    EXPECT_EQ(worth.covered, 24);
+    EXPECT_GE(worth.better, 16);
 }
 
 } // namespace

@@ -139,12 +139,12 @@ void compareEstimators(const TracedScene& scene) {
 }
 
 // Short tables and a tree of lights, media, targets, metal, glass, thin lens, sky; principled surfaces and layers;
-// instances.
+// instances; a sky image.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
-    for (const char* id :
-         {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass", "next-week-final",
-          "one-weekend-final", "many-lights", "veach-mis", RT_TEST_DATA_DIR "/scenes/principled.json",
-          RT_TEST_DATA_DIR "/scenes/lacquer.json", RT_TEST_DATA_DIR "/scenes/glass-instances.json"}) {
+    for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
+                           "next-week-final", "one-weekend-final", "many-lights", "veach-mis",
+                           RT_TEST_DATA_DIR "/scenes/principled.json", RT_TEST_DATA_DIR "/scenes/lacquer.json",
+                           RT_TEST_DATA_DIR "/scenes/glass-instances.json", RT_TEST_DATA_DIR "/scenes/sun.json"}) {
         const TracedScene scene(id);
         SCOPED_TRACE(id);
         compareEstimators(scene);

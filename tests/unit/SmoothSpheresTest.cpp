@@ -1,5 +1,7 @@
 // Which smooth spheres the scene compiler finds for connections to lights.
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "Common/Scene/Compiler/SmoothSpheres.h"
 #include "tests/ConnectedScene.h"
 #include "tests/unit/CompilerScenes.h"
+#include "tests/unit/Statistics.h"
 
 namespace rt::scene {
 namespace {
@@ -130,6 +133,71 @@ TEST(SmoothSpheres, OfManyInstancesAreFew) {
     const std::vector<shared::SmoothSphere> many = listed("many", 1000);
     ASSERT_EQ(many.size(), 2u); // it refracts and reflects
     for (const shared::SmoothSphere& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
+}
+
+// Of a hundred lights those are connected to from which most noise comes: irradiance of the sphere's centre times
+// radiance.
+TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
+    constexpr std::uint32_t kLights = 100;
+    SceneDesc scene = withMaterials();
+    add(scene, sphere({0, 0, 0}, 0.5, "glass"));
+    std::vector<std::pair<double, std::uint32_t>> noise;
+    std::vector<double> irradiance;
+    test::Uniforms uniform(5);
+    for (std::uint32_t i = 0; i < kLights; ++i) {
+        const std::string name = "lamp " + std::to_string(i);
+        const double radiance = uniform.logBetween(1, 100), distance = uniform.logBetween(3, 30), side = 0.2;
+        scene.materials[name] = emitter(glm::dvec3(radiance));
+        scene.materials[name].sides = Sides::Both;
+        add(scene, QuadDesc{{-side / 2, distance, -side / 2}, {side, 0, 0}, {0, 0, side}, name});
+        irradiance.push_back(radiance * side * side / (distance * distance));
+        noise.emplace_back(irradiance.back() * radiance, i);
+    }
+    std::ranges::sort(noise, std::greater());
+    std::vector<std::uint32_t> expected;
+    for (std::size_t i = 0; i < shared::kReachedLights; ++i) expected.push_back(noise[i].second);
+    std::ranges::sort(expected);
+    const auto compiled = test::connectedThroughAll(*compileScene(scene));
+    ASSERT_EQ(compiled->smoothSpheres.size(), 2u);
+    for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
+        ASSERT_EQ(smooth.reachCount, shared::kReachedLights);
+        for (std::uint32_t i = 0; i < shared::kReachedLights; ++i) {
+            const shared::SphereReach& reach = compiled->sphereReaches[smooth.firstReach + i];
+            EXPECT_EQ(reach.light, expected[i]);
+            EXPECT_EQ(reach.skyPatch, shared::kNone);
+            EXPECT_NEAR(double(reach.weight) / irradiance[reach.light], 1, 1e-5);
+        }
+    }
+}
+
+// Where the lights that a sphere can be connected to are too few to matter, it is not worth the time.
+TEST(SmoothSpheres, OfManyEqualLightsAreNone) {
+    const auto listed = [](int lights) {
+        SceneDesc scene = withMaterials();
+        add(scene, sphere({0, 0, 0}, 1, "glass"));
+        SphereSetDesc lamps{{}, 0.001, "lamp"};
+        for (int i = 0; i < lights; ++i) lamps.centers.push_back({0.01 * i, 20, 0});
+        add(scene, lamps);
+        return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
+    };
+    EXPECT_EQ(listed(2 * shared::kReachedLights - 1), 2u);
+    EXPECT_EQ(listed(2 * shared::kReachedLights + 1), 0u);
+}
+
+// Nor are many spheres looked at where there are many lights, however much goes on from one of them.
+TEST(SmoothSpheres, OfManyUnderManyLightsAreNone) {
+    const auto listed = [](std::size_t spheres) {
+        SceneDesc scene = withMaterials();
+        add(scene, sphere({0, 5, 0}, 1, "glass"));
+        add(scene, SphereSetDesc{std::vector<glm::dvec3>(spheres - 1, glm::dvec3(0)), 0.01, "glass"});
+        SphereSetDesc lamps{{}, 0.001, "lamp"};
+        for (int i = 0; i < 1 << 15; ++i) lamps.centers.push_back({0.1 * (i % 128), 20, 0.1 * (i / 128)});
+        add(scene, lamps);
+        add(scene, SphereSetDesc{{{0, 6.2, 0}}, 0.1, "lamp"}); // brighter than all of them on the first
+        return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
+    };
+    EXPECT_GT(listed(255), 0u);
+    EXPECT_EQ(listed(257), 0u);
 }
 
 } // namespace

@@ -82,8 +82,7 @@ inline constexpr Named<bool> kAdaptive[] = {
     {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
 inline constexpr Named<bool> kSpecularConnections[] = {
     {"off", false, "By chance", "scattering alone finds it"},
-    {"on", true, "Connected",
-     "connections to where it comes from, where chance is noisy; unbiased; not for sky images"}};
+    {"on", true, "Connected", "connections to where it comes from, where chance is noisy; unbiased"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with

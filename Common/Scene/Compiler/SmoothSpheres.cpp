@@ -14,10 +14,11 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastIor = 1.01;              // below it a sphere focuses nothing
-constexpr double kLeastShare = 0.1;             // of the light that goes on from spheres; less is not worth the time
-constexpr double kMirrorWorth = 0.25;           // see kWorthConnecting
-constexpr std::size_t kMostInstanced = 1 << 18; // eight of more spheres matter less than the time to choose them
+constexpr double kLeastIor = 1.01;    // below it a sphere focuses nothing
+constexpr double kLeastShare = 0.1;   // of the light that goes on from spheres; less is not worth the time
+constexpr double kMirrorWorth = 0.25; // see kWorthConnecting
+// Of spheres and lights, at least kReachedLights: eight of more spheres matter less than the time to choose them.
+constexpr std::size_t kMostPairs = 1 << 23;
 
 bool isMirror(const shared::Material& material) {
     return material.kind == shared::kMaterialMetal && material.parameter[shared::kMetalFuzz] <= shared::kMirrorFuzz;
@@ -94,25 +95,25 @@ class Brightest {
         consider(smoothSphere(scene_, index, at, true));
     }
 
-    // Calls add(sphere) for each, unless they are too small a part of all.
-    template <typename Add>
-    void forEach(const Add& add) const {
+    // Adds them to the scene, unless they are too small a part of all, and the patches of the sky.
+    void addTo(CompiledScene& out) const {
         double flux = 0;
         for (const Candidate& candidate : spheres_) flux += candidate.flux;
-        if (flux < kLeastShare * flux_) return;
-        for (const Candidate& candidate : spheres_) add(candidate.sphere);
+        if (spheres_.empty() || flux < kLeastShare * flux_) return;
+        for (const Candidate& candidate : spheres_) addSmoothSphere(candidate.sphere, *sky_, out);
+        for (const BrightPatch& patch : sky_->patches) out.skyPatches.push_back(patch.texels);
     }
 
   private:
     // A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
-    // sum(L_i E_i) / pi, its mean sum(E_i) / pi.
+    // sum(L_i E_i) / pi, its mean sum(E_i) / pi. Of the second moment only what is connected to counts.
     void consider(const shared::SmoothSphere& sphere) {
-        double mean = 0, second = 0;
-        for (std::size_t i = 0; i < scene_.globals.lightCount; ++i) {
-            const double irradiance = irradianceAt(sphere, scene_.lights[i], scene_.lightBounds[i]);
-            mean += irradiance;
-            second += irradiance * static_cast<double>(shared::luminance(scene_.lights[i].emission));
-        }
+        if (!sky_) sky_ = findBrightSky(scene_);
+        const LightsOnSphere lights = lightsOn(sphere, scene_, *sky_);
+        if (lights.connected.empty()) return;
+        const double mean = lights.irradiance;
+        double second = 0;
+        for (const LightOnSphere& light : lights.connected) second += light.noise();
         const double radius = static_cast<double>(sphere.radius);
         const double part = sphere.reflects != 0 ? meanReflectance(static_cast<double>(sphere.inverseEta)) : 1;
         const double flux = mean * radius * radius * part;
@@ -129,25 +130,24 @@ class Brightest {
 
     const CompiledScene& scene_;
     const double leastVariance_;
+    std::optional<BrightSky> sky_; // found when the first sphere asks for it
     std::vector<Candidate> spheres_;
     double flux_ = 0; // of all candidates
 };
 
-void considerWorld(const CompiledScene& scene, Brightest& brightest) {
-    const shared::Geometry& world = scene.geometries.front();
-    for (std::uint32_t i = world.firstSphere; i < world.firstSphere + world.sphereCount; ++i)
-        if (isSmooth(scene.materials[scene.spheres[i].material])) brightest.consider(i, {});
+// Those of a geometry that are smooth themselves.
+std::vector<std::uint32_t> smoothSpheresOf(const CompiledScene& scene, const shared::Geometry& geometry) {
+    std::vector<std::uint32_t> spheres;
+    for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
+        if (isSmooth(scene.materials[scene.spheres[i].material])) spheres.push_back(i);
+    return spheres;
 }
 
 // The smooth spheres of instances.
 class InstancedSpheres {
   public:
     explicit InstancedSpheres(const CompiledScene& scene) : scene_(scene), own_(scene.geometries.size()) {
-        for (std::size_t g = 1; g < scene.geometries.size(); ++g) {
-            const shared::Geometry& geometry = scene.geometries[g];
-            for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
-                if (isSmooth(scene.materials[scene.spheres[i].material])) own_[g].push_back(i);
-        }
+        for (std::size_t g = 1; g < scene.geometries.size(); ++g) own_[g] = smoothSpheresOf(scene, scene.geometries[g]);
         for (const shared::Instance& instance : scene.instances) count_ += countIn(instance);
     }
 
@@ -180,12 +180,18 @@ class InstancedSpheres {
 } // namespace
 
 void findSmoothSpheres(CompiledScene& out, double leastVariance) {
-    if (out.globals.lightCount == 0 || out.globals.lightCount > shared::kContributionLights) return;
+    out.smoothSpheres.clear();
+    out.sphereReaches.clear();
+    out.skyPatches.clear();
+    if (out.globals.lightCount == 0) return;
+    const std::size_t most = kMostPairs / std::max(out.globals.lightCount, shared::kReachedLights);
     Brightest brightest(out, leastVariance);
-    considerWorld(out, brightest);
+    const std::vector<std::uint32_t> world = smoothSpheresOf(out, out.geometries.front());
+    if (world.size() <= most)
+        for (const std::uint32_t sphere : world) brightest.consider(sphere, {});
     const InstancedSpheres instanced(out);
-    if (instanced.count() <= kMostInstanced) instanced.consider(brightest);
-    brightest.forEach([&](const shared::SmoothSphere& sphere) { addSmoothSphere(sphere, out); });
+    if (instanced.count() <= most) instanced.consider(brightest);
+    brightest.addTo(out);
 }
 
 } // namespace rt::scene

@@ -5,14 +5,15 @@ namespace rt::scene {
 
 // Least variance of a sample, relative to its mean, with which scattering finds the lights from a sphere's centre,
 // times the fraction of light that the sphere refracts or reflects, so that connections by way of it are worth their
-// time. Below, the noise that they leave out costs less than they do, on a GPU much less: of the four built-in scenes
-// with lights and spheres of glass two have 48 and 54, and gain by refraction; two have 11 and less, and do not.
+// time. Below, the noise that they leave out costs less than they do, on a GPU much less: of the five built-in scenes
+// with lights and spheres of glass three have 48, 54 and 96, and gain by refraction; two have 11 and less, and do not.
 // Reflection on glass has a tenth of that, and loses time there: as much light again is reflected inside. A mirror
 // takes the noise to everything around it, and no other comes from it: a quarter is enough.
 constexpr double kWorthConnecting = 25;
 
 // The smooth spheres by way of which lights are connected to, those that most light goes on from first, and how they
-// see the lights, which are complete. None where there are more lights than kContributionLights.
+// see the lights, which are complete: those with the most noise, and bright patches of the sky image. Replaces what
+// the scene has of them.
 void findSmoothSpheres(CompiledScene& out, double leastVariance = kWorthConnecting);
 
 } // namespace rt::scene

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "Common/Shared/Light/LightContribution.h"
 #include "Common/Shared/Material/Dielectric.h"
@@ -15,6 +18,7 @@ constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near
 // Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
 constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
 constexpr double kMostGain = 4;
+constexpr double kLeastReached = 0.5; // of the light that could be connected to; with less, noise stays
 
 shared::vec2 cosineAndSine(double angle) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
@@ -24,17 +28,43 @@ shared::vec3 middleOf(const shared::SmoothSphere& sphere) { // of its way while 
     return sphere.center + 0.5f * sphere.motion;
 }
 
+// What a light irradiates the sphere's centre by; of the sky only patches are connected to.
+double irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
+    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
+    return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
+}
+
+double irradianceOf(std::span<const LightOnSphere> lights) {
+    double sum = 0;
+    for (const LightOnSphere& light : lights) sum += light.irradiance;
+    return sum;
+}
+
+// As many as a sphere can be connected to; none if that is too small a part of their light.
+void keepNoisiest(std::vector<LightOnSphere>& lights) {
+    const double least = kLeastReached * irradianceOf(lights);
+    const auto end = lights.begin() + shared::kReachedLights;
+    std::ranges::partial_sort(lights, end, std::greater(), &LightOnSphere::noise);
+    lights.erase(end, lights.end());
+    if (irradianceOf(lights) < least) return lights.clear();
+    std::ranges::sort(lights, {}, [](const LightOnSphere& light) { return std::pair(light.light, light.skyPatch); });
+}
+
 // How the sphere sees a light at the middle of the shutter.
-shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::Light& light,
-                            const shared::LightBound& bound) {
+shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::LightBound& bound) {
     const shared::vec3 toLight = bound.center - middleOf(sphere);
     const double distance = glm::length(toLight);
     const double sine = distance > bound.radius ? bound.radius / distance : 1;
     shared::SphereReach reach{};
     reach.axis = distance > 0 ? toLight / static_cast<float>(distance) : shared::vec3(0, 0, 1);
-    if (sphere.reflects != 0) reach.axis = -reach.axis;
     reach.extent = cosineAndSine(std::asin(sine));
-    reach.weight = irradianceAt(sphere, light, bound);
+    return reach;
+}
+
+shared::SphereReach reachOf(const BrightPatch& patch) {
+    shared::SphereReach reach{};
+    reach.axis = patch.axis;
+    reach.extent = cosineAndSine(patch.angle);
     return reach;
 }
 
@@ -105,9 +135,20 @@ void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
 
 } // namespace
 
-float irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
-    const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
-    return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
+LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky) {
+    LightsOnSphere lights;
+    lights.irradiance = sky.irradiance;
+    for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
+        const double irradiance = irradianceAt(sphere, scene.lights[i], scene.lightBounds[i]);
+        if (!(irradiance > 0)) continue;
+        lights.irradiance += irradiance;
+        const double radiance = static_cast<double>(shared::luminance(scene.lights[i].emission));
+        lights.connected.push_back({i, shared::kNone, irradiance, radiance});
+    }
+    for (std::uint32_t i = 0; i < sky.patches.size(); ++i)
+        lights.connected.push_back({scene.globals.skyLight, i, sky.patches[i].irradiance, sky.patches[i].radiance});
+    if (lights.connected.size() > shared::kReachedLights) keepNoisiest(lights.connected);
+    return lights;
 }
 
 double meanReflectance(double inverseEta) {
@@ -120,24 +161,30 @@ double meanReflectance(double inverseEta) {
     return sum / kSteps;
 }
 
-void addSmoothSphere(shared::SmoothSphere sphere, CompiledScene& out) {
+void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out) {
     LightsSeen lights;
     double sum = 0;
-    for (std::size_t i = 0; i < out.globals.lightCount; ++i) {
-        const shared::SphereReach reach = reachOf(sphere, out.lights[i], out.lightBounds[i]);
+    sphere.firstReach = static_cast<std::uint32_t>(out.sphereReaches.size());
+    for (const LightOnSphere& light : lightsOn(sphere, out, sky).connected) {
+        const bool isSky = light.skyPatch != shared::kNone;
+        const shared::LightBound& bound = out.lightBounds[light.light];
+        shared::SphereReach reach = isSky ? reachOf(sky.patches[light.skyPatch]) : reachOf(sphere, bound);
+        if (sphere.reflects != 0) reach.axis = -reach.axis;
+        reach.weight = static_cast<float>(light.irradiance);
+        reach.light = light.light;
+        reach.skyPatch = light.skyPatch;
         out.sphereReaches.push_back(reach);
-        if (!(reach.weight > 0)) continue;
-        const shared::LightBound& bound = out.lightBounds[i];
+        lights.widest = std::max(lights.widest, std::acos(static_cast<double>(reach.extent.x)));
+        sum += light.irradiance;
+        lights.spread += light.irradiance * (1 - static_cast<double>(reach.extent.x));
+        if (isSky) continue; // at no distance that matters
         const double distance = glm::length(bound.center - middleOf(sphere));
         const double nearest = std::max(distance - static_cast<double>(bound.radius), 0.0);
         const double radius = static_cast<double>(sphere.radius);
         lights.nearest = std::max(lights.nearest, radius / std::max(nearest, radius));
-        lights.widest = std::max(lights.widest, std::acos(static_cast<double>(reach.extent.x)));
-        const double weight = static_cast<double>(reach.weight);
-        sum += weight;
-        lights.meanNear += weight * radius / std::max<double>(distance, radius);
-        lights.spread += weight * (1 - static_cast<double>(reach.extent.x));
+        lights.meanNear += light.irradiance * radius / std::max<double>(distance, radius);
     }
+    sphere.reachCount = static_cast<std::uint32_t>(out.sphereReaches.size()) - sphere.firstReach;
     lights.meanNear /= sum;
     lights.spread /= sum;
     boundReach(lights, sphere);

@@ -1,16 +1,36 @@
 // How the smooth spheres that lights are connected to see those lights, and how far what they focus or reflect reaches.
 #pragma once
+#include <cstdint>
+#include <vector>
+
 #include "Common/Scene/CompiledScene.h"
+#include "Common/Scene/Compiler/SkyPatches.h"
 
 namespace rt::scene {
 
-// What a light irradiates the sphere's centre by.
-float irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound);
+// A light, or a patch of the sky, that shines on a sphere.
+struct LightOnSphere {
+    std::uint32_t light;    // into the scene's lights
+    std::uint32_t skyPatch; // into BrightSky::patches; kNone: any other light
+    double irradiance;      // luminance, of the sphere's centre
+    double radiance;        // luminance, mean by irradiance
+    // Its part of the second moment with which scattering finds all lights.
+    double noise() const { return irradiance * radiance; }
+};
+
+struct LightsOnSphere {
+    // Those with the most noise, kReachedLights at most, by light; none where that is less than half of the light of
+    // all that could be.
+    std::vector<LightOnSphere> connected;
+    double irradiance = 0; // of all, and of the whole sky
+};
+
+LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky);
 
 // Fraction of parallel light, falling on a sphere, that its outside reflects.
 double meanReflectance(double inverseEta);
 
-// Adds the sphere to those of the scene, with its reaches. Some light falls on it.
-void addSmoothSphere(shared::SmoothSphere sphere, CompiledScene& out);
+// Adds the sphere to those of the scene, with its reaches. Some light that is connected to falls on it.
+void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out);
 
 } // namespace rt::scene

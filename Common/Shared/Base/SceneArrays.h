@@ -37,7 +37,8 @@
     PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* likewise, for each index of refraction */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     PLAIN(SmoothSphere, smoothSpheres, loadSmoothSphere, "connections") /* kConnectedSpheres at most */ \
-    PLAIN(SphereReach, sphereReaches, loadSphereReach, "connections") /* of each of them, for each light */ \
+    PLAIN(SphereReach, sphereReaches, loadSphereReach, "connections") /* of each of them, see SmoothSphere */ \
+    PLAIN(SkyPatch, skyPatches, loadSkyPatch, "connections") /* apart from each other */ \
     OWN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \
     /* node * kLightNodeChildren + child, or kNone: of each of those lights, then of each node, in its parent */ \

@@ -219,15 +219,27 @@ struct SmoothSphere {
     uint instance;           // into instances; kNone: it is one of the world's own
     float error;             // what the instance's map adds to the rounding of points on the surface
     float nearest;           // least radius over distance at which light through it is thought to matter; 1: nowhere
+    uint firstReach;         // into sphereReaches: the lights that are connected to by way of it
+    uint reachCount;         // kReachedLights at most
     vec2 reach[kReachSteps]; // by that ratio: cosine of how far, seen from the centre, a point may be from opposite
                              // a light, and irradiance there over that at the centre
 };
 
-// A light as one of these spheres sees it. kConnectedSpheres rows of them, an element for each light.
+const uint kReachedLights = 32u; // by way of one sphere, at most
+
+// A light, or a patch of the sky image, as one of these spheres sees it.
 struct SphereReach {
-    vec3 axis;    // unit, from the sphere to the light; from the light to a sphere that reflects
-    vec2 extent;  // cosine and sine of the angle that bounds the light
-    float weight; // irradiance at the sphere; 0: none arrives
+    vec3 axis;     // unit, from the sphere to the light; from the light to a sphere that reflects
+    vec2 extent;   // cosine and sine of the angle that bounds the light
+    float weight;  // irradiance at the sphere, > 0
+    uint light;    // into lights
+    uint skyPatch; // of the sky: into skyPatches; kNone: any other light
+};
+
+// A bright part of the sky image that connections lead to: these texels.
+struct SkyPatch {
+    uvec2 begin; // column and row of the first
+    uvec2 end;   // behind the last
 };
 
 // ---- light tree ----------------------------------------------------------------------------------------------------

@@ -57,9 +57,14 @@ RT_FN uint skyCell(SceneRef scene, uint first, uint n, float u) {
     return low;
 }
 
+// Element of skyCdf where the distribution over columns of this row begins.
+RT_FN uint skyColumns(RT_IN(Image) image, uint row) {
+    return image.height + 1u + row * (image.width + 1u);
+}
+
 // Density over solid angle of sampleSky inside a texel, which covers 2 pi / width * (difference of cosines).
 RT_FN float skyTexelPdf(SceneRef scene, RT_IN(Image) image, uvec2 texel) {
-    uint columns = image.height + 1u + texel.y * (image.width + 1u) + texel.x;
+    uint columns = skyColumns(image, texel.y) + texel.x;
     float mass = (loadSkyCdf(scene, texel.y + 1u) - loadSkyCdf(scene, texel.y)) *
                  (loadSkyCdf(scene, columns + 1u) - loadSkyCdf(scene, columns));
     float top = sinCos2Pi(0.5f * float(texel.y) / float(image.height)).y;
@@ -73,13 +78,13 @@ RT_FN float skyPdf(SceneRef scene, vec3 direction) {
     return skyTexelPdf(scene, image, skyTexel(image, skyUv(toSkyImage(globals, direction))));
 }
 
-// A direction with density proportional to the image, uniform in solid angle inside a texel.
-RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
+// A direction inside the texel that u falls into, uniform in solid angle, with the density of sampleSky.
+RT_FN LightSample sampleSkyTexel(SceneRef scene, uvec2 texel, vec2 u) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     RT_IN(Image) image = loadImage(scene, globals.skyImage);
-    uint row = skyCell(scene, 0u, image.height, u.y);
-    uint columns = image.height + 1u + row * (image.width + 1u);
-    uint column = skyCell(scene, columns, image.width, u.x);
+    uint row = texel.y;
+    uint column = texel.x;
+    uint columns = skyColumns(image, row);
     float inRow = stretch(u.y, loadSkyCdf(scene, row), loadSkyCdf(scene, row + 1u));
     float inColumn = stretch(u.x, loadSkyCdf(scene, columns + column), loadSkyCdf(scene, columns + column + 1u));
     float top = sinCos2Pi(0.5f * float(row) / float(image.height)).y;
@@ -98,6 +103,14 @@ RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
     s.normal = -s.wi;
     s.uv = vec2(0.0f, 0.0f);
     return s;
+}
+
+// A direction with density proportional to the image, uniform in solid angle inside a texel.
+RT_FN LightSample sampleSky(SceneRef scene, vec2 u) {
+    RT_IN(Image) image = loadImage(scene, loadGlobals(scene).skyImage);
+    uint row = skyCell(scene, 0u, image.height, u.y);
+    uint columns = skyColumns(image, row);
+    return sampleSkyTexel(scene, uvec2(skyCell(scene, columns, image.width, u.x), row), u);
 }
 
 RT_SHARED_END

@@ -7,6 +7,7 @@
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
+#include "Common/Shared/Light/SkyPatches.h"
 #include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
 #include "Common/Shared/Path/ConnectionChoice.h"
@@ -50,9 +51,36 @@ RT_FN float endDensity(RT_IN(Light) light, vec3 center, vec3 wi, float distance,
     return isSeen ? pdf * abs(cosine) / square(distance) : 0.0f;
 }
 
+// Connections end in the sky at a distance from the sphere's centre from which all of the sphere is one point to the
+// rounding of a direction, and beyond everything else in the scene. `radius` is the sphere's.
+RT_FN float skyDistance(SceneRef scene, float radius) {
+    return max(radius / kEpsilon, 8.0f * loadGlobals(scene).sceneRadius);
+}
+
+// As endDensity(), of a point of the sky.
+RT_FN float skyEndDensity(float distance, float pdf) {
+    return pdf / square(distance);
+}
+
 // `rate` as in SphereChain.
+RT_FN LightEnd sampleSkyEnd(SceneRef scene, RT_IN(ConnectionChoice) choice, vec3 center, float rate, vec2 u) {
+    LightSample s = sampleSkyPatch(scene, loadSkyPatch(scene, choice.skyPatch), u);
+    float distance = skyDistance(scene, loadSmoothSphere(scene, choice.sphere).radius);
+    LightEnd end;
+    end.point = center + s.wi * distance;
+    end.error = vec3(0.0f);
+    end.normal = s.normal;
+    end.radiance = s.radiance;
+    end.density = rate * choice.weight * skyEndDensity(distance, s.pdf);
+    end.twoSided = 0.0f;
+    return end;
+}
+
 RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
                          vec3 center, float time, float rate, vec2 u) {
+    if (has(features, kFeatureSkyImage) && choice.skyPatch != kNone) {
+        return sampleSkyEnd(scene, choice, center, rate, u);
+    }
     RT_IN(Light) light = loadLight(scene, choice.light);
     LightSample s = sampleLight(features, params, light, center, vec3(0.0f), time, u);
     applyEmissionTexture(features, scene, light, s);

@@ -57,31 +57,78 @@ RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sphere
     return kNone;
 }
 
-// Weight of emission at y that the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
+// The element of sphereReaches for a light by way of the sphere, for the sky that of the patch which holds this texel;
+// kNone: it is not connected to.
+RT_FN uint reachOf(uint features, SceneRef scene, RT_IN(SmoothSphere) sphere, uint light, uvec2 texel) {
+    for (uint i = sphere.firstReach; i < sphere.firstReach + sphere.reachCount; i++) {
+        RT_IN(SphereReach) reach = loadSphereReach(scene, i);
+        if (reach.light != light) continue;
+        if (!has(features, kFeatureSkyImage) || reach.skyPatch == kNone) return i;
+        if (isInPatch(loadSkyPatch(scene, reach.skyPatch), texel)) return i;
+    }
+    return kNone;
+}
+
+// What the path of s hit beyond a sphere: emission of the light `index`, at this point and with this normal; or the
+// sky, of which the direction is known.
+struct LightMet {
+    uint index;
+    vec3 point;
+    vec3 normal;
+};
+
+// Density over area with which a connection to `met`, where the chain scattered, would end there; 0: none would.
+// Completes the point and the normal of the sky as sampleEnd() has them.
+RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
+                              RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, RT_INOUT(LightMet) met) {
+    RT_IN(SceneGlobals) globals = loadGlobals(scene);
+    bool isSky = has(features, kFeatureSkyImage) && met.index == globals.skyLight;
+    uvec2 texel = uvec2(0u, 0u);
+    if (isSky) {
+        texel = skyTexel(loadImage(scene, globals.skyImage), skyUv(toSkyImage(globals, s.ray.direction)));
+        met.point = view.center + s.ray.direction * skyDistance(scene, sphere.radius);
+        met.normal = -s.ray.direction;
+    }
+    uint i = reachOf(features, scene, sphere, met.index, texel);
+    if (i == kNone) return 0.0f;
+    RT_IN(SphereReach) reach = loadSphereReach(scene, i);
+    float weight = reachWeight(reach, view);
+    if (!(weight > 0.0f)) return 0.0f;
+    float density = s.chain.rate * weight;
+    vec3 toPoint = met.point - view.center;
+    float distance = length(toPoint);
+    if (isSky) {
+        RT_IN(SkyPatch) skyPatch = loadSkyPatch(scene, reach.skyPatch);
+        float pdf = skyPatchPdf(scene, loadImage(scene, globals.skyImage), skyPatch, texel);
+        return density * skyEndDensity(distance, pdf);
+    }
+    RT_IN(Light) light = loadLight(scene, met.index);
+    vec3 wi = toPoint / distance;
+    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, met.normal);
+    return density * endDensity(light, view.center, wi, distance, met.normal, pdf);
+}
+
+// Weight of what the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
 RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
                             vec3 y, vec3 normal) {
     uint k = passedSphere(scene, params, s.chain);
     if (k == kNone) return 1.0f;
     RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
     SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
-    uint count = loadGlobals(scene).lightCount;
-    float weight = reachWeight(loadSphereReach(scene, k * count + index), view);
-    ConnectionPair c = connectionPair(sphere, view, y);
-    if (!(weight > 0.0f) || !isConnectable(c)) return 1.0f;
-    RT_IN(Light) light = loadLight(scene, index);
-    vec3 toY = y - view.center;
-    float distance = length(toY);
-    vec3 wi = toY / distance;
-    float pdf = lightPdf(features, params, light, view.center, vec3(0.0f), s.ray.time, wi, distance, normal);
-    float density = s.chain.rate * weight * endDensity(light, view.center, wi, distance, normal, pdf);
-    if (!(density > 0.0f)) return 1.0f;
+    LightMet met;
+    met.index = index;
+    met.point = y;
+    met.normal = normal;
+    float density = connectingDensity(features, scene, params, s, sphere, view, met);
+    ConnectionPair c = connectionPair(sphere, view, met.point);
+    if (!(density > 0.0f) || !isConnectable(c)) return 1.0f;
     vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
     float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
     Refraction r = refractionAt(c.angles, angleOfSine(sine));
     bool isOpposite = c.reflects != 0u || dot(moment, c.axis) > 0.0f;
     uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
     if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
-    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(normal, s.ray.direction)));
+    float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(met.normal, s.ray.direction)));
     float scattering = s.chain.pdf * lightFraction(c, r);
     return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }

@@ -52,18 +52,20 @@ RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
 }
 
 // Sum of the weights of all lights by way of one sphere.
-RT_FN float sphereWeight(SceneRef scene, uint sphere, RT_IN(SphereView) view) {
-    uint count = loadGlobals(scene).lightCount;
+RT_FN float sphereWeight(SceneRef scene, RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view) {
     float sum = 0.0f;
-    for (uint i = 0u; i < count; i++) sum += reachWeight(loadSphereReach(scene, sphere * count + i), view);
+    for (uint i = 0u; i < sphere.reachCount; i++) {
+        sum += reachWeight(loadSphereReach(scene, sphere.firstReach + i), view);
+    }
     return sum;
 }
 
 RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
     float sum = 0.0f;
     for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
-        if (view.isNear) sum += sphereWeight(scene, k, view);
+        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        SphereView view = viewSphere(sphere, x, time);
+        if (view.isNear) sum += sphereWeight(scene, sphere, view);
     }
     return sum;
 }
@@ -85,27 +87,31 @@ RT_FN float connectionChance(float total, float direct, vec3 throughput) {
 struct ConnectionChoice {
     uint sphere;
     uint light;
-    float weight; // 0: none
-    float u;      // what is left of the number that chose, for further use
+    uint skyPatch; // SphereReach::skyPatch
+    float weight;  // 0: none
+    float u;       // what is left of the number that chose, for further use
 };
 
 // The light at this place along the weights, less than their sum.
 RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time, float target) {
-    uint count = loadGlobals(scene).lightCount;
     ConnectionChoice choice;
     choice.sphere = 0u;
     choice.light = 0u;
+    choice.skyPatch = kNone;
     choice.weight = 0.0f;
     choice.u = 0.0f;
     float left = target;
     for (uint k = 0u; k < params.connectedSpheres; k++) {
-        SphereView view = viewSphere(loadSmoothSphere(scene, k), x, time);
+        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        SphereView view = viewSphere(sphere, x, time);
         if (!view.isNear) continue;
-        for (uint i = 0u; i < count; i++) {
-            float weight = reachWeight(loadSphereReach(scene, k * count + i), view);
+        for (uint i = 0u; i < sphere.reachCount; i++) {
+            RT_IN(SphereReach) reach = loadSphereReach(scene, sphere.firstReach + i);
+            float weight = reachWeight(reach, view);
             if (!(weight > 0.0f)) continue;
             choice.sphere = k;
-            choice.light = i;
+            choice.light = reach.light;
+            choice.skyPatch = reach.skyPatch;
             choice.weight = weight;
             choice.u = clamp(left / weight, 0.0f, 0.999999940395355f);
             left -= weight;

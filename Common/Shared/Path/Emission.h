@@ -20,9 +20,10 @@ RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDen
                                                      : powerHeuristic(pdf, lightDensity);
 }
 
-RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
+// `chainWeight`: against what else may have found it.
+RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, float chainWeight, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureSky)) return;
-    float weight = 1.0f;
+    float weight = chainWeight;
     if (has(features, kFeatureSkyImage)) {
         RT_IN(SceneGlobals) globals = loadGlobals(scene);
         if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {

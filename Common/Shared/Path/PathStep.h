@@ -98,6 +98,17 @@ RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params
     return 1.0f;
 }
 
+// With kFeatureConnections: the weight of the sky that the path has left for.
+RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
+#ifdef RT_FULL
+    if (has(features, kFeatureConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
+        uint sky = loadGlobals(scene).skyLight;
+        if (sky != kNone) return passageWeight(features, scene, params, s, sky, vec3(0.0f), vec3(0.0f));
+    }
+#endif
+    return 1.0f;
+}
+
 // Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. False: the path has
 // ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
@@ -111,7 +122,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         placeInMedium(features, scene, s, t, medium, v);
     } else {
         if (hit.t < 0.0f) {
-            addSky(features, scene, params, s);
+            addSky(features, scene, params, weighSkyChain(features, scene, params, s), s);
             return false;
         }
         Surface surface = makeSurface(features, scene, s.ray, hit);
