@@ -8,7 +8,7 @@
 namespace rt::test {
 
 // All of it; nothing where it cannot be read.
-inline std::string bytesOf(const std::filesystem::path& file) {
+inline std::string bytesOfFile(const std::filesystem::path& file) {
     std::ostringstream bytes;
     bytes << std::ifstream(file, std::ios::binary).rdbuf();
     return bytes.str();

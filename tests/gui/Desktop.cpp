@@ -51,7 +51,7 @@ int spawn(const std::vector<std::string>& arguments,
 // Of a process or a thread, from its folder of /proc.
 std::pair<char, int> stateAndParent(const fs::path& folder) {
     // "pid (name) state parent ...": the name may hold anything.
-    const std::string stat = bytesOf(folder / "stat");
+    const std::string stat = bytesOfFile(folder / "stat");
     const std::size_t end = stat.rfind(')');
     std::pair<char, int> found{};
     if (end != std::string::npos) std::istringstream(stat.substr(end + 1)) >> found.first >> found.second;
@@ -80,14 +80,14 @@ void Desktop::SetUp() {
     screen_ = spawn({"Xvfb", "-displayfd", "1", "-screen", "0", screen, "-nolisten", "tcp", "-noreset"}, {},
                     folder_ / "screen.log");
     ASSERT_TRUE(eventually([this] {
-        std::istringstream lines(bytesOf(folder_ / "screen.log"));
+        std::istringstream lines(bytesOfFile(folder_ / "screen.log"));
         int number = -1;
         for (std::string line; std::getline(lines, line);)
             if (!line.empty() && line.find_first_not_of("0123456789") == std::string::npos) number = std::stoi(line);
         display_ = ":" + std::to_string(number);
         return number >= 0;
     })) << "Xvfb does not start; Debian, Ubuntu: apt install xvfb xdotool\n"
-        << bytesOf(folder_ / "screen.log");
+        << bytesOfFile(folder_ / "screen.log");
 }
 
 void Desktop::TearDown() {
@@ -160,7 +160,7 @@ int Desktop::waitForEnd() {
 }
 
 std::string Desktop::log() const {
-    return bytesOf(folder_ / "program.log");
+    return bytesOfFile(folder_ / "program.log");
 }
 
 void Desktop::act(const std::string& commands) {

@@ -72,7 +72,7 @@ void ProgramTest::TearDown() {
 }
 
 std::string ProgramTest::bytesOf(const std::string& name) const {
-    return bytesOf(folder_ / name);
+    return bytesOfFile(folder_ / name);
 }
 
 void ProgramTest::writeFile(const std::string& name, const std::string& content) const {
@@ -97,8 +97,8 @@ Outcome ProgramTest::run(const std::string& program, const Arguments& arguments,
     command += " > " + quoted(out) + " 2> " + quoted(err);
     Outcome outcome;
     outcome.exitCode = exitCodeOf(std::system(command.c_str()));
-    outcome.out = bytesOf(out);
-    outcome.err = bytesOf(err);
+    outcome.out = bytesOfFile(out);
+    outcome.err = bytesOfFile(err);
     fs::remove(out);
     fs::remove(err);
     return outcome;

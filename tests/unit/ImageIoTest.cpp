@@ -163,7 +163,7 @@ std::string chunkOf(const std::string& png, const std::string& type) {
 TEST(ImageIo, PngSaysThatItIsSrgb) {
     const test::TempFolder folder;
     writeImage(folder / "a.png", Image(2, 1), "text");
-    const std::string png = test::bytesOf(folder / "a.png");
+    const std::string png = test::bytesOfFile(folder / "a.png");
     EXPECT_EQ(chunkOf(png, "sRGB"), std::string(1, '\0')) << "perceptual intent";
     // What stands for it where sRGB is unknown, times 100 000: 1 / 2.2, and white, red, green and blue of Rec. 709.
     const auto numbers = [](const std::vector<std::uint32_t>& values) {
@@ -197,7 +197,7 @@ TEST(ImageIo, HdrMantissasAreRadiances) {
     for (float& value : image.data)
         value = std::ldexp(1 + static_cast<float>(random() >> 8) * 0x1p-24f, static_cast<int>(random() % 3));
     writeImage(folder / "a.hdr", image);
-    const std::string ours = test::bytesOf(folder / "a.hdr");
+    const std::string ours = test::bytesOfFile(folder / "a.hdr");
     const std::string header = ours.substr(0, ours.size() - 4 * kPixels);
 
     std::string theirs = header;

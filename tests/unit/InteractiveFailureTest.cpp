@@ -115,7 +115,7 @@ TEST_F(InteractiveFailureTest, AFilmThatFailedKeepsItsSamples) {
     FilmRun(engine, session.state().scene->camera, settings).untilStopped(goOn);
     EXPECT_EQ(image::readImage(saved).data, engine.film().resolve().data);
     EXPECT_EQ(image::readImage(atEnd).data, engine.film().resolve().data);
-    const std::string text = test::bytesOf(folder_ / "stats.json");
+    const std::string text = test::bytesOfFile(folder_ / "stats.json");
     EXPECT_NE(text.find("\"stopped_by\": \"failure\""), std::string::npos) << text;
 }
 

@@ -54,7 +54,7 @@ class SessionFixture : public testing::Test {
         }
         return "no such error";
     }
-    nlohmann::json statistics() const { return nlohmann::json::parse(test::bytesOf(path("stats.json"))); }
+    nlohmann::json statistics() const { return nlohmann::json::parse(test::bytesOfFile(path("stats.json"))); }
 
     test::TempFolder folder_;
     FakeEngine* engine_ = nullptr; // whether one was made; gone once run() returns

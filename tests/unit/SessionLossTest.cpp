@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using test::bytesOf;
+using test::bytesOfFile;
 
 class SessionLossTest : public SessionFixture {};
 
@@ -32,7 +32,7 @@ TEST_F(SessionLossTest, InterruptionKeepsWhatThereIs) {
     EXPECT_EQ(statistics()["stopped_by"], "interrupted");
     EXPECT_EQ(statistics()["spp_done"], 5);
     run({"--spp", "5", "-o", path("b.pfm")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
     const auto terminateAt3 = [](std::uint32_t spp) {
         if (spp == 3) std::raise(SIGTERM);
     };
@@ -96,7 +96,7 @@ TEST_F(SessionLossTest, FilesThatWouldOverwriteOthersAreFoundBeforeRendering) {
         EXPECT_NE(message.find("would overwrite"), std::string::npos) << arguments.back() << ": " << message;
         EXPECT_EQ(engine_, nullptr);
     }
-    EXPECT_EQ(bytesOf(path("scene.json")), "{}");
+    EXPECT_EQ(bytesOfFile(path("scene.json")), "{}");
     EXPECT_EQ(run({"--spp", "2", "--resume", path("old.rtc"), "--checkpoint", path("old.rtc")}), ExitCode::Done);
 #ifdef __linux__
     EXPECT_EQ(run({"--spp", "2", "--checkpoint", "/dev/null", "--stats", "/dev/null"}), ExitCode::Done);
@@ -115,7 +115,7 @@ TEST_F(SessionLossTest, AFailedOutputLosesNeitherTheOthersNorTheSamples) {
     EXPECT_NE(message.find(rescued), std::string::npos) << message;
     EXPECT_EQ(statistics()["outputs"], Json::array({path("kept/b.pfm")}));
     run({"--spp", "9", "-o", path("a.pfm"), "--resume", rescued, "--stats", path("stats.json")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("kept/b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("kept/b.pfm")));
 }
 
 // Neither what lies beside the output, nor an earlier rescue, nor what a link in the place of one leads to.
@@ -130,14 +130,14 @@ TEST_F(SessionLossTest, RescuedSamplesOverwriteNothing) {
         const std::string message = error<RenderError>({"--spp", "2", "-o", path("gone/a.pfm")}, removeFolder);
         EXPECT_NE(message.find(path("state/ray-tracing/") + name), std::string::npos) << message;
     }
-    EXPECT_EQ(bytesOf(path("secret")), "private");
+    EXPECT_EQ(bytesOfFile(path("secret")), "private");
 
     fs::create_directories(folder_ / "blocked");
     std::ofstream(path("blocked/a.pfm.rtc")) << "of an earlier render";
     const auto blockOutput = [&](std::uint32_t) { fs::create_directories(path("blocked/a.pfm")); };
     const std::string message = error<RenderError>({"--spp", "2", "-o", path("blocked/a.pfm")}, blockOutput);
     EXPECT_NE(message.find(path("blocked/a.pfm.2.rtc")), std::string::npos) << message;
-    EXPECT_EQ(bytesOf(path("blocked/a.pfm.rtc")), "of an earlier render");
+    EXPECT_EQ(bytesOfFile(path("blocked/a.pfm.rtc")), "of an earlier render");
 }
 
 // A checkpoint that was asked for has the samples already.
@@ -158,7 +158,7 @@ TEST_F(SessionLossTest, ARenderWithoutMemoryIsWritten) {
     };
     EXPECT_THROW(run({"--spp", "9", "-o", path("a.pfm"), "--checkpoint", path("c.rtc")}, fail), std::bad_alloc);
     run({"--spp", "3", "-o", path("b.pfm")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
     EXPECT_TRUE(fs::exists(path("c.rtc")));
 }
 
@@ -172,7 +172,7 @@ TEST_F(SessionLossTest, AFailedEngineLosesNothing) {
     EXPECT_EQ(statistics()["stopped_by"], "failure");
     EXPECT_EQ(statistics()["spp_done"], 5);
     run({"--spp", "5", "-o", path("b.pfm")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
 }
 
 TEST_F(SessionLossTest, WhatTheEngineCannotTellLosesNothingElse) {
@@ -186,7 +186,7 @@ TEST_F(SessionLossTest, WhatTheEngineCannotTellLosesNothingElse) {
     const std::string message = error<RenderError>(
         {"--spp", "4", "-o", path("b.pfm"), "--aov", "albedo", "--stats", path("stats.json")}, failAovs);
     EXPECT_EQ(message.rfind("no features", 0), 0u) << message;
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
     EXPECT_EQ(statistics()["outputs"], Json::array({path("b.pfm")}));
 }
 

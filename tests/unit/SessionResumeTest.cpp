@@ -14,7 +14,7 @@ namespace rt::app {
 namespace {
 
 namespace fs = std::filesystem;
-using test::bytesOf;
+using test::bytesOfFile;
 
 class SessionResumeTest : public SessionFixture {};
 
@@ -31,9 +31,9 @@ TEST_F(SessionResumeTest, ResumesToTheSameBits) {
                 if (spp == 41) std::raise(SIGINT);
             };
             run(with({"--checkpoint", path("c.rtc"), "-o", path("part.pfm")}), interruptAt41);
-            EXPECT_NE(bytesOf(path("part.pfm")), bytesOf(path("whole.pfm")));
+            EXPECT_NE(bytesOfFile(path("part.pfm")), bytesOfFile(path("whole.pfm")));
             run(with({"--resume", path("c.rtc"), "-o", path("part.pfm"), "--stats", path("stats.json")}));
-            EXPECT_EQ(bytesOf(path("part.pfm")), bytesOf(path("whole.pfm")));
+            EXPECT_EQ(bytesOfFile(path("part.pfm")), bytesOfFile(path("whole.pfm")));
             EXPECT_EQ(statistics()["spp_done"], 75);
         }
 }
@@ -42,7 +42,7 @@ TEST_F(SessionResumeTest, ResumesToMoreSamples) {
     run({"--spp", "20", "--checkpoint", path("c.rtc")});
     run({"--spp", "50", "--resume", path("c.rtc"), "-o", path("a.pfm")});
     run({"--spp", "50", "-o", path("b.pfm")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
     EXPECT_EQ(error<InputError>({"--spp", "19", "--resume", path("c.rtc")}),
               path("c.rtc") + ": spp is at 20 in the checkpoint already but 19 now");
 }
@@ -91,12 +91,12 @@ TEST_F(SessionResumeTest, CheckpointsThatDoNotTellMadeNoConnections) {
                   R"(but "on" now)");
     runWithout({"--spp", "8", "--resume", path("c.rtc"), "-o", path("a.pfm")});
     runWithout({"--spp", "8", "-o", path("b.pfm")});
-    EXPECT_EQ(bytesOf(path("a.pfm")), bytesOf(path("b.pfm")));
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));
 }
 
 TEST_F(SessionResumeTest, DamagedCheckpointsAreRefused) {
     run({"--spp", "4", "--checkpoint", path("c.rtc")});
-    const std::string whole = bytesOf(path("c.rtc"));
+    const std::string whole = bytesOfFile(path("c.rtc"));
     const auto resumed = [&](const std::string& bytes) {
         std::ofstream(path("bad.rtc"), std::ios::binary) << bytes;
         return error<InputError>({"--spp", "8", "--resume", path("bad.rtc")});

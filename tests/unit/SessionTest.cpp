@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using test::bytesOf;
+using test::bytesOfFile;
 
 class SessionTest : public SessionFixture {};
 
@@ -41,13 +41,13 @@ TEST_F(SessionTest, WritesEachFormat) {
 
 TEST_F(SessionTest, ExposureAndToneCurveAreForPngOnly) {
     run({"--spp", "2", "-o", path("a.png"), "-o", path("a.pfm")});
-    const std::string linear = bytesOf(path("a.pfm"));
+    const std::string linear = bytesOfFile(path("a.pfm"));
     const float before = image::readImage(path("a.png")).data[0];
     run({"--spp", "2", "-o", path("a.png"), "-o", path("a.pfm"), "--exposure", "-1"});
-    EXPECT_EQ(bytesOf(path("a.pfm")), linear);
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), linear);
     EXPECT_NEAR(image::readImage(path("a.png")).data[0], before / 2, 0.01f);
     run({"--spp", "2", "-o", path("a.png"), "-o", path("a.pfm"), "--tonemap", "reinhard"});
-    EXPECT_EQ(bytesOf(path("a.pfm")), linear);
+    EXPECT_EQ(bytesOfFile(path("a.pfm")), linear);
     EXPECT_LT(image::readImage(path("a.png")).data[0], before);
 }
 
