@@ -35,7 +35,7 @@ struct TileTask {
     std::uint32_t count = 0;
     const std::uint32_t* plan = nullptr; // of each pixel, as sum: index at which its samples end before the others'
     float* sum = nullptr;                // RGB a pixel: continued, not cleared
-    float* squares = nullptr;            // likewise, of the samples' squares, if they are wanted
+    float* squares = nullptr;            // RGB of the samples' squares a pixel, continued; null: not wanted
 
     std::uint32_t samplesOf(std::uint32_t column, std::uint32_t row) const {
         if (plan == nullptr) return count;

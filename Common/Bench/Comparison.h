@@ -13,7 +13,7 @@ struct Change {
     const Row* before = nullptr;
     const Row* after = nullptr;
     Figure seconds, mse, efficiency;     // after / before
-    Figure gain;                         // likewise: of efficiencies over that of the baseline in the same run
+    Figure gain;                         // after / before, of efficiencies over the baseline's in the same run
     bool slower = false, faster = false; // beyond noise
     bool noisier = false, lessNoisy = false;
     bool regressed() const { return slower || noisier; }

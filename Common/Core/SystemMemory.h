@@ -11,7 +11,7 @@ inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 // A wish for memory that nobody has touched yet, of which whole large pages are meant; may do nothing.
 void preferLargePages(void* memory, std::size_t bytes) noexcept;
 
-// Room for `count` elements in a vector or string, likewise.
+// Room for `count` elements in a vector or string, in large pages if they are many.
 template <class Container>
 void reserveLarge(Container& container, std::size_t count) {
     container.reserve(count);

@@ -160,8 +160,8 @@ class Film {
     std::vector<std::uint32_t> places_;  // of a part, per tile of the image: its position among those held, or kNowhere
     std::vector<std::uint32_t> samples_; // per slot; modulo kBlock it is the size of the slot's open block
     std::vector<double> sums_;           // kTileValues per slot: all closed blocks
-    std::vector<double> squares_;        // likewise, see TileState
-    std::vector<float> open_;            // likewise, the open block; empty until reserved
+    std::vector<double> squares_;        // kTileValues per slot, see TileState
+    std::vector<float> open_;            // kTileValues per slot: the open block; empty until reserved
     std::vector<std::uint32_t> plan_;    // kTilePixels per slot; empty without a plan
     std::vector<std::uint32_t> ends_;    // per slot: the largest of these
 };

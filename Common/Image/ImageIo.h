@@ -25,7 +25,7 @@ struct Texels {
     std::vector<std::uint16_t> srgb16;  // the same of a PNG with 16 bits a channel
     std::vector<float> linear;          // RGB
     std::vector<std::uint8_t> alpha8;   // beside srgb8: one value a texel; empty: all are opaque
-    std::vector<std::uint16_t> alpha16; // beside srgb16, likewise
+    std::vector<std::uint16_t> alpha16; // beside srgb16: one value a texel; empty: all are opaque
 };
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three

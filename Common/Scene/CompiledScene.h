@@ -26,7 +26,7 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
     shared::SceneGlobals globals{};
 
     CameraDesc camera;                         // authored, in world units as authored (not relative to globals.origin)
-    std::map<std::string, CameraDesc> cameras; // likewise; others that it can be seen with, by name
+    std::map<std::string, CameraDesc> cameras; // others that it can be seen with, by name, in those units
     glm::dvec3 origin{0.0};                    // globals.origin before rounding
     RenderDefaults defaults;
     std::vector<std::string> materialNames; // of each material, as the scene or its model has it

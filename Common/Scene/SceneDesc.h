@@ -211,8 +211,8 @@ struct MeshData {
     std::vector<glm::dvec3> normals;   // one per position, or none: flat
     std::vector<glm::dvec2> uvs;       // one per position, or none
     std::vector<glm::dvec2> uvs2;      // a second set, one per position, or none
-    std::vector<glm::dvec4> colors;    // linear rgb and opacity, which multiply a principled material's; likewise
-    std::vector<glm::dvec4> tangents;  // direction of u, and the sign of the bitangent cross(normal, tangent); likewise
+    std::vector<glm::dvec4> colors;    // one per position, or none: linear rgb, opacity; times a principled material's
+    std::vector<glm::dvec4> tangents;  // one per position, or none: direction of u, sign of the bitangent normal x u
     std::vector<glm::uvec3> triangles; // indices into positions, counter-clockwise seen from the front
     bool operator==(const MeshData&) const = default;
 };

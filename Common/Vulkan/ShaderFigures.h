@@ -9,7 +9,7 @@ namespace rt::vulkan {
 
 struct ShaderFigure {
     std::string shader; // as the driver calls it
-    std::string name;   // of the figure, likewise
+    std::string name;   // of the figure, as the driver calls it
     double value = 0;
 };
 

@@ -89,7 +89,7 @@ class VulkanContext {
     // All that shaders, copies and builds of acceleration structures do with buffers, in the stages that this device
     // has.
     Access bufferUses() const;
-    // All that builds and rays do with acceleration structures, likewise.
+    // All that builds and rays do with acceleration structures, in the stages that this device has.
     Access structureUses() const;
 
   protected:

@@ -23,7 +23,7 @@ template <int N>
 std::vector<glm::vec<N, double>> readVectors(const GltfFile& file, int accessor,
                                              const std::vector<std::uint32_t>* elements = nullptr);
 
-// Of SCALAR and MAT4, likewise.
+// Of SCALAR and of MAT4, within the bounds and of the elements that readVectors() takes.
 std::vector<double> readNumbers(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);
 std::vector<glm::dmat4> readMatrices(const GltfFile& file, int accessor, const std::vector<std::uint32_t>* elements);
 

@@ -34,7 +34,7 @@
 // What follows from them.
 #define RT_SCENE_DERIVED_ARRAYS(PLAIN, OWN) \
     PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledSurface.h; empty without */ \
-    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* likewise, for each index of refraction */ \
+    PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* of each index of refraction; PrincipledSurface.h */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
     PLAIN(SmoothSphere, smoothSpheres, loadSmoothSphere, "connections") /* kConnectedSpheres at most */ \
     PLAIN(SphereReach, sphereReaches, loadSphereReach, "connections") /* of each of them, see SmoothSphere */ \

@@ -45,10 +45,10 @@ struct Mesh {
     uint triangleCount;
     uint firstVertex;
     uint firstNormal;  // into normals: normals[firstNormal + vertex - firstVertex]; kNone: flat
-    uint firstUv;      // likewise into uvs; kNone: barycentric coordinates serve as texture coordinates
-    uint firstUv2;     // likewise into uvs, of the second set; kNone: there is none
-    uint firstColor;   // likewise into colors; kNone: white
-    uint firstTangent; // likewise into tangents; kNone: there are none
+    uint firstUv;      // into uvs, as firstNormal; kNone: barycentric coordinates serve as texture coordinates
+    uint firstUv2;     // into uvs, as firstNormal, of the second set; kNone: there is none
+    uint firstColor;   // into colors, as firstNormal; kNone: white
+    uint firstTangent; // into tangents, as firstNormal; kNone: there are none
     uint firstLight;   // light of triangle i is firstLight + i - firstTriangle; kNone: not in the light table
 };
 
@@ -409,7 +409,7 @@ struct PathState {
     float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
     uint vertex;       // surfaces and collisions met so far
     LightContext last; // where ray starts, for the weights of multiple importance sampling
-    SphereChain chain; // likewise
+    SphereChain chain; // where it scattered, for the weights against connections
 };
 
 // What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes
