@@ -22,18 +22,14 @@ using test::Uniforms;
 
 constexpr std::uint32_t kWidth = 64, kHeight = 32;
 
-bool isWithin(const SkyPatch& patch, std::uint32_t x, std::uint32_t y) {
-    return x >= patch.begin.x && x < patch.end.x && y >= patch.begin.y && y < patch.end.y;
-}
-
 // A sun with a border, one that the edge of the image cuts in two, and dim texels that differ.
 const SkyPatch kSun{{10, 8}, {13, 11}}, kLeft{{0, 20}, {1, 22}}, kRight{{63, 20}, {64, 22}};
 
 float twoSuns(std::uint32_t x, std::uint32_t y) {
     if (x == 11 && y == 9) return 900;
-    if (isWithin(kSun, x, y)) return 100;
-    if (isWithin(kLeft, x, y)) return 500;
-    if (isWithin(kRight, x, y)) return 400;
+    if (shared::isInPatch(kSun, {x, y})) return 100;
+    if (shared::isInPatch(kLeft, {x, y})) return 500;
+    if (shared::isInPatch(kRight, {x, y})) return 400;
     return 0.1f + 0.01f * float((x + 3 * y) % 7);
 }
 
