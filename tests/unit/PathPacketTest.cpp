@@ -142,7 +142,7 @@ void compareEstimators(const TracedScene& scene) {
 // instances; a sky image.
 TEST(PathPacket, PathsAreThoseOfStepPath) {
     for (const char* id : {"cornell-box-lights", "next-week-cornell-smoke", "rest-of-life-cornell-box-glass",
-                           "next-week-final", "one-weekend-final", "many-lights", "veach-mis",
+                           "next-week-final", "one-weekend-final", "many-lights:200", "veach-mis",
                            RT_TEST_DATA_DIR "/scenes/principled.json", RT_TEST_DATA_DIR "/scenes/lacquer.json",
                            RT_TEST_DATA_DIR "/scenes/glass-instances.json", RT_TEST_DATA_DIR "/scenes/sun.json"}) {
         const TracedScene scene(id);

@@ -16,7 +16,7 @@ class SessionThread {
   public:
     SessionThread(const SessionSetup& setup, Mailbox& mailbox, PublishedState& state, SceneLoader& loader);
 
-    // Until it is asked to quit. Returns what of the end's files could not be written, one line each.
+    // Until it is asked to quit. Returns how it went with the files of the end.
     EndFiles run();
 
   private:

@@ -135,7 +135,7 @@ class Brightest {
     double flux_ = 0; // of all candidates
 };
 
-// Those of a geometry that are smooth themselves.
+// The spheres of a geometry whose own material is smooth, whatever that of an instance is.
 std::vector<std::uint32_t> smoothSpheresOf(const CompiledScene& scene, const shared::Geometry& geometry) {
     std::vector<std::uint32_t> spheres;
     for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)

@@ -5,8 +5,8 @@ namespace rt::scene {
 
 // Least variance of a sample, relative to its mean, with which scattering finds the lights from a sphere's centre,
 // times the fraction of light that the sphere refracts or reflects, so that connections by way of it are worth their
-// time. Below, the noise that they leave out costs less than they do, on a GPU much less: of the five built-in scenes
-// with lights and spheres of glass three have 48, 54 and 96, and gain by refraction; two have 11 and less, and do not.
+// time. Below, the noise that they leave out costs less than they do, on a GPU much less: of the four built-in scenes
+// with spheres of glass and up to kReachedLights lights two have 48 and 54, and gain by refraction; two at most 11.
 // Reflection on glass has a tenth of that, and loses time there: as much light again is reflected inside. A mirror
 // takes the noise to everything around it, and no other comes from it: a quarter is enough.
 constexpr double kWorthConnecting = 25;

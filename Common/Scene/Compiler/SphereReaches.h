@@ -19,8 +19,8 @@ struct LightOnSphere {
 };
 
 struct LightsOnSphere {
-    // Those with the most noise, kReachedLights at most, by light; none where that is less than half of the light of
-    // all that could be.
+    // The lights with the most noise, kReachedLights at most, in the scene's order; none where these have less than
+    // half of the light of all that could be connected to.
     std::vector<LightOnSphere> connected;
     double irradiance = 0; // of all, and of the whole sky
 };
