@@ -20,10 +20,14 @@ RT_FN float patchShare(SceneRef scene, RT_IN(Image) image, RT_IN(SkyPatch) p, ui
            (loadSkyCdf(scene, columns + p.end.x) - loadSkyCdf(scene, columns + p.begin.x));
 }
 
+// Density of sampleSkyPatch() where sampleSky() has density `pdf`, given the share of the row.
+RT_FN float pdfInPatch(float pdf, float share) {
+    return share > 0.0f ? pdf / share : 0.0f;
+}
+
 // Density over solid angle of sampleSkyPatch() in a direction within this texel of the patch.
 RT_FN float skyPatchPdf(SceneRef scene, RT_IN(Image) image, RT_IN(SkyPatch) p, uvec2 texel) {
-    float share = patchShare(scene, image, p, texel.y);
-    return share > 0.0f ? skyTexelPdf(scene, image, texel) / share : 0.0f;
+    return pdfInPatch(skyTexelPdf(scene, image, texel), patchShare(scene, image, p, texel.y));
 }
 
 // As sampleSky(), but within the patch: a row in proportion to all of its light, and a column by that in the patch.
@@ -36,7 +40,7 @@ RT_FN LightSample sampleSkyPatch(SceneRef scene, RT_IN(SkyPatch) p, vec2 u) {
     at.x = mix(loadSkyCdf(scene, first), loadSkyCdf(scene, first + p.end.x - p.begin.x), u.x);
     uvec2 texel = uvec2(p.begin.x + skyCell(scene, first, p.end.x - p.begin.x, at.x), row);
     LightSample s = sampleSkyTexel(scene, texel, at);
-    s.pdf = skyPatchPdf(scene, image, p, texel);
+    s.pdf = pdfInPatch(s.pdf, patchShare(scene, image, p, row));
     return s;
 }
 
