@@ -237,6 +237,12 @@ uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
 
 // ---- trees ---------------------------------------------------------------------------------------------------------
 
+// A lane that has come to a leaf waits until others of its group have visited so many nodes or found a leaf, too: leaves
+// are then tested by more lanes at a time. Found by measuring, see docs/gpu-engine.md.
+uint nodesBetweenLeaves() {
+    return has(kFeatures, kFeatureLights) ? 4u : 3u;
+}
+
 void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
     uint first = treeLeafFirst(leaf);
     uint end = first + treeLeafCount(leaf);
@@ -279,11 +285,49 @@ Ray toObject(uint index, Ray ray) {
     return local;
 }
 
-// The nearest child first; the others wait on the stack. Instances are followed one level down: what lies on the stack
-// above kTreeReturn is in their space.
+bool isTreeNode(uint reference) {
+    return (reference & kTreeLeaf) == 0u;
+}
+
+// A traversal's stack; one a lane is enough.
+uint waiting[kTreeDepth + 1u];
+uint waitingCount;
+
+uint popWaiting() {
+    return waiting[--waitingCount];
+}
+
+// What follows this node: the nearest child that the ray enters before tMax, while the others wait; if it enters none,
+// what waited last.
+uint afterNode(uint at, vec3 origin, vec3 inverse, float tMax) {
+    TreeNode node = constants.tree.nodes.at[at];
+    vec2 entry = vec2(0.0f);
+    vec2 leave = vec2(tMax);
+    clipSlab(node.x, origin.x, inverse.x, entry, leave);
+    clipSlab(node.y, origin.y, inverse.y, entry, leave);
+    clipSlab(node.z, origin.z, inverse.z, entry, leave);
+    leave *= kSlabMargin;
+    bool enters0 = entry.x <= leave.x;
+    bool enters1 = entry.y <= leave.y;
+    if (!enters0 && !enters1) return popWaiting();
+    bool second = !enters0 || (enters1 && entry.y < entry.x);
+    if (enters0 && enters1) waiting[waitingCount++] = second ? node.children.x : node.children.y;
+    return second ? node.children.y : node.children.x;
+}
+
+uint afterWideNode(uint at, vec3 origin, vec3 inverse, float tMax) {
+    WideTreeNode node = constants.tree.wideNodes.at[at];
+    uvec4 keys = sortedChildren(node, origin, inverse, tMax);
+    if (keys.w != kMissed) waiting[waitingCount++] = childAt(node.children, keys.w);
+    if (keys.z != kMissed) waiting[waitingCount++] = childAt(node.children, keys.z);
+    if (keys.y != kMissed) waiting[waitingCount++] = childAt(node.children, keys.y);
+    return keys.x != kMissed ? childAt(node.children, keys.x) : popWaiting();
+}
+
+// Instances are followed one level down: what waits above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
-    uint stack[kTreeDepth + 1u];
-    uint size = 0u;
+    waiting[0] = kTreeEnd;
+    waitingCount = 1u;
     uint current = constants.tree.root;
     uint instance = kNone;
     uint hitInstance = kNone;
@@ -291,53 +335,32 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
     vec3 inverse = slabInverse(ray.direction);
     Nearest nearest = nothingWithin(tMax);
     for (;;) {
-        if ((current & kTreeLeaf) == 0u && kTreeIsWide != 0u) {
-            WideTreeNode node = constants.tree.wideNodes.at[current];
-            uvec4 keys = sortedChildren(node, r.ray.origin, inverse, nearest.t);
-            if (keys.w != kMissed) stack[size++] = childAt(node.children, keys.w);
-            if (keys.z != kMissed) stack[size++] = childAt(node.children, keys.z);
-            if (keys.y != kMissed) stack[size++] = childAt(node.children, keys.y);
-            if (keys.x != kMissed) {
-                current = childAt(node.children, keys.x);
-                continue;
+        for (uint i = 0u; i < nodesBetweenLeaves() && isTreeNode(current); i++) {
+            if (kTreeIsWide != 0u) {
+                current = afterWideNode(current, r.ray.origin, inverse, nearest.t);
+            } else {
+                current = afterNode(current, r.ray.origin, inverse, nearest.t);
             }
-        } else if ((current & kTreeLeaf) == 0u) {
-            TreeNode node = constants.tree.nodes.at[current];
-            vec2 entry = vec2(0.0f);
-            vec2 leave = vec2(nearest.t);
-            clipSlab(node.x, r.ray.origin.x, inverse.x, entry, leave);
-            clipSlab(node.y, r.ray.origin.y, inverse.y, entry, leave);
-            clipSlab(node.z, r.ray.origin.z, inverse.z, entry, leave);
-            leave *= kSlabMargin;
-            bool enters0 = entry.x <= leave.x;
-            bool enters1 = entry.y <= leave.y;
-            if (enters0 || enters1) {
-                bool second = !enters0 || (enters1 && entry.y < entry.x);
-                current = second ? node.children.y : node.children.x;
-                if (enters0 && enters1) stack[size++] = second ? node.children.x : node.children.y;
-                continue;
-            }
+        }
+        if (isTreeNode(current)) continue;
+        if (current == kTreeEnd) break;
+        if (has(kFeatures, kFeatureInstances) && current == kTreeReturn) {
+            instance = kNone;
+            r = makeTracedRay(ray, true);
+            inverse = slabInverse(ray.direction);
+            current = popWaiting();
         } else if (has(kFeatures, kFeatureInstances) && treeLeafKind(current) == kInstanceLeaf) {
             instance = treeLeafFirst(current);
-            stack[size++] = kTreeReturn;
+            waiting[waitingCount++] = kTreeReturn;
             r = makeTracedRay(toObject(instance, ray), false);
             inverse = slabInverse(r.ray.direction);
             current = constants.tree.instanceRoots.at[instance];
-            continue;
         } else {
             float before = nearest.t;
             testLeaf(r, current, nearest);
             if (has(kFeatures, kFeatureInstances) && nearest.t < before) hitInstance = instance;
             if (anyHit && nearest.place != kNone) break;
-        }
-        if (size == 0u) break;
-        current = stack[--size];
-        if (has(kFeatures, kFeatureInstances) && current == kTreeReturn) {
-            instance = kNone;
-            r = makeTracedRay(ray, true);
-            inverse = slabInverse(ray.direction);
-            if (size == 0u) break;
-            current = stack[--size];
+            current = popWaiting();
         }
     }
     Hit hit;

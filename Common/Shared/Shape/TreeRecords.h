@@ -20,6 +20,7 @@ const uint kTreeLeafSize = 8u;            // most primitives of a leaf
 const uint kTreeItems = (1u << 26u) - 1u; // most primitives of a kind; the last index stays free for kTreeReturn
 const uint kTreeNothing = 0xffffffffu;    // in place of a child
 const uint kTreeReturn = 0xffffffffu;     // on a traversal's stack: the instance ends here
+const uint kTreeEnd = 0xfffffffeu;        // at its bottom; no leaf, since instances are alone in theirs
 
 RT_FN uint treeLeaf(uint kind, uint first, uint count) {
     return kTreeLeaf | kind << kTreeKindShift | (count - 1u) << kTreeCountShift | first;
