@@ -219,7 +219,7 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
 // sun of a sky image, and more lights than a table holds.
 class ConnectionAgreementTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, ConnectionAgreementTest, kFirstEngine, engineName);
-INSTANTIATE_TEST_SUITE_P(Queries, ConnectionAgreementTest, kQueries, engineName);
+INSTANTIATE_TEST_SUITE_P(NightlyQueries, ConnectionAgreementTest, kQueries, engineName);
 INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engineName);
 
 TEST_P(ConnectionAgreementTest, SampleForSample) {

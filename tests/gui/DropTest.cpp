@@ -7,7 +7,8 @@ namespace rt::test {
 namespace {
 
 class DropTest : public WindowTest {};
-INSTANTIATE_TEST_SUITE_P(, DropTest, kBothPrograms, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(, DropTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, DropTest, kSecondProgram, nameOfProgram);
 
 TEST_P(DropTest, GoodFilesOpenAndBadOnesLeaveTheScene) {
     std::ofstream(folder_ / "bad.json") << R"({"version": 1, "objects": 12})";

@@ -88,7 +88,7 @@ TEST_P(SharedPanelsTest, TheSceneBrowserFindsByName) {
 }
 
 // The film goes on: it has all of them.
-TEST_P(PanelsTest, MoreSamplesAndBudgetsAreAtHand) {
+TEST_P(SharedPanelsTest, MoreSamplesAndBudgetsAreAtHand) {
     start({"--width", "32", "--spp", "4", "--engine", isGpu() ? "compute" : "multi"});
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually([&] {
@@ -195,7 +195,7 @@ TEST_P(SharedPanelsTest, ThePictureIsSmoothUnlessZoomedAndItsBorderNeutral) {
     expectCleanEnd();
 }
 
-TEST_P(PanelsTest, TheToolbarDoesWhatItShows) {
+TEST_P(SharedPanelsTest, TheToolbarDoesWhatItShows) {
     start({"--width", "48", "--spp", "4", "--engine", isGpu() ? "compute" : "multi"});
     ASSERT_FALSE(HasFatalFailure());
     EXPECT_TRUE(eventually([&] {
@@ -230,7 +230,7 @@ TEST_P(PanelsTest, TheToolbarDoesWhatItShows) {
 }
 
 // At the pointer; where the window ends it moves to where it is seen as a whole.
-TEST_P(PanelsTest, TheInspectorIsNeverClipped) {
+TEST_P(SharedPanelsTest, TheInspectorIsNeverClipped) {
     struct Box {
         int left = kWidth, top = kHeight, right = 0, bottom = 0; // where two screens differ
     };

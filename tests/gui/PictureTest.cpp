@@ -34,7 +34,8 @@ class PictureTest : public WindowTest {
         store({{"saw_first_steps", true}});
     }
 };
-INSTANTIATE_TEST_SUITE_P(, PictureTest, kBothPrograms, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(, PictureTest, kFirstProgram, nameOfProgram);
+INSTANTIATE_TEST_SUITE_P(Nightly, PictureTest, kSecondProgram, nameOfProgram);
 
 // It stands below the picture: the border's colour is all around both.
 TEST_P(PictureTest, TheLegendCoversNothingOfIt) {
