@@ -237,10 +237,15 @@ uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
 
 // ---- trees ---------------------------------------------------------------------------------------------------------
 
-// A lane that has come to a leaf waits until others of its group have visited so many nodes or found a leaf, too: leaves
-// are then tested by more lanes at a time. Found by measuring, see docs/gpu-engine.md.
+// A lane that has found a leaf waits until the others of its group have found one or visited so many nodes: leaves are
+// then tested by more lanes at a time. Found by measuring, see docs/gpu-engine.md.
 uint nodesBetweenLeaves() {
+    if (kTreeIsWide != 0u) return 1u;
     return has(kFeatures, kFeatureLights) ? 4u : 3u;
+}
+
+bool isTreeNode(uint reference) {
+    return (reference & kTreeLeaf) == 0u;
 }
 
 void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
@@ -285,49 +290,12 @@ Ray toObject(uint index, Ray ray) {
     return local;
 }
 
-bool isTreeNode(uint reference) {
-    return (reference & kTreeLeaf) == 0u;
-}
-
-// A traversal's stack; one a lane is enough.
-uint waiting[kTreeDepth + 1u];
-uint waitingCount;
-
-uint popWaiting() {
-    return waiting[--waitingCount];
-}
-
-// What follows this node: the nearest child that the ray enters before tMax, while the others wait; if it enters none,
-// what waited last.
-uint afterNode(uint at, vec3 origin, vec3 inverse, float tMax) {
-    TreeNode node = constants.tree.nodes.at[at];
-    vec2 entry = vec2(0.0f);
-    vec2 leave = vec2(tMax);
-    clipSlab(node.x, origin.x, inverse.x, entry, leave);
-    clipSlab(node.y, origin.y, inverse.y, entry, leave);
-    clipSlab(node.z, origin.z, inverse.z, entry, leave);
-    leave *= kSlabMargin;
-    bool enters0 = entry.x <= leave.x;
-    bool enters1 = entry.y <= leave.y;
-    if (!enters0 && !enters1) return popWaiting();
-    bool second = !enters0 || (enters1 && entry.y < entry.x);
-    if (enters0 && enters1) waiting[waitingCount++] = second ? node.children.x : node.children.y;
-    return second ? node.children.y : node.children.x;
-}
-
-uint afterWideNode(uint at, vec3 origin, vec3 inverse, float tMax) {
-    WideTreeNode node = constants.tree.wideNodes.at[at];
-    uvec4 keys = sortedChildren(node, origin, inverse, tMax);
-    if (keys.w != kMissed) waiting[waitingCount++] = childAt(node.children, keys.w);
-    if (keys.z != kMissed) waiting[waitingCount++] = childAt(node.children, keys.z);
-    if (keys.y != kMissed) waiting[waitingCount++] = childAt(node.children, keys.y);
-    return keys.x != kMissed ? childAt(node.children, keys.x) : popWaiting();
-}
-
-// Instances are followed one level down: what waits above kTreeReturn is in their space.
+// The nearest child first; the others wait on the stack. Instances are followed one level down: what lies on the stack
+// above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
-    waiting[0] = kTreeEnd;
-    waitingCount = 1u;
+    uint stack[kTreeDepth + 1u];
+    stack[0] = kTreeEnd;
+    uint size = 1u;
     uint current = constants.tree.root;
     uint instance = kNone;
     uint hitInstance = kNone;
@@ -337,9 +305,33 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
     for (;;) {
         for (uint i = 0u; i < nodesBetweenLeaves() && isTreeNode(current); i++) {
             if (kTreeIsWide != 0u) {
-                current = afterWideNode(current, r.ray.origin, inverse, nearest.t);
+                WideTreeNode node = constants.tree.wideNodes.at[current];
+                uvec4 keys = sortedChildren(node, r.ray.origin, inverse, nearest.t);
+                if (keys.w != kMissed) stack[size++] = childAt(node.children, keys.w);
+                if (keys.z != kMissed) stack[size++] = childAt(node.children, keys.z);
+                if (keys.y != kMissed) stack[size++] = childAt(node.children, keys.y);
+                if (keys.x != kMissed) {
+                    current = childAt(node.children, keys.x);
+                } else {
+                    current = stack[--size];
+                }
             } else {
-                current = afterNode(current, r.ray.origin, inverse, nearest.t);
+                TreeNode node = constants.tree.nodes.at[current];
+                vec2 entry = vec2(0.0f);
+                vec2 leave = vec2(nearest.t);
+                clipSlab(node.x, r.ray.origin.x, inverse.x, entry, leave);
+                clipSlab(node.y, r.ray.origin.y, inverse.y, entry, leave);
+                clipSlab(node.z, r.ray.origin.z, inverse.z, entry, leave);
+                leave *= kSlabMargin;
+                bool enters0 = entry.x <= leave.x;
+                bool enters1 = entry.y <= leave.y;
+                bool second = !enters0 || (enters1 && entry.y < entry.x);
+                if (enters0 && enters1) stack[size++] = second ? node.children.x : node.children.y;
+                if (enters0 || enters1) {
+                    current = second ? node.children.y : node.children.x;
+                } else {
+                    current = stack[--size];
+                }
             }
         }
         if (isTreeNode(current)) continue;
@@ -348,10 +340,10 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
             instance = kNone;
             r = makeTracedRay(ray, true);
             inverse = slabInverse(ray.direction);
-            current = popWaiting();
+            current = stack[--size];
         } else if (has(kFeatures, kFeatureInstances) && treeLeafKind(current) == kInstanceLeaf) {
             instance = treeLeafFirst(current);
-            waiting[waitingCount++] = kTreeReturn;
+            stack[size++] = kTreeReturn;
             r = makeTracedRay(toObject(instance, ray), false);
             inverse = slabInverse(r.ray.direction);
             current = constants.tree.instanceRoots.at[instance];
@@ -360,7 +352,7 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
             testLeaf(r, current, nearest);
             if (has(kFeatures, kFeatureInstances) && nearest.t < before) hitInstance = instance;
             if (anyHit && nearest.place != kNone) break;
-            current = popWaiting();
+            current = stack[--size];
         }
     }
     Hit hit;
