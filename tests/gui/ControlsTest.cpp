@@ -34,7 +34,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, SharedControlsTest, kSecondProgram, nameOfProg
 
 // With the GPU by one pipeline that all scenes share, as a software driver takes seconds for each: those that each
 // scene has of its own, and the lights, are proved by the comparison of the engines.
-TEST_P(ControlsTest, ShowsEveryScene) {
+TEST_P(SharedControlsTest, ShowsEveryScene) {
     std::vector<std::string> arguments = {"--width", "32", "--spp", "1", "--engine", "multi"};
     if (std::string(GetParam()) == "ray-tracing-gpu") {
         arguments.back() = "pipeline";
