@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 // Of all built-in scenes together.
 constexpr const char* kEveryFeature =
     "spheres,moving-spheres,quads,triangles,instances,smooth-normals,lambertian,metal,dielectric,fuzz,emissive,checker,"
-    "noise,images,volumes,sky,thin-lens,lights,many-lights,sphere-lights,quad-lights,triangle-lights,targets";
+    "noise,images,volumes,sky,thin-lens,lights,many-lights,sphere-lights,quad-lights,triangle-lights";
 
 class ControlsTest : public WindowTest {};
 INSTANTIATE_TEST_SUITE_P(, ControlsTest, kBothPrograms, nameOfProgram);

@@ -159,8 +159,7 @@ std::map<std::string, std::uint32_t> expectedFeatures() {
                                 kFeatureDielectric | kFeatureVolumes | kFeatureImages | kFeatureNoise},
         {"rest-of-life-cornell-box", cornell},
         {"rest-of-life-cornell-box-mirror", cornell | kFeatureMetal},
-        {"rest-of-life-cornell-box-glass",
-         cornell | kFeatureSpheres | kFeatureDielectric | kFeatureTargets | kFeatureSphereLights},
+        {"rest-of-life-cornell-box-glass", cornell | kFeatureSpheres | kFeatureDielectric | kFeatureSphereLights},
         {"white-spheres", cornell | kFeatureSpheres},
         {"cube-and-spheres", book | kFeatureTriangles | kFeatureMetal | kFeatureFuzz | kFeatureDielectric |
                                  kFeatureImages | kFeatureThinLens},

@@ -40,7 +40,6 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"triangle-lights", kFeatureTriangleLights},
     {"ellipsoid-lights", kFeatureEllipsoidLights},
     {"punctual-lights", kFeaturePunctualLights},
-    {"targets", kFeatureTargets},
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},
     {"connections", kFeatureConnections},
@@ -53,7 +52,7 @@ constexpr bool haveOneNameEach() {
         if ((named & row.value) != 0) return false;
         named |= row.value;
     }
-    return named == kFeatureAll;
+    return (named | kFeaturesUnused) == kFeatureAll;
 }
 static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
 

@@ -39,7 +39,7 @@ bool scattersWidely(const scene::CompiledScene& scene) {
 constexpr std::uint32_t kLightSampling =
     shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
     shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
-    shared::kFeatureTargets | shared::kFeatureMixture | shared::kFeatureProjected;
+    shared::kFeatureMixture | shared::kFeatureProjected;
 
 // Whether lights are connected to by way of smooth spheres. What layers of partial opacity let through is not traced.
 bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
@@ -103,7 +103,8 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     // The camera may have been given another lens than the scene's.
     std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
     if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
-    if (settings.lightSampling == LightSampling::Mixture) features |= shared::kFeatureMixture;
+    if (settings.lightSampling == LightSampling::Mixture && scene.globals.lightCount + scene.globals.targetCount > 0)
+        features |= shared::kFeatureMixture;
     if (connectsLights(scene, settings)) features |= shared::kFeatureConnections;
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
         if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;

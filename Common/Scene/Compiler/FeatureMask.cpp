@@ -76,7 +76,6 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     need(scene.camera.defocusAngle > 0, shared::kFeatureThinLens);
     need(scene.globals.lightCount > 0, shared::kFeatureLights);
     need(scene.globals.lightCount > shared::kContributionLights, shared::kFeatureManyLights);
-    need(scene.globals.targetCount > 0, shared::kFeatureTargets);
     need(!scene.normals.empty(), shared::kFeatureSmoothNormals);
     for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
     for (std::size_t i = 0; i < scene.principled.size(); ++i)

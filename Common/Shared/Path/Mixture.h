@@ -8,9 +8,8 @@ RT_SHARED_BEGIN
 
 // Whether the direction in which v scatters is drawn from the mixture.
 RT_FN bool usesMixture(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals, RT_IN(Vertex) v) {
-    return has(features, kFeatureMixture) && has(features, kFeatureLights | kFeatureTargets) &&
-           params.lightSampling == kSampleMixture && globals.lightCount + globals.targetCount > 0u &&
-           !isDeltaVertex(features, v);
+    return has(features, kFeatureMixture) && params.lightSampling == kSampleMixture &&
+           globals.lightCount + globals.targetCount > 0u && !isDeltaVertex(features, v);
 }
 
 // Share of the importance targets among all that the mixture's half for lights chooses from.

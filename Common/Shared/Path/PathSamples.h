@@ -16,7 +16,7 @@ RT_FN bool cameraUses(uint features, uint dimension) {
 
 // Whether a vertex may use a dimension, kDimensionLight to kDimensionSelection.
 RT_FN bool vertexUses(uint features, uint dimension) {
-    if (dimension == kDimensionLight) return has(features, kFeatureLights | kFeatureTargets);
+    if (dimension == kDimensionLight) return has(features, kFeatureLights | kFeatureMixture);
     if (dimension == kDimensionSelection) return has(features, kFeatureManyLights);
     return true;
 }
