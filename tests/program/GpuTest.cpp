@@ -69,13 +69,23 @@ TEST_F(Gpu, StatisticsNameWhatWasSkipped) {
     for (const char* feature : {"triangles", "textures", "volumes"}) {
         EXPECT_EQ(std::count(stats["skipped"].begin(), stats["skipped"].end(), feature), 1) << feature;
     }
-    std::string more = "textures"; // all are more than drivers compile in a few seconds
+    std::string more = "textures";
     for (const auto& feature : stats["features"]) more += "," + feature.get<std::string>();
     EXPECT_EQ(gpu({"-o", "b.pfm", "--stats", "s.json", "--engine", "pipeline", "--features", more}).exitCode, 0);
     const auto forced = jsonOf("s.json");
     EXPECT_EQ(std::count(forced["skipped"].begin(), forced["skipped"].end(), "textures"), 0);
     EXPECT_EQ(std::count(forced["skipped"].begin(), forced["skipped"].end(), "volumes"), 1);
     EXPECT_EQ(forced["settings"]["features"], "forced");
+}
+
+// Drivers compile all code there is for tens of seconds.
+class NightlyGpu : public Gpu {};
+
+TEST_F(NightlyGpu, EveryFeatureCanBeForced) {
+    const Arguments whole = {"-o", "b.pfm", "--stats", "s.json", "--engine", "pipeline", "--features", "all"};
+    EXPECT_EQ(gpu(whole).exitCode, 0);
+    EXPECT_TRUE(jsonOf("s.json")["skipped"].empty());
+    EXPECT_EQ(jsonOf("s.json")["settings"]["features"], "forced");
 }
 
 TEST_F(Gpu, TheImageDependsOnNothingButSettings) {

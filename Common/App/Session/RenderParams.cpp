@@ -23,7 +23,7 @@ shared::uvec2 strata(const RenderSettings& settings) {
 // RenderParams::russianRoulette. Most paths under a plain sky soon leave for it, which no light sampling has done for
 // them: ending bright ones by chance saves little and triples the variance. (One Weekend's final scene: 4 takes 1.15
 // times the rays of 1 for a third of the variance.) In rooms 1.4 would give 1.1 to 1.3 times the efficiency (of MSE
-// times time) for 1.1 times the time, but 0.9 in many-lights:200, where the error is that of small lights that are seen.
+// times time) for 1.1 times the time, but 0.9 in many-lights:200, where the error is that of small lights in sight.
 constexpr std::uint32_t kRoulette = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
 

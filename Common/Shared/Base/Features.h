@@ -13,7 +13,6 @@ const uint kFeatureQuads = 1u << 2u;
 const uint kFeatureTriangles = 1u << 3u;
 const uint kFeatureInstances = 1u << 4u;
 // Bits of materials: see their table, Common/Shared/Material/Materials.h. 5, 6, 7 and 28 are taken.
-const uint kFeaturesUnused = 1u << 23u; // of nothing yet
 const uint kFeatureEmissive = 1u << 8u; // some surface emits
 const uint kFeatureChecker = 1u << 9u;
 const uint kFeatureNoise = 1u << 10u;   // Perlin textures of every kind
@@ -29,6 +28,7 @@ const uint kFeatureQuadLights = 1u << 19u;
 const uint kFeatureTriangleLights = 1u << 20u;
 const uint kFeatureSmoothNormals = 1u << 21u;
 const uint kFeatureFuzz = 1u << 22u;        // metal with fuzz above kMirrorFuzz
+const uint kFeaturesUnused = 1u << 23u;     // free for what comes next
 const uint kFeatureConnections = 1u << 24u; // a setting: lights connected to by way of smooth spheres
 const uint kFeatureMixture = 1u << 25u;     // a setting: Shirley's mixture, where there are lights or targets
 const uint kFeatureProjected = 1u << 26u;   // a setting: lights by projected solid angle
