@@ -20,15 +20,21 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-// RenderParams::russianRoulette. Most paths under a plain sky soon leave for it, which no light sampling has done for
-// them: ending bright ones by chance saves little and triples the variance. (One Weekend's final scene: 4 takes 1.15
-// times the rays of 1 for a third of the variance.) In rooms 1.4 would give 1.1 to 1.3 times the efficiency (of MSE
-// times time) for 1.1 times the time, but 0.9 in many-lights:200, where the error is that of small lights in sight.
-constexpr std::uint32_t kRoulette = 1;
+// RenderParams::russianRoulette, by error times time (docs/light-sampling.md). Paths in rooms go on more often than their
+// throughput says: indirect light makes most of the noise. Where there are many lights the edges of those in sight
+// make it. Most paths under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones
+// by chance saves little and triples the variance.
+constexpr std::uint32_t kRoulette = 2;
+constexpr std::uint32_t kRouletteOfManyLights = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
 
 bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
+}
+
+std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
+    if (isUnderPlainSky(scene)) return kRouletteUnderSky;
+    return shared::has(scene.features, shared::kFeatureManyLights) ? kRouletteOfManyLights : kRoulette;
 }
 
 // Whether anything sends light on into a range of directions, and what is of use only there.
@@ -77,7 +83,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
         params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
-    if (settings.russianRoulette) params.russianRoulette = isUnderPlainSky(scene) ? kRouletteUnderSky : kRoulette;
+    if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
 }
 
