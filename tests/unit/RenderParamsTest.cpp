@@ -35,5 +35,19 @@ TEST(RenderParams, LightSamplingIsLeftOutWhereNothingScattersWidely) {
     }
 }
 
+std::uint32_t rouletteOf(const char* scene, bool isOn = true) {
+    RenderSettings settings;
+    settings.russianRoulette = isOn;
+    return makeRenderParams(*compile(loadScene(scene), false), settings).russianRoulette;
+}
+
+TEST(RenderParams, RouletteIsThatOfRoomsSkiesOrManyLamps) {
+    for (const char* room : {"cornell-box-lights", "many-lights:20", "triangle-lights", "furnace"})
+        EXPECT_EQ(rouletteOf(room), 2u) << room;
+    EXPECT_EQ(rouletteOf("many-lights:200"), 1u);
+    for (const char* plain : {"one-weekend-final", "lucy-in-one-weekend"}) EXPECT_EQ(rouletteOf(plain), 4u) << plain;
+    EXPECT_EQ(rouletteOf("cornell-box-lights", false), 0u);
+}
+
 } // namespace
 } // namespace rt::app

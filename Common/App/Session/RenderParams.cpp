@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "Common/Image/SamplePlan.h"
 #include "Common/Shared/Base/Features.h"
@@ -21,20 +22,27 @@ shared::uvec2 strata(const RenderSettings& settings) {
 }
 
 // RenderParams::russianRoulette, by error times time (docs/light-sampling.md). Paths in rooms go on more often than their
-// throughput says: indirect light makes most of the noise. Where there are many lights the edges of those in sight
-// make it. Most paths under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones
-// by chance saves little and triples the variance.
+// throughput says: indirect light makes most of the noise. Where there are many lamps their edges make it. Most paths
+// under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones by chance saves
+// little and triples the variance.
 constexpr std::uint32_t kRoulette = 2;
-constexpr std::uint32_t kRouletteOfManyLights = 1;
+constexpr std::uint32_t kRouletteOfManyLamps = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
+constexpr std::ptrdiff_t kManyLamps = 32; // more are many
 
 bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
 }
 
+// Triangles that shine are those of a few meshes, mostly.
+bool hasManyLamps(const scene::CompiledScene& scene) {
+    const auto isLamp = [](const shared::Light& light) { return light.kind != shared::kLightTriangle; };
+    return std::ranges::count_if(scene.lights, isLamp) > kManyLamps;
+}
+
 std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
     if (isUnderPlainSky(scene)) return kRouletteUnderSky;
-    return shared::has(scene.features, shared::kFeatureManyLights) ? kRouletteOfManyLights : kRoulette;
+    return hasManyLamps(scene) ? kRouletteOfManyLamps : kRoulette;
 }
 
 // Whether anything sends light on into a range of directions, and what is of use only there.
