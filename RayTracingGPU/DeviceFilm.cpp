@@ -70,6 +70,7 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
     samples_.assign(count * desc_.replicates, 0);
     stepSamples_ = 0;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) stepSamples_ += pixelsInside(slot);
+    activeSlots_ = slotCount();
     if (film.hasPlan()) loadPlan(film);
     bool fresh = true;
     for (const std::uint32_t tile : tiles_) fresh = fresh && film.samples(tile) == 0;
@@ -98,6 +99,7 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
         open.clear();
     }
     uploadCounts();
+    leaveOutDone();
 }
 
 void DeviceFilm::uploadCounts() {
@@ -110,9 +112,11 @@ void DeviceFilm::uploadCounts() {
 void DeviceFilm::loadPlan(const Film& film) {
     squares_ = {};
     plan_.clear();
+    planEnds_.clear();
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
         const auto plan = film.plan(tiles_[slot / desc_.replicates], slot % desc_.replicates);
         plan_.insert(plan_.end(), plan.begin(), plan.end());
+        planEnds_.push_back(film.planEnd(tiles_[slot / desc_.replicates], slot % desc_.replicates));
     }
     if (!planBuffer_) {
         const VkDeviceSize bytes = VkDeviceSize{capacity_} * kTilePixels * sizeof(std::uint32_t);
@@ -200,6 +204,7 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
     launch.plan = planBuffer_.address();
     launch.replicates = desc_.replicates;
     launch.filmSlots = slotCount();
+    launch.activeSlots = activeSlots_;
     launch.bandSlots = bandSlots();
     launch.firstSlot = first;
     launch.bandWidth = width;
@@ -216,7 +221,29 @@ bool DeviceFilm::isImage() const {
 
 std::uint32_t DeviceFilm::bandSlots() const {
     constexpr std::uint32_t kBands = 37; // a prime, so that the bands of hardly any image begin all at one column
-    return isWhole() ? (slotCount() + kBands - 1) / kBands : slotCount();
+    return isWhole() ? (activeSlots_ + kBands - 1) / kBands : activeSlots_;
+}
+
+void DeviceFilm::leaveOutDone() {
+    std::uint32_t active = activeSlots_;
+    const auto isDone = [this](std::uint32_t slot) { return samples_[slot] >= planEnds_[slot]; };
+    while (!plan_.empty() && active > desc_.replicates) {
+        bool isTileDone = true;
+        for (std::uint32_t slot = active - desc_.replicates; slot < active; ++slot)
+            isTileDone = isTileDone && isDone(slot);
+        if (!isTileDone) break;
+        active -= desc_.replicates;
+    }
+    constexpr std::uint32_t kPart = 8; // an eighth at least: paths under way have to end before the bands change
+    if (activeSlots_ - active >= activeSlots_ / kPart) activeSlots_ = active;
+}
+
+std::uint32_t DeviceFilm::stepsOfHalf() const {
+    const std::uint32_t first = activeSlots_ / desc_.replicates / 2 * desc_.replicates;
+    std::uint32_t steps = 0;
+    for (std::uint32_t slot = first; slot < first + desc_.replicates; ++slot)
+        steps = std::max(steps, std::max(planEnds_[slot], samples_[slot]) - samples_[slot]);
+    return steps;
 }
 
 std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
@@ -234,7 +261,7 @@ std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
     std::uint64_t added = 0;
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot >= slotCount()) continue;
+        if (slot >= launch.activeSlots) continue;
         const std::uint32_t reached = shared::samplesAfter(launch, slot, samples_[slot]);
         added += samplesBetween(slot, samples_[slot], reached);
     }
@@ -261,7 +288,7 @@ std::uint64_t DeviceFilm::stepSamples() const {
 void DeviceFilm::advance(const shared::FilmLaunch& launch) {
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot < slotCount()) samples_[slot] = shared::samplesAfter(launch, slot, samples_[slot]);
+        if (slot < launch.activeSlots) samples_[slot] = shared::samplesAfter(launch, slot, samples_[slot]);
     }
 }
 
@@ -276,9 +303,9 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     launch.replicates = desc_.replicates;
     launch.plan = planBuffer_.address();
     launch.halves = plan_.empty() ? 1 : 2;
-    app::Snapshot result{resolver.resolve(launch), {}};
-    result.tileSamples.reserve(tileCount());
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) result.tileSamples.push_back(tileSamples(tile));
+    launch.filmSlots = slotCount();
+    app::Snapshot result{resolver.resolve(launch), std::vector<std::uint64_t>(tileCount())};
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) result.tileSamples[tiles_[tile]] = tileSamples(tile);
     return result;
 }
 

@@ -69,13 +69,19 @@ class DeviceFilm {
     std::size_t first() const { return first_; }
     std::uint32_t replicates() const { return desc_.replicates; }
     std::uint32_t slotCount() const { return static_cast<std::uint32_t>(samples_.size()); }
+    // From now on launches leave out the tiles at the end that have all that the plan gives them, if they are many.
+    void leaveOutDone();
     bool isWhole() const { return isWhole_; } // it holds all tiles that there were to load
     bool isImage() const;                     // it holds all tiles of the image
     // Of a step, which is one sample of every slot for each of its pixels inside of the image; with a plan, of the step
     // that comes next, for the pixels that are not done.
     std::uint64_t stepSamples() const;
-    // The slots are cut into bands. A launch takes `width` slots of each, from `first` < bandSlots() on.
-    std::uint32_t bands() const { return (slotCount() + bandSlots() - 1) / bandSlots(); }
+    // With a plan: samples that half of the tiles that are not left out lack at least, if those with many come first.
+    std::uint32_t stepsOfHalf() const;
+    bool hasPlan() const { return !plan_.empty(); }
+    // The slots that are not left out are cut into bands. A launch takes `width` slots of each, from `first` <
+    // bandSlots() on.
+    std::uint32_t bands() const { return (activeSlots_ + bandSlots() - 1) / bandSlots(); }
     std::uint32_t bandSlots() const; // the last band may lack some
     // Of a step of one slot in each band, pixels outside of the image included.
     std::uint64_t columnSamples() const { return std::uint64_t{bands()} * shared::kTilePixels; }
@@ -101,11 +107,13 @@ class DeviceFilm {
     image::TileList tiles_; // of the image
     std::size_t first_ = 0; // position of the first in what there was to load
     bool isWhole_ = false;
-    std::uint32_t capacity_;             // slots
-    std::vector<std::uint32_t> samples_; // per slot, as on the device
-    std::uint64_t stepSamples_ = 0;      // without a plan
-    std::vector<std::uint32_t> plan_;    // per pixel, 0 outside of the image, as on the device; empty without one
-    vulkan::Buffer samplesBuffer_;       // and the tiles, as FilmLaunch::samples
+    std::uint32_t capacity_;              // slots
+    std::uint32_t activeSlots_ = 0;       // the first ones; launches leave out the others
+    std::vector<std::uint32_t> samples_;  // per slot, as on the device
+    std::uint64_t stepSamples_ = 0;       // without a plan
+    std::vector<std::uint32_t> plan_;     // per pixel, 0 outside of the image, as on the device; empty without one
+    std::vector<std::uint32_t> planEnds_; // per slot: the largest of these; empty without a plan
+    vulkan::Buffer samplesBuffer_;        // and the tiles, as FilmLaunch::samples
     vulkan::Buffer sums_;
     vulkan::Buffer squares_; // empty unless kept
     vulkan::Buffer open_;    // empty until reserved

@@ -1,6 +1,7 @@
 #include "RayTracingGPU/GpuEngine.h"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -33,6 +34,19 @@ namespace {
 
 using image::Film;
 using vulkan::Memory;
+
+// All tiles; where there is a plan those that it gives many samples come first, so that launches can leave out the
+// others when these are done.
+image::TileList tilesInOrder(const Film& film) {
+    image::TileList tiles = image::allTiles(film);
+    const auto endOf = [&film](std::uint32_t tile) {
+        std::uint32_t end = 0;
+        for (std::uint32_t r = 0; r < film.desc().replicates; ++r) end = std::max(end, film.planEnd(tile, r));
+        return end;
+    };
+    if (film.hasPlan()) std::ranges::stable_sort(tiles, std::ranges::greater{}, endOf);
+    return tiles;
+}
 
 class GpuEngine final : public app::Engine {
   public:
@@ -177,7 +191,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
-    tiles_ = image::allTiles(film_);
+    tiles_ = tilesInOrder(film_);
     limit_.reset();
     loadTiles();
 }
@@ -247,6 +261,7 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
     if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples(cancel);
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
+    region_->leaveOutDone();
     const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
     pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted);
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();

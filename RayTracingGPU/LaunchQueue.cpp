@@ -71,8 +71,9 @@ bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch) const {
 }
 
 bool LaunchQueue::overlaps(const shared::FilmLaunch& launch) const {
-    return last_ && launch.firstSlot < last_->firstSlot + last_->bandWidth &&
-           last_->firstSlot < launch.firstSlot + launch.bandWidth;
+    if (!last_) return false;
+    return last_->bandSlots != launch.bandSlots || (launch.firstSlot < last_->firstSlot + last_->bandWidth &&
+                                                    last_->firstSlot < launch.firstSlot + launch.bandWidth);
 }
 
 std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch) {

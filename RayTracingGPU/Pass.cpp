@@ -13,7 +13,8 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 
 // Where two launches take all pixels several samples further, they are a pass: one would have to wait for the paths of
 // the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
-// shorter than it may be. Large films go on by whole blocks.
+// shorter than it may be. Where there is a plan, half of the tiles at least are done with a pass, and the next one leaves
+// them out. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
               std::uint64_t wanted) {
     const std::uint64_t replicates = region.replicates();
@@ -22,8 +23,9 @@ Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, 
     std::uint64_t end = (begun / round + kRegionRounds) * round;
     if (region.isWhole()) {
         const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region.columnSamples(), 1);
-        const std::uint64_t steps =
+        std::uint64_t steps =
             std::max(std::max(2 * fitting, wanted) / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
+        if (region.hasPlan()) steps = std::min<std::uint64_t>(steps, region.stepsOfHalf());
         end = begun + std::clamp<std::uint64_t>(steps, 1, most) * replicates;
     }
     end = std::min(end, spp);

@@ -31,7 +31,7 @@ void main() {
     uint position = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
     if (position >= launch.slotCount) return;
     uint slot = launchSlot(launch, position);
-    if (slot >= launch.filmSlots) return;
+    if (slot >= launch.activeSlots) return;
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
     uint done = launch.samples.at[slot];
     uint end = samplesAfter(launch, slot, done);

@@ -9,7 +9,9 @@ layout(local_size_x = 64) in; // the pixels of one tile
 layout(push_constant, scalar) uniform Launch { ResolveLaunch launch; };
 
 void main() {
-    uint tile = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    uint position = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
+    if (position * launch.replicates >= launch.filmSlots) return;
+    uint tile = launch.samples.at[launch.filmSlots + position];
     uint tilePixel = gl_LocalInvocationID.x;
     uvec2 pixel = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile + uvec2(tilePixel % kTile, tilePixel / kTile);
     if (pixel.x >= launch.width || pixel.y >= launch.height) return;
@@ -18,7 +20,7 @@ void main() {
         vec3 sum = vec3(0.0f);
         uint samples = 0u;
         for (uint replicate = half_; replicate < launch.replicates; replicate += launch.halves) {
-            uint slot = tile * launch.replicates + replicate;
+            uint slot = position * launch.replicates + replicate;
             uint at = slot * kTilePixels + tilePixel;
             uint done = launch.samples.at[slot];
             vec3 low = launch.sums.at[at].low;

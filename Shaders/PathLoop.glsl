@@ -26,7 +26,7 @@ struct Work {
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint slot = launchSlot(launch, step / launch.steps);
-    if (slot >= launch.filmSlots) return false;
+    if (slot >= launch.activeSlots) return false;
     uint tilePixel = work.number % kTilePixels;
     work.pixel = pixelInTile(constants.params.width, launch.samples.at[tileEntry(launch, slot)], tilePixel);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;

@@ -111,7 +111,7 @@ const uint kKeepsBlockSquares = 1u;  // of (block sum)^2 / kBlock
 const uint kKeepsSampleSquares = 2u; // of the samples of a pilot
 const uint kIsPlanned = 4u;
 
-// Push constants of a launch: some slots of each of the bands of slots that the film on the device is cut into, so that
+// Push constants of a launch: some slots of each of the bands that the film's active slots are cut into, so that
 // each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
 // without slots takes no samples and leaves no paths.
 struct FilmLaunch {
@@ -128,13 +128,14 @@ struct FilmLaunch {
     MutableWordArray countersBefore;
     uint replicates;
     uint filmSlots;
-    uint bandSlots; // the last band may lack some
-    uint firstSlot; // of each band
-    uint bandWidth; // from firstSlot on
-    uint slotCount; // bandWidth times the bands
-    uint steps;     // samples that the launch may take each slot further
-    uint spp;       // per pixel, all replicates, at which the launch stops
-    uint flags;     // kKeepsBlockSquares and so on
+    uint activeSlots; // the first ones of these: the others have all that a plan gives them
+    uint bandSlots;   // the last band may lack some
+    uint firstSlot;   // of each band
+    uint bandWidth;   // from firstSlot on
+    uint slotCount;   // bandWidth times the bands
+    uint steps;       // samples that the launch may take each slot further
+    uint spp;         // per pixel, all replicates, at which the launch stops
+    uint flags;       // kKeepsBlockSquares and so on
 };
 
 // Push constants of FilmResolve.comp, for a film that is whole.
@@ -149,7 +150,7 @@ struct ResolveLaunch {
     uint tilesX;
     uint replicates;
     uint halves; // whose means make the picture: 2 where there is a plan, else 1
-    uint unused; // as in TreeArrays
+    uint filmSlots;
 };
 
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
@@ -174,7 +175,7 @@ RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint slot, uint done) {
     return max(done, min(done + launch.steps, end));
 }
 
-// Slot i of a launch, i < slotCount. There is none from filmSlots on, where the last band ends early.
+// Slot i of a launch, i < slotCount. There is none from activeSlots on, where the last band ends early.
 RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
 }

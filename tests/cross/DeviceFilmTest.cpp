@@ -1,4 +1,4 @@
-// The film on the device: exact on its way there and back, and it does not stagnate.
+// The film on the device: exact on its way there and back, it does not stagnate, and launches leave out what is done.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -97,6 +97,34 @@ TEST(DeviceFilmTest, RareLargeSumsKeepTheSmallOnes) {
     std::uniform_real_distribution<float> uniform;
     const auto next = [&] { return uniform(random) < 1e-4f ? 2e4f * uniform(random) : 0.02f * uniform(random); };
     EXPECT_LE(reductionError(kManyBlocks, next), 1e-9);
+}
+
+// Of 16 tiles one lacks 100 samples of each pixel, one 50 in one replicate, and the others none.
+TEST(DeviceFilmTest, LaunchesLeaveOutTilesThatAreDone) {
+    Film film({32, 32, 2, false, true});
+    std::vector<std::uint32_t> plan(std::size_t{16} * 2 * Film::kTilePixels);
+    const auto give = [&plan](std::size_t slot, std::uint32_t samples) {
+        std::fill_n(&plan[slot * Film::kTilePixels], Film::kTilePixels, samples);
+    };
+    give(3 * 2, 100);
+    give(3 * 2 + 1, 100);
+    give(5 * 2 + 1, 50);
+    film.setPlan(std::move(plan));
+    gpu::DeviceFilm onDevice(device(), film.desc(), 16);
+    onDevice.load(film, {3, 5, 0, 1, 2, 4, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}, 0);
+    const auto launch = [&onDevice] {
+        shared::FilmLaunch all{};
+        onDevice.describe(all, 0, onDevice.bandSlots());
+        all.steps = all.spp = 1000;
+        return all;
+    };
+    EXPECT_EQ(launch().activeSlots, 32u);
+    EXPECT_EQ(onDevice.samplesOf(launch()), 250u * Film::kTilePixels);
+    onDevice.leaveOutDone();
+    EXPECT_EQ(launch().activeSlots, 4u);
+    EXPECT_EQ(onDevice.samplesOf(launch()), 250u * Film::kTilePixels);
+    EXPECT_EQ(onDevice.stepsOfHalf(), 50u);
+    EXPECT_EQ(onDevice.bands() * onDevice.bandSlots(), 4u);
 }
 
 } // namespace
