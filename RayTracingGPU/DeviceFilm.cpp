@@ -241,7 +241,7 @@ void DeviceFilm::leaveOutDone() {
 std::uint32_t DeviceFilm::stepsOfHalf() const {
     const std::uint32_t first = activeSlots_ / desc_.replicates / 2 * desc_.replicates;
     std::uint32_t steps = 0;
-    for (std::uint32_t slot = first; slot < first + desc_.replicates; ++slot)
+    for (std::uint32_t slot = first; slot < activeSlots_; ++slot)
         steps = std::max(steps, std::max(planEnds_[slot], samples_[slot]) - samples_[slot]);
     return steps;
 }

@@ -76,7 +76,7 @@ class DeviceFilm {
     // Of a step, which is one sample of every slot for each of its pixels inside of the image; with a plan, of the step
     // that comes next, for the pixels that are not done.
     std::uint64_t stepSamples() const;
-    // With a plan: samples that half of the tiles that are not left out lack at least, if those with many come first.
+    // With a plan: samples after which the second half of the tiles that are not left out is done.
     std::uint32_t stepsOfHalf() const;
     bool hasPlan() const { return !plan_.empty(); }
     // The slots that are not left out are cut into bands. A launch takes `width` slots of each, from `first` <

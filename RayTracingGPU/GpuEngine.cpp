@@ -35,10 +35,9 @@ namespace {
 using image::Film;
 using vulkan::Memory;
 
-// All tiles; where there is a plan those that it gives many samples come first, so that launches can leave out the
-// others when these are done.
-image::TileList tilesInOrder(const Film& film) {
-    image::TileList tiles = image::allTiles(film);
+// Where there is a plan, tiles that it gives many samples come first, so that launches can leave out the others when
+// these are done.
+image::TileList inOrder(const Film& film, image::TileList tiles) {
     const auto endOf = [&film](std::uint32_t tile) {
         std::uint32_t end = 0;
         for (std::uint32_t r = 0; r < film.desc().replicates; ++r) end = std::max(end, film.planEnd(tile, r));
@@ -191,7 +190,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
-    tiles_ = tilesInOrder(film_);
+    tiles_ = inOrder(film_, image::allTiles(film_));
     limit_.reset();
     loadTiles();
 }
@@ -199,7 +198,7 @@ void GpuEngine::setFilm(Film film) {
 void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) {
     if (dirty_) refresh();
     image::unpackTiles(packed, film_);
-    tiles_ = std::move(tiles);
+    tiles_ = inOrder(film_, std::move(tiles));
     limit_ = spp;
     loadTiles();
 }
@@ -261,7 +260,10 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
     if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples(cancel);
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
-    region_->leaveOutDone();
+    if (film_.hasPlan()) {
+        finishPaths(); // what they bring may be the last of a tile
+        region_->leaveOutDone();
+    }
     const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
     pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted);
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();

@@ -13,7 +13,7 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 
 // Where two launches take all pixels several samples further, they are a pass: one would have to wait for the paths of
 // the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
-// shorter than it may be. Where there is a plan, half of the tiles at least are done with a pass, and the next one leaves
+// shorter than it may be. Where there is a plan, a pass ends where half of the tiles are done, and the next one leaves
 // them out. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
               std::uint64_t wanted) {

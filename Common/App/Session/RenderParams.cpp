@@ -21,10 +21,10 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-// RenderParams::russianRoulette, by error times time (docs/light-sampling.md). Paths in rooms go on more often than their
-// throughput says: indirect light makes most of the noise. Where there are many lamps their edges make it. Most paths
-// under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones by chance saves
-// little and triples the variance.
+// RenderParams::russianRoulette, by error times time (docs/light-sampling.md). Paths in rooms go on more often than
+// their throughput says: indirect light makes most of the noise. Where there are many lamps their edges make it. Most
+// paths under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones by chance
+// saves little and triples the variance.
 constexpr std::uint32_t kRoulette = 2;
 constexpr std::uint32_t kRouletteOfManyLamps = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
