@@ -225,15 +225,10 @@ std::uint32_t DeviceFilm::bandSlots() const {
 }
 
 void DeviceFilm::leaveOutDone() {
+    if (!hasPlan()) return;
     std::uint32_t active = activeSlots_;
-    const auto isDone = [this](std::uint32_t slot) { return samples_[slot] >= planEnds_[slot]; };
-    while (!plan_.empty() && active > desc_.replicates) {
-        bool isTileDone = true;
-        for (std::uint32_t slot = active - desc_.replicates; slot < active; ++slot)
-            isTileDone = isTileDone && isDone(slot);
-        if (!isTileDone) break;
-        active -= desc_.replicates;
-    }
+    while (active > 1 && samples_[active - 1] >= planEnds_[active - 1]) --active;
+    active = (active + desc_.replicates - 1) / desc_.replicates * desc_.replicates; // whole tiles
     constexpr std::uint32_t kPart = 8; // an eighth at least: paths under way have to end before the bands change
     if (activeSlots_ - active >= activeSlots_ / kPart) activeSlots_ = active;
 }
