@@ -201,7 +201,7 @@ class CpuEngine final : public app::Engine {
         report.features = features_;
         report.lightSampling = app::describeLightShapes(settings_, features_);
         report.kernel = std::string(kernel_ == nullptr ? "" : kernel_->name) + "/" + name(set_);
-        report.rays = {counters_.camera, counters_.scattered, counters_.shadow};
+        report.rays = {counters_.camera, counters_.scattered, counters_.shadow, counters_.edge};
         report.nonfiniteSamples = counters_.nonfinite;
         report.deviceBytes = film_.bytes() + (scene_ ? scene_->accel->bytes() : 0);
         return report;
@@ -215,6 +215,8 @@ class CpuEngine final : public app::Engine {
         settings_ = settings;
         context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
+        edges_ = app::splitAtEdges(s, context_.camera, settings, context_.params);
+        if (context_.params.edgeRays > 0) context_.edges = edges_.bits.data();
         film_ = std::move(film);
         limit_.reset();
         passEnd_ = 0;
@@ -237,7 +239,7 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         kernel_->renderTiles(context_, {&task, 1}, nullptr, counters);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow);
+        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow + counters.edge);
         return static_cast<float>((cost == app::Cost::Time ? seconds : rays) / samples);
     }
 
@@ -302,6 +304,7 @@ class CpuEngine final : public app::Engine {
         counters_.camera += counters.camera;
         counters_.scattered += counters.scattered;
         counters_.shadow += counters.shadow;
+        counters_.edge += counters.edge;
         counters_.nonfinite += counters.nonfinite;
     }
 
@@ -323,6 +326,7 @@ class CpuEngine final : public app::Engine {
     app::RenderSettings settings_;
     std::uint32_t features_ = 0;
     const Kernel* kernel_ = nullptr;
+    scene::LightEdges edges_;
     KernelContext context_;
 
     Film film_;

@@ -20,6 +20,7 @@ struct KernelCounters {
     std::uint64_t camera = 0;
     std::uint64_t scattered = 0;
     std::uint64_t shadow = 0;
+    std::uint64_t edge = 0;
     std::uint64_t nonfinite = 0;
 };
 
@@ -66,6 +67,9 @@ struct KernelContext {
     const CpuScene* scene = nullptr;
     shared::RenderParams params{};
     shared::Camera camera{};
+    const std::uint32_t* edges = nullptr; // of params.edgeRays, as scene::LightEdges::bits; null: there are none
+
+    bool isAtEdge(std::uint32_t pixel) const { return edges != nullptr && (edges[pixel / 32] >> pixel % 32 & 1u) != 0; }
 };
 
 // One specialisation. A kernel renders every scene whose features it covers.

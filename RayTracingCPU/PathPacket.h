@@ -4,6 +4,7 @@
 // translation unit per instruction set; all it defines has internal linkage.
 #pragma once
 #include "RayTracingCPU/ConnectionLanes.h"
+#include "RayTracingCPU/EdgeLanes.h"
 #include "RayTracingCPU/LightLanes.h"
 #include "RayTracingCPU/TileSamples.h"
 
@@ -142,13 +143,15 @@ class PathPacket {
     // radiances: of the tasks' samples, in the order of TileSamples.
     PathPacket(const KernelContext& context, std::span<const TileTask> tasks, const std::atomic<bool>* cancel,
                vec3* radiances, KernelCounters& counters)
-        : scene_(*context.scene),
+        : context_(context),
+          scene_(*context.scene),
           params_(context.params),
           cancel_(cancel),
           samples_(context, tasks),
           radiances_(radiances),
           counters_(counters),
-          connections_(scene_, params_, counters) {}
+          connections_(scene_, params_, counters),
+          edgeRays_(context) {}
 
     // Traces the paths of all samples. False: cancelled.
     bool trace() {
@@ -165,6 +168,7 @@ class PathPacket {
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
         }
         if constexpr (kConnects) addConnections();
+        edgeRays_.finish(radiances_, counters_);
         return true;
     }
 
@@ -198,9 +202,14 @@ class PathPacket {
     // False: there is no sample left.
     bool begin(PathSlot& slot, uint i) {
         Ray ray;
-        slot.sample = samples_.template next<kFeatures>(lanes_, i, ray);
+        uvec2 pixel;
+        slot.sample = samples_.template next<kFeatures>(lanes_, i, ray, pixel);
         if (slot.sample == kNone) return false;
         slot.path = startPath(ray);
+        if (context_.isAtEdge(pixel.y * params_.width + pixel.x)) {
+            slot.path.pdf = kCountedApart;
+            edgeRays_.add(pixel, get(lanes_.samplers, i), slot.sample);
+        }
         return true;
     }
 
@@ -296,6 +305,7 @@ class PathPacket {
         return hit;
     }
 
+    const KernelContext& context_;
     const CpuScene& scene_;
     const RenderParams& params_;
     const std::atomic<bool>* cancel_;
@@ -305,6 +315,7 @@ class PathPacket {
     PathSlot slots_[kLanes]{};
     PathLanes lanes_{};
     Connections<kFeatures> connections_;
+    EdgeRays<kFeatures> edgeRays_;
 };
 
 } // namespace

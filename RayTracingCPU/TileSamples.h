@@ -19,10 +19,10 @@ class TileSamples {
 
     uint count() const { return count_; }
 
-    // The index of the next sample, with its camera ray; its sampler and what the ray hits in a lane. kNone: none is
-    // left.
+    // The index of the next sample, with its camera ray and pixel; its sampler and what the ray hits in a lane. kNone:
+    // none is left.
     template <uint kFeatures>
-    uint next(PathLanes& lanes, uint lane, Ray& ray) {
+    uint next(PathLanes& lanes, uint lane, Ray& ray, uvec2& pixel) {
         if (next_ == count_) return kNone;
         const uint i = next_ % kLanes;
         if (i == 0u) {
@@ -32,6 +32,7 @@ class TileSamples {
         set(lanes.samplers, lane, get(samplers_, i));
         set(lanes.hits, lane, get(hits_, i));
         ray = get(rays_, i);
+        pixel = uvec2(pixelX_.at[i], pixelY_.at[i]);
         return next_++;
     }
 
@@ -39,7 +40,6 @@ class TileSamples {
     // Of the samples from next_ on.
     template <uint kFeatures>
     void generateRays() {
-        UintLanes x, y;
         for (uint i = 0u; i < kLanes; ++i) {
             const bool isSample = next_ + i < count_; // those behind the last stay in its pixel
             while (isSample && sampleInPixel_ == inPixel_) nextPixel();
@@ -50,15 +50,15 @@ class TileSamples {
             Sampler s = first_;
             s.index += sampleInPixel_++;
             set(samplers_, i, s);
-            x.at[i] = task_->x + x_;
-            y.at[i] = task_->y + y_;
+            pixelX_.at[i] = task_->x + x_;
+            pixelY_.at[i] = task_->y + y_;
         }
         RecordLanes<CameraSamples> u;
         const RenderParams params = context_.params; // of this function, so that no lane could overlap them
         const Camera camera = context_.camera;
         drawCameraSamples<kFeatures>(samplers_, u);
         for (uint i = 0u; i < kLanes; ++i) {
-            const uvec2 pixel(x.at[i], y.at[i]);
+            const uvec2 pixel(pixelX_.at[i], pixelY_.at[i]);
             set(rays_, i, cameraRay(kFeatures, params, camera, pixel, get(u, i)));
         }
     }
@@ -95,6 +95,7 @@ class TileSamples {
     Sampler first_{}; // of the pixel's samples
     RecordLanes<Sampler> samplers_;
     RecordLanes<Ray> rays_;
+    UintLanes pixelX_, pixelY_;
     RecordLanes<Hit> hits_;
 };
 

@@ -105,6 +105,7 @@ class GpuEngine final : public app::Engine {
     RenderBindings bindings_;
     std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer uniforms_;              // RenderConstants
+    vulkan::Buffer edges_;                 // of lights, of which these tell
     LaunchQueue launches_;
     ReadBackPool readBacks_;
 
@@ -151,7 +152,8 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     TraversalShape traversal = scene_->shape();
     traversal.groupSize = groupSize(context_, features_);
     const SpecializationConstants constants =
-        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, traversal);
+        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount,
+                                    app::mayHaveEdges(scene_->compiled(), settings), traversal);
     if (!kernel_ || constants_ != constants) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
@@ -181,10 +183,13 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     constants.arrays = scene_->arrays();
     constants.tree = scene_->tree();
     constants.globals = s.globals;
+    constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
+    const scene::LightEdges edges = app::splitAtEdges(s, constants.camera, settings_, params_);
+    edges_ = vulkan::deviceArray<std::uint32_t>(context_, edges.bits, "edges of lights");
+    constants.edges = edges_.address();
     constants.params = params_;
     const std::size_t bounds = std::min<std::size_t>(s.lightBounds.size(), shared::kContributionLights);
     std::copy_n(s.lightBounds.begin(), bounds, constants.lightBounds);
-    constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
     vulkan::upload(context_, uniforms_, std::as_bytes(std::span(&constants, 1)));
 }
 
@@ -312,9 +317,7 @@ void GpuEngine::endLaunch() {
     const LaunchQueue::Ended ended = launches_.end();
     if (ended.samples != 0) launchSize_->measured(ended.samples, ended.seconds);
     report_.renderDeviceSeconds += ended.seconds;
-    report_.rays.camera += ended.samples;
-    report_.rays.scattered += ended.scattered;
-    report_.rays.shadow += ended.shadow;
+    report_.rays += {ended.samples, ended.scattered, ended.shadow, ended.edgeRays};
     report_.nonfiniteSamples += ended.nonfinite;
     if (ended.finished != ended.due) {
         failed_ = true; // what is on the device is not a film

@@ -146,6 +146,7 @@ LaunchQueue::Ended LaunchQueue::end() {
     ended.seconds = context_.finishTimed(launch.run);
     const std::span<const std::uint32_t> counters = launch.hostCounters.mapped<const std::uint32_t>();
     for (std::size_t line = 0; line < counters.size(); line += shared::kCounters) {
+        ended.edgeRays += counters[line + shared::kCounterEdgeRays];
         ended.scattered += counters[line + shared::kCounterScattered];
         ended.shadow += counters[line + shared::kCounterShadow];
         ended.nonfinite += counters[line + shared::kCounterNonfinite];

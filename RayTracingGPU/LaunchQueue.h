@@ -51,6 +51,7 @@ class LaunchQueue {
         std::uint64_t samples = 0;   // that it began
         std::uint64_t due = 0;       // that were to end in it
         std::uint64_t finished = 0;  // as many, but for drivers that end long loops early: that has been seen
+        std::uint64_t edgeRays = 0;  // see EdgeRays.h
         std::uint64_t scattered = 0; // rays
         std::uint64_t shadow = 0;    // rays
         std::uint64_t nonfinite = 0; // samples that were dropped

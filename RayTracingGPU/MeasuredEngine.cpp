@@ -25,7 +25,7 @@ constexpr std::chrono::duration<double> kWarmUp{0.02};
 constexpr std::chrono::duration<double> kMeasured{0.04};
 
 double raysOf(const app::EngineReport& report) {
-    return static_cast<double>(report.rays.camera + report.rays.scattered + report.rays.shadow);
+    return static_cast<double>(report.rays.all());
 }
 
 // Rays per second of the device's time, of an engine that has the scene.

@@ -23,6 +23,7 @@ constexpr std::array kEntries{
     entry(shared::kSamplerKindId, offsetof(SpecializationConstants, samplerKind)),
     entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
     entry(shared::kLightCountId, offsetof(SpecializationConstants, lightCount)),
+    entry(shared::kHasEdgesId, offsetof(SpecializationConstants, hasEdges)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
     entry(shared::kTreeIsWideId, kTraversal + offsetof(TraversalShape, treeIsWide)),
@@ -63,12 +64,20 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
 }
 
 SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
-                                                    std::uint32_t lights, const TraversalShape& traversal) {
+                                                    std::uint32_t lights, bool hasEdges,
+                                                    const TraversalShape& traversal) {
     const bool usesLights = params.lightSampling == shared::kSampleMixture || shared::samplesLights(features, params);
     const bool isWeighed = usesLights && lights <= shared::kContributionLights;
-    return {features,           params.lightSampling,   params.lightSelection,
-            params.sphereLight, params.quadLight,       params.triangleLight,
-            params.samplerKind, params.russianRoulette, isWeighed ? lights : 0,
+    return {features,
+            params.lightSampling,
+            params.lightSelection,
+            params.sphereLight,
+            params.quadLight,
+            params.triangleLight,
+            params.samplerKind,
+            params.russianRoulette,
+            isWeighed ? lights : 0,
+            hasEdges ? 1u : 0u,
             traversal};
 }
 

@@ -18,6 +18,7 @@ layout(constant_id = kTriangleLightId) const uint kTriangleLight = kShapeAuto;
 layout(constant_id = kSamplerKindId) const uint kSamplerKind = kSamplerSobol;
 layout(constant_id = kRussianRouletteId) const uint kRussianRoulette = 1u;
 layout(constant_id = kLightCountId) const uint kLightCount = 0u; // 0: as the scene says
+layout(constant_id = kHasEdgesId) const uint kHasEdges = 0u;     // 1: there may be edges of lights in sight
 
 layout(set = 0, binding = 1, scalar) uniform Constants { RenderConstants constants; };
 

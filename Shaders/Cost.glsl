@@ -4,11 +4,13 @@
 #extension GL_ARB_shader_clock : require
 #endif
 #include "PixelPass.glsl"
+#include "Edges.glsl"
 #include "TraceStep.glsl"
 
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
-uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
+uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool isEdgeRay) {
     PathState path = beginPath(params, samples);
+    if (isEdgeRay) path = startEdgeRay(params, path.ray, vec3(0.0f));
     DirectLight direct = noDirectLight();
     Passage passage = noPassage();
     uint rays = 0u;
@@ -27,6 +29,18 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples) {
     return rays;
 }
 
+// Of a sample.
+uint traceSample(SceneRef scene, RenderParams params, PixelSamples samples) {
+    uint rays = tracePath(scene, params, samples, false);
+    uint count = edgeRays(samples.pixel);
+    Sampler smp = samples.smp;
+    for (uint i = 0u; i < count; i++) {
+        samples.smp = edgeSampler(params, smp, i);
+        rays += tracePath(scene, params, samples, true);
+    }
+    return rays;
+}
+
 // What the invocation of one pixel of a launch does.
 void writeCost(uint invocation) {
     SceneRef scene;
@@ -38,7 +52,7 @@ void writeCost(uint invocation) {
 #ifdef RT_TIME
     uint start = clock2x32ARB().x; // a launch is far shorter than the low word's turn
 #endif
-    for (; samples.smp.index < launch.samples; samples.smp.index++) cost += tracePath(scene, params, samples);
+    for (; samples.smp.index < launch.samples; samples.smp.index++) cost += traceSample(scene, params, samples);
 #ifdef RT_TIME
     cost = cost > 0u ? clock2x32ARB().x - start : 0u; // the paths must have been traced
 #endif

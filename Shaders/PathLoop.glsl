@@ -8,7 +8,7 @@
 //   tracesApart()  whether the program has two places that trace, one for each of the two rays of a step
 #extension GL_KHR_memory_scope_semantics : require
 #include "SceneAccess.glsl"
-#include "Common/Shared/Path/PathStep.h"
+#include "Edges.glsl"
 #include "TraceStep.glsl"
 #include "PixelEnd.glsl"
 
@@ -17,10 +17,15 @@ layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 struct Work {
     uint number; // of the sample in its launch
     uvec2 pixel;
-    Sampler smp; // its index is that of the sample in the pixel, or `end` when that is done
-    uint end;
+    Sampler smp;    // of the path that is under way
+    uint edgeRays;  // of the sample that have not ended; one more while its own path, which comes first, is under way
     bool isResumed; // the launch before began it
 };
+
+// Where an invocation counts: neighbours, whose sums are one access, in one place.
+uint counterLine(uint invocation) {
+    return invocation / 32u % kCounterLines * kCounters;
+}
 
 // Finds the sample of this number. False: there is no such pixel or sample.
 bool findWork(inout Work work) {
@@ -34,7 +39,6 @@ bool findWork(inout Work work) {
     uint index = done + step % launch.steps;
     uint pixelIndex = work.pixel.y * constants.params.width + work.pixel.x;
     work.smp = makeSampler(renderParams(), pixelIndex, slot % launch.replicates, index);
-    work.end = index + 1u;
     return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, slot, done));
 }
 
@@ -49,8 +53,29 @@ bool takeWork(inout Work work) {
     }
 }
 
-PathState beginPath(RenderParams params, Work work) {
-    return startPath(cameraRay(kFeatures, params, constants.camera, work.pixel, cameraSamples(kFeatures, work.smp)));
+// Of a sample that has been taken, or its next edge ray.
+PathState beginPath(RenderParams params, Work work, bool isEdgeRay, vec3 radiance) {
+    Ray ray = cameraRay(kFeatures, params, constants.camera, work.pixel, cameraSamples(kFeatures, work.smp));
+    PathState path = startPath(ray);
+    if (isEdgeRay) path = startEdgeRay(params, ray, radiance);
+    if (!isEdgeRay && work.edgeRays != 0u) path.pdf = kCountedApart;
+    return path;
+}
+
+// When its own path is to begin: tells whether edge rays follow, and counts them.
+void expectEdgeRays(uint invocation, inout Work work) {
+    uint rays = edgeRays(work.pixel);
+    if (rays == 0u) return;
+    work.edgeRays = rays + 1u;
+    atomicAdd(launch.counters.at[counterLine(invocation) + kCounterEdgeRays], rays);
+}
+
+void nextEdgeRay(RenderParams params, inout Work work) {
+    work.edgeRays--;
+    if (work.edgeRays == params.edgeRays)
+        work.smp = edgeSampler(params, work.smp, 0u);
+    else
+        work.smp.index++;
 }
 
 // Goes on with the path of this number that the launch before left. False: there is none.
@@ -63,7 +88,8 @@ bool resumePath(uint number, RenderParams params, inout Work work, inout PathSta
     work.smp.key = unfinished.key;
     work.smp.index = unfinished.index;
     work.smp.base = unfinished.base;
-    work.end = unfinished.index + 1u;
+    work.pixel = unfinished.pixel;
+    if (kHasEdges != 0u) work.edgeRays = unfinished.edgeRays;
     work.isResumed = true;
     path = unfinished.path;
     if (!has(kFeatures, kFeatureMovingSpheres)) path.ray.time = 0.0f; // as the compiler is to know
@@ -79,6 +105,8 @@ void leavePath(Work work, PathState path, DirectLight direct, Passage passage, b
     unfinished.key = work.smp.key;
     unfinished.index = work.smp.index;
     unfinished.base = work.smp.base;
+    unfinished.pixel = work.pixel;
+    unfinished.edgeRays = work.edgeRays;
     unfinished.goesOn = goesOn ? 1u : 0u;
     unfinished.path = path;
     unfinished.direct = direct;
@@ -105,8 +133,7 @@ void tracePaths(uint invocation) {
     uint nonfinite = 0u;
     uint finished = 0u;
     Work work;
-    work.smp.index = 0u;
-    work.end = 0u;
+    work.edgeRays = 0u;
     work.isResumed = false;
     PathState path;
     DirectLight direct = noDirectLight();
@@ -120,10 +147,14 @@ void tracePaths(uint invocation) {
         // Paths begin in one place: compilers round two copies of it differently, and it is the launch that decides
         // which samples an invocation begins with.
         if (begins) {
-            // The sample is always done here; without the question LLVM 15 crashes, with which Mesa compiles for
-            // processors.
-            isSpent = work.smp.index == work.end && !takeWork(work);
-            if (!isSpent) path = beginPath(params, work);
+            bool isEdgeRay = work.edgeRays != 0u;
+            if (isEdgeRay) {
+                nextEdgeRay(params, work);
+            } else {
+                isSpent = !takeWork(work);
+                if (!isSpent) expectEdgeRays(invocation, work);
+            }
+            if (!isSpent) path = beginPath(params, work, isEdgeRay, path.radiance);
         }
         if (isSpent) {
             tellSamplesAreSpent();
@@ -134,6 +165,7 @@ void tracePaths(uint invocation) {
         if (tracesApart()) {
             Hit hit = traceStep(work.smp, path, direct, passage, false, nonfinite);
             goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
+            scattered += uint(goesOn);
             while (isChecking(direct, passage)) {
                 hit = traceStep(work.smp, path, direct, passage, true, nonfinite);
                 endChecked(scene, hit, path, direct, passage);
@@ -150,12 +182,13 @@ void tracePaths(uint invocation) {
                     shadow++;
                 } else {
                     goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
+                    scattered += uint(goesOn);
                 }
             }
         }
         begins = !goesOn && !isChecking(direct, passage);
-        if (begins) {
-            scattered += path.vertex - 1u;
+        if (begins && work.edgeRays <= 1u) {
+            work.edgeRays = 0u;
             // A sample that is not a number is dropped and counted, and stays in the divisor.
             if (!isFinite(path.radiance)) {
                 path.radiance = vec3(0.0f);
@@ -165,11 +198,10 @@ void tracePaths(uint invocation) {
             if (work.isResumed) radiance = launch.radianceBefore;
             radiance.at[work.number] = path.radiance;
             finished++;
-            work.smp.index++;
         }
     }
     if (!isSpent) leavePath(work, path, direct, passage, goesOn);
-    uint line = invocation / 32u % kCounterLines * kCounters; // the same for neighbours, whose sums are one access
+    uint line = counterLine(invocation);
     atomicAdd(launch.counters.at[line + kCounterFinished], finished);
     atomicAdd(launch.counters.at[line + kCounterScattered], scattered);
     atomicAdd(launch.counters.at[line + kCounterShadow], shadow);

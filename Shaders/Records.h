@@ -67,6 +67,7 @@ struct TreeArrays {
 struct RenderConstants {
     SceneArrays arrays;
     TreeArrays tree;
+    WordArray edges; // of lights, as scene::LightEdges has them, where params.edgeRays > 0
     SceneGlobals globals;
     RenderParams params;
     Camera camera;
@@ -99,7 +100,9 @@ struct UnfinishedPath {
     uint key;
     uint index;
     uint base;
-    uint goesOn; // 1: it has a next vertex; 0: only shadow rays are to be traced
+    uvec2 pixel;
+    uint edgeRays; // of the sample, see PathLoop.glsl
+    uint goesOn;   // 1: it has a next vertex; 0: only shadow rays are to be traced
     PathState path;
     DirectLight direct;
     Passage passage; // read with kFeatureConnections
@@ -160,6 +163,7 @@ const uint kCounterShadow = 2u;
 const uint kCounterNonfinite = 3u; // samples that were dropped
 const uint kCounterFinished = 4u;  // samples
 const uint kCounterLeft = 5u;      // of line 0: paths left to the next launch
+const uint kCounterEdgeRays = 7u;
 const uint kCounters = 8u;
 const uint kCounterLines = 64u;
 const uint kSpent = (kCounterLines - 1u) * kCounters + 6u; // 1 when no sample is left; away from what is written often

@@ -15,6 +15,7 @@ const uint kTriangleLightId = 5u;
 const uint kSamplerKindId = 6u;
 const uint kRussianRouletteId = 7u;
 const uint kLightCountId = 8u;
+const uint kHasEdgesId = 20u;
 // Of compute shaders that trace rays, see Traverse.glsl.
 const uint kGroupSizeId = 9u;
 const uint kTreeDepthId = 10u;

@@ -49,7 +49,7 @@ double pixelsOf(const Config& config) {
 }
 
 double raysOf(const Snapshot& s) {
-    return static_cast<double>(s.rays.camera + s.rays.scattered + s.rays.shadow);
+    return static_cast<double>(s.rays.all());
 }
 
 Figure ratio(const Figure& a, const Figure& b) {

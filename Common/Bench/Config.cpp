@@ -66,6 +66,7 @@ constexpr Axis kAxes[] = {
     method<"quad_light", &RenderSettings::quadLight, kFlatLights>(),
     method<"triangle_light", &RenderSettings::triangleLight, kFlatLights>(),
     method<"specular_connections", &RenderSettings::specularConnections, kSpecularConnections>(),
+    method<"edge_rays", &RenderSettings::edgeRays, kEdgeRays>(),
     method<"sampler", &RenderSettings::sampler, kSamplers>(),
     method<"adaptive", &RenderSettings::adaptive, kAdaptive>(),
     method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),

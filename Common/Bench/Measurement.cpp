@@ -23,10 +23,6 @@ constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 constexpr double kTimedSeconds = 0.25;          // a run that takes less is timed again,
 constexpr std::size_t kMostPasses = 9;          // so many times at most
 
-app::RayCounts operator+(const app::RayCounts& a, const app::RayCounts& b) {
-    return {a.camera + b.camera, a.scattered + b.scattered, a.shadow + b.shadow};
-}
-
 // Of one step, from run to run.
 struct Times {
     std::vector<double> wall, device, processor;
@@ -141,9 +137,7 @@ class Measurer {
         done_.seconds += film_->seconds() - secondsBefore;
         done_.processorSeconds += app::processorSeconds() - processorBefore;
         done_.deviceSeconds += after.renderDeviceSeconds - before.renderDeviceSeconds;
-        done_.rays = done_.rays + app::RayCounts{after.rays.camera - before.rays.camera,
-                                                 after.rays.scattered - before.rays.scattered,
-                                                 after.rays.shadow - before.rays.shadow};
+        done_.rays += after.rays - before.rays;
         return true;
     }
 

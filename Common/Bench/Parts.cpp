@@ -57,7 +57,7 @@ PartRow measurePart(Engines& engines, const PartsRequest& request, const Part& p
 }
 
 double raysOf(const PartRow& row) {
-    return static_cast<double>(row.rays.camera + row.rays.scattered + row.rays.shadow);
+    return static_cast<double>(row.rays.all());
 }
 
 Table costTable(std::span<const PartRow> rows) {
@@ -116,7 +116,8 @@ std::span<const Part> parts() {
         {"Sobol (independent)", {{"sampler", "independent"}}},
         {"roulette", {{"russian_roulette", "off"}}},
         {"materials (all diffuse)", {}, true},
-        {"all but camera rays", {{"max_depth", "1"}, {"light_sampling", "bsdf"}}},
+        {"rays at edges of lights", {{"edge_rays", "off"}}},
+        {"all but camera rays", {{"max_depth", "1"}, {"light_sampling", "bsdf"}, {"edge_rays", "off"}}},
         {"the exact mask (all features)", {{"features", "all"}}},
     };
     return all;

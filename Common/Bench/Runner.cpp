@@ -263,14 +263,14 @@ void SuiteRunner::measureDeviceRate(Config config) {
     config.settings.maxDepth = 1;
     config.settings.lightSampling = app::LightSampling::Bsdf;
     config.settings.sampler = app::SamplerKind::Independent;
+    config.settings.edgeRays = false;
     config.settings.features.reset();
     app::Engine* engine = engines_.prepare(config, scene_, stop_);
     if (engine == nullptr) return;
     const Run run = measure(*engine, *scene_, config.settings, {{}, {kRateSeconds}, 1e30}, 0, stop_);
     if (run.snapshots.empty()) return;
     const Snapshot& snapshot = run.snapshots.back();
-    rate =
-        static_cast<double>(snapshot.rays.camera + snapshot.rays.scattered + snapshot.rays.shadow) / snapshot.seconds;
+    rate = static_cast<double>(snapshot.rays.all()) / snapshot.seconds;
 }
 
 void SuiteRunner::measureOnce(const Experiment& experiment, Measured& measured, std::uint32_t repeat) {

@@ -95,8 +95,12 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
     film.writeState(out);
 }
 
-bool addLaterFields(nlohmann::json& render) {
-    return render.is_object() && render.emplace(kConnectionsField, "off").second;
+std::vector<std::string> addLaterFields(nlohmann::json& render) {
+    std::vector<std::string> added;
+    if (!render.is_object()) return added;
+    for (const char* field : kLaterFields)
+        if (render.emplace(field, "off").second) added.emplace_back(field);
+    return added;
 }
 
 Checkpoint readCheckpoint(const std::filesystem::path& path) {

@@ -3,6 +3,8 @@
 //   "RTCHECK\n" | version | bytes of JSON | JSON {"film": its FilmDesc, "render": the caller's} | hash of JSON | film
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -24,9 +26,10 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
-constexpr const char* kConnectionsField = "specular_connections";
+// Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays.
+inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays"};
 
-// Checkpoints of programs that made no connections do not tell so: adds it to what the caller compares. False: it told.
-bool addLaterFields(nlohmann::json& render);
+// Adds those that are missing, as "off", to what the caller compares, and returns their names.
+std::vector<std::string> addLaterFields(nlohmann::json& render);
 
 } // namespace rt::image

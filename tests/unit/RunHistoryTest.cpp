@@ -31,7 +31,7 @@ class RunHistoryTest : public ::testing::Test {
         r.lightSelection = "contribution";
         r.sphereLight = r.quadLight = r.triangleLight = "auto";
         r.russianRoulette = r.oneSidedLights = "on";
-        r.adaptive = r.specularConnections = "off";
+        r.adaptive = r.specularConnections = r.edgeRays = "off";
         r.relmse = 0.1;
         r.hasReference = true;
         r.referenceError = 0.001;
@@ -157,7 +157,8 @@ TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
               "scene_hash, camera, light_selection, sphere_light, quad_light, triangle_light, "
               "russian_roulette, one_sided_lights, adaptive");
     EXPECT_EQ(old.specularConnections, "off"); // there was nothing else
-    EXPECT_FALSE(isSameWork(old, old));        // what is not known is not equal
+    EXPECT_EQ(old.edgeRays, "off");
+    EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
     EXPECT_EQ(lackingIn(record("a")), "");
 }
 
@@ -183,6 +184,7 @@ TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {
              Change([](RunRecord& r) { r.oneSidedLights = "off"; }),
              Change([](RunRecord& r) { r.adaptive = "on"; }),
              Change([](RunRecord& r) { r.specularConnections = "on"; }),
+             Change([](RunRecord& r) { r.edgeRays = "on"; }),
          }) {
         RunRecord gpu = gpuRecord("a");
         change(gpu);

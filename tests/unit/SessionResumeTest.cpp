@@ -63,6 +63,7 @@ TEST_F(SessionResumeTest, CheckpointsOfAnotherRenderAreRefused) {
     refused({"--quad-light", "area"}, "quad_light");
     refused({"--triangle-light", "area"}, "triangle_light");
     refused({"--specular-connections", "off"}, "specular_connections");
+    refused({"--edge-rays", "off"}, "edge_rays");
     refused({"--russian-roulette", "off"}, "russian_roulette");
     refused({"--replicates", "2"}, "replicates");
     refused({"--width", "21"}, "width");
@@ -75,20 +76,23 @@ TEST_F(SessionResumeTest, CheckpointsOfAnotherRenderAreRefused) {
               std::string::npos);
 }
 
-// As they were before there were connections.
-TEST_F(SessionResumeTest, CheckpointsThatDoNotTellMadeNoConnections) {
+// As they were before there were connections, and before camera rays were split.
+TEST_F(SessionResumeTest, CheckpointsThatDoNotTellOfAMethodDidWithout) {
     const auto runWithout = [&](std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {"--specular-connections", "off"});
+        arguments.insert(arguments.end(), {"--specular-connections", "off", "--edge-rays", "off"});
         run(arguments);
     };
     runWithout({"--spp", "4", "--checkpoint", path("c.rtc")});
     image::Checkpoint checkpoint = image::readCheckpoint(path("c.rtc"));
-    ASSERT_EQ(checkpoint.render.erase("specular_connections"), 1u);
+    for (const char* field : image::kLaterFields) ASSERT_EQ(checkpoint.render.erase(field), 1u);
     image::writeCheckpoint(path("c.rtc"), checkpoint.render, checkpoint.film);
-    EXPECT_EQ(error<InputError>({"--spp", "8", "--resume", path("c.rtc")}),
-              path("c.rtc") +
-                  R"(: specular_connections is "off" in the checkpoint (of a program that had no choice) )" +
-                  R"(but "on" now)");
+    const auto errorWith = [&](const std::string& field) {
+        const std::string other = field == "--edge-rays" ? "--specular-connections" : "--edge-rays";
+        return error<InputError>({"--spp", "8", "--resume", path("c.rtc"), field, "on", other, "off"});
+    };
+    const std::string told = R"( is "off" in the checkpoint (of a program that had no choice) but "on" now)";
+    EXPECT_EQ(errorWith("--specular-connections"), path("c.rtc") + ": specular_connections" + told);
+    EXPECT_EQ(errorWith("--edge-rays"), path("c.rtc") + ": edge_rays" + told);
     runWithout({"--spp", "8", "--resume", path("c.rtc"), "-o", path("a.pfm")});
     runWithout({"--spp", "8", "-o", path("b.pfm")});
     EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));

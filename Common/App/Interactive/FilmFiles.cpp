@@ -75,7 +75,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     record.pipelineSeconds = report.pipelineSeconds;
     record.renderSeconds = film.seconds();
     if (film.seconds() > 0) {
-        const double rays = static_cast<double>(report.rays.camera + report.rays.scattered + report.rays.shadow);
+        const double rays = static_cast<double>(report.rays.all());
         record.samplesPerSecond = static_cast<double>(film.status().samplesDone) / film.seconds();
         record.raysPerSecond = rays / film.seconds();
     }
@@ -103,6 +103,7 @@ RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, c
     record.quadLight = nameOf(kFlatLights, settings.quadLight);
     record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
     record.specularConnections = nameOf(kSpecularConnections, settings.specularConnections);
+    record.edgeRays = nameOf(kEdgeRays, settings.edgeRays);
     record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
     record.oneSidedLights = nameOf(kOnOff, oneSidedLights);
     record.adaptive = nameOf(kAdaptive, settings.adaptive);

@@ -71,6 +71,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/one_sided_lights", "one_sided_lights", r.oneSidedLights);
     visit("/adaptive", "adaptive", r.adaptive);
     visit("/specular_connections", "specular_connections", r.specularConnections);
+    visit("/edge_rays", "edge_rays", r.edgeRays);
 }
 
 // Likewise, but no part of the work.
@@ -85,6 +86,7 @@ RunRecord fromJson(const nlohmann::json& json) {
         value = json.value(nlohmann::json::json_pointer(place), "");
     });
     if (r.specularConnections.empty()) r.specularConnections = nameOf(kSpecularConnections, false);
+    if (r.edgeRays.empty()) r.edgeRays = nameOf(kEdgeRays, false);
     r.referenceError = json.value(kReferenceError, 0.0);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
@@ -169,7 +171,8 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"Roulette", r.russianRoulette},
             {"One-sided", r.oneSidedLights},
             {"Adaptive", r.adaptive},
-            {"Glass spheres", r.specularConnections}};
+            {"Glass spheres", r.specularConnections},
+            {"Edges of lights", r.edgeRays}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {

@@ -83,6 +83,9 @@ inline constexpr Named<bool> kAdaptive[] = {
 inline constexpr Named<bool> kSpecularConnections[] = {
     {"off", false, "By chance", "scattering alone finds it"},
     {"on", true, "Connected", "connections to where it comes from, where chance is noisy; unbiased"}};
+inline constexpr Named<bool> kEdgeRays[] = {
+    {"off", false, "One ray a sample", "the path's own ray finds or misses the light"},
+    {"on", true, "Split rays", "several rays a sample where a light's edge crosses a pixel; unbiased"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -102,6 +105,8 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           settings.triangleLight...);
     visit("specular_connections", "Glass, mirrors", "how light that smooth spheres refract or reflect is found",
           kSpecularConnections, settings.specularConnections...);
+    visit("edge_rays", "Edges of lights", "how camera rays sample lights in sight at their edges", kEdgeRays,
+          settings.edgeRays...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
     visit("adaptive", "Sample density", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }

@@ -276,9 +276,7 @@ EngineReport RankedEngine::report() const {
     report.rays = {};
     report.nonfiniteSamples = 0;
     for (const RankState& state : states_) {
-        report.rays.camera += state.report.rays.camera;
-        report.rays.scattered += state.report.rays.scattered;
-        report.rays.shadow += state.report.rays.shadow;
+        report.rays += state.report.rays;
         report.nonfiniteSamples += state.report.nonfiniteSamples;
         RankFigures figures = state.figures;
         figures.device = state.report.device;

@@ -32,9 +32,22 @@ struct RenderStatus {
 };
 
 struct RayCounts {
-    std::uint64_t camera = 0;
+    std::uint64_t camera = 0; // of paths
     std::uint64_t scattered = 0;
     std::uint64_t shadow = 0;
+    std::uint64_t edge = 0; // from the camera too, at edges of lights
+
+    std::uint64_t all() const { return camera + scattered + shadow + edge; }
+    friend RayCounts operator-(const RayCounts& a, const RayCounts& b) {
+        return {a.camera - b.camera, a.scattered - b.scattered, a.shadow - b.shadow, a.edge - b.edge};
+    }
+    RayCounts& operator+=(const RayCounts& other) {
+        camera += other.camera;
+        scattered += other.scattered;
+        shadow += other.shadow;
+        edge += other.edge;
+        return *this;
+    }
 };
 
 // Of one of several processes that render together, see Common/App/Ranks.

@@ -51,9 +51,7 @@ void FilmRun::setSpp(std::uint32_t spp) {
 
 EngineReport FilmRun::report() const {
     EngineReport report = engine_->report();
-    report.rays.camera += before_.rays.camera;
-    report.rays.scattered += before_.rays.scattered;
-    report.rays.shadow += before_.rays.shadow;
+    report.rays += before_.rays;
     report.nonfiniteSamples += before_.nonfiniteSamples;
     report.renderDeviceSeconds += before_.renderDeviceSeconds;
     return report;

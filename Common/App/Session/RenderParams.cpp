@@ -45,6 +45,12 @@ std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
     return hasManyLamps(scene) ? kRouletteOfManyLamps : kRoulette;
 }
 
+// RenderParams::edgeRays: a power of two, which keeps Sobol's strata whole, and fewer where that would be more rays for
+// each of the image's samples than kMostEdgeRays in the mean.
+constexpr std::uint32_t kRaysAtEdge = 8;
+constexpr double kMostEdgeRays = 1.0;
+constexpr std::uint32_t kMostSplitSamples = 1u << 28; // edge rays are counted in 32 bits
+
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
     return !scene.media.empty() || std::ranges::any_of(scene.materials, [](const shared::Material& material) {
@@ -93,6 +99,24 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
         params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
+}
+
+bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    return settings.edgeRays && settings.spp <= kMostSplitSamples && scattersWidely(scene) &&
+           scene::mayHaveLightEdges(scene);
+}
+
+scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
+                               const RenderSettings& settings, shared::RenderParams& params) {
+    params.edgeRays = 0;
+    if (!mayHaveEdges(scene, settings)) return {};
+    scene::LightEdges edges = scene::findLightEdges(scene, camera, settings.width, settings.height);
+    const double share = static_cast<double>(edges.count) / settings.width / settings.height;
+    std::uint32_t rays = kRaysAtEdge;
+    while (rays > 0 && rays * share > kMostEdgeRays) rays /= 2;
+    if (edges.count == 0 || rays < 2) return {};
+    params.edgeRays = rays;
+    return edges;
 }
 
 bool isAdaptive(const RenderSettings& settings) {

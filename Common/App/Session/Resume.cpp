@@ -1,5 +1,9 @@
 #include "Common/App/Session/Resume.h"
 
+#include <algorithm>
+#include <string>
+#include <vector>
+
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Options/Names.h"
@@ -42,10 +46,10 @@ Json identity(const RenderSettings& settings, const scene::CompiledScene& scene,
 }
 
 void checkIdentity(const std::string& file, nlohmann::json stored, const Json& wanted) {
-    const bool isEarlier = image::addLaterFields(stored);
+    const std::vector<std::string> added = image::addLaterFields(stored);
     for (const auto& [field, value] : wanted.items()) {
         if (stored.at(field) == nlohmann::json(value)) continue;
-        const bool isTold = !isEarlier || field != image::kConnectionsField;
+        const bool isTold = std::ranges::find(added, field) == added.end();
         throw InputError(file + ": " + field + " is " + stored.at(field).dump() + " in the checkpoint" +
                          (isTold ? "" : " (of a program that had no choice)") + " but " + value.dump() + " now");
     }

@@ -48,6 +48,7 @@ struct RenderSettings {
     SamplerKind sampler = SamplerKind::Sobol;
     bool russianRoulette = true;
     bool specularConnections = true; // to lights, by way of smooth spheres
+    bool edgeRays = true;            // more camera rays where the edge of a light crosses a pixel
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
     bool secondMoments = false;            // keep what error estimates need

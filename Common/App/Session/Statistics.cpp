@@ -45,11 +45,11 @@ double perSecond(double count, double seconds) {
 }
 
 Json raysJson(const RayCounts& rays, double seconds) {
-    const double all = static_cast<double>(rays.camera + rays.scattered + rays.shadow);
     return {{"camera", rays.camera},
             {"scattered", rays.scattered},
             {"shadow", rays.shadow},
-            {"per_second", perSecond(all, seconds)}};
+            {"edge", rays.edge},
+            {"per_second", perSecond(static_cast<double>(rays.all()), seconds)}};
 }
 
 Json errorJson(const image::ErrorFigures& error) {

@@ -348,6 +348,7 @@ struct RenderParams {
     uint strataY;
     uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
+    uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------

@@ -9,6 +9,13 @@
 
 RT_SHARED_BEGIN
 
+// The density of a camera ray whose first emission is counted apart, see EdgeRays.h.
+const float kCountedApart = -1.0f;
+
+RT_FN bool isCountedApart(uint features, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && s.pdf == kCountedApart;
+}
+
 RT_FN bool usesMis(RT_IN(RenderParams) params) {
     return params.lightSampling >= kSampleMis;
 }
@@ -22,7 +29,7 @@ RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDen
 
 // `chainWeight`: against what else may have found it.
 RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, float chainWeight, RT_INOUT(PathState) s) {
-    if (!has(features, kFeatureSky)) return;
+    if (!has(features, kFeatureSky) || isCountedApart(features, s)) return;
     float weight = chainWeight;
     if (has(features, kFeatureSkyImage)) {
         RT_IN(SceneGlobals) globals = loadGlobals(scene);
@@ -46,7 +53,7 @@ RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params
                        RT_IN(Material) material, float distance, float chainWeight, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
-    if (!front && material.emissionSides != kSidesBoth) return;
+    if ((!front && material.emissionSides != kSidesBoth) || isCountedApart(features, s)) return;
     vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv, surface.uv2);
     float weight = chainWeight;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {

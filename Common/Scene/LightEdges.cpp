@@ -1,0 +1,244 @@
+#include "Common/Scene/LightEdges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace rt::scene {
+namespace {
+
+using shared::Light;
+
+bool isRound(const Light& light) {
+    return light.kind == shared::kLightSphere || light.kind == shared::kLightEllipsoid;
+}
+
+bool isFlat(const Light& light) {
+    return light.kind == shared::kLightQuad || light.kind == shared::kLightTriangle;
+}
+
+// The image, on which lines in space are drawn.
+class EdgeImage {
+  public:
+    EdgeImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height)
+        : eye_(camera.origin),
+          size_(width, height),
+          toView_(glm::inverse(glm::dmat3(camera.across, camera.down, camera.corner))),
+          width_(width) {
+        const glm::dvec3 u = toView_ * glm::dvec3(camera.lensU), v = toView_ * glm::dvec3(camera.lensV);
+        lens_ = size_ * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
+        const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
+        scale_ = focus * size_.x / glm::length(glm::dvec3(camera.across));
+        edges_.bits.resize((std::uint64_t{width} * height + 31) / 32);
+    }
+
+    const glm::dvec3& eye() const { return eye_; }
+
+    // Pixels that a length takes across the view at this distance, about, but no more than matter.
+    double pixels(double length, double distance) const {
+        return std::min(length * scale_ / std::max(distance, 1e-6 * length), 1e6);
+    }
+
+    // Sets the pixels that the line from a to b crosses, or comes as near to as `margin` pixels.
+    void drawLine(const glm::dvec3& a, const glm::dvec3& b, double margin) {
+        glm::dvec3 from = toView_ * (a - eye_), to = toView_ * (b - eye_);
+        if (from.z > to.z) std::swap(from, to);
+        const double nearest = kNearest * to.z;
+        if (!(to.z > 0.0)) return;
+        if (from.z < nearest) from += (to - from) * ((nearest - from.z) / (to.z - from.z));
+        // What is out of focus is blurred: the further from its plane, the more.
+        const double blur = std::max(std::abs(1.0 - 1.0 / from.z), std::abs(1.0 - 1.0 / to.z));
+        drawLine(glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin);
+    }
+
+    LightEdges take() {
+        if (edges_.count == 0) edges_.bits.clear();
+        return std::move(edges_);
+    }
+
+  private:
+    // Of the distance of a line's far end: what is nearer to the camera's own plane is cut off.
+    static constexpr double kNearest = 1e-3;
+
+    // In pixels, to `reach` beside it.
+    void drawLine(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& reach) {
+        if (a.y > b.y) std::swap(a, b);
+        const double first = std::max(std::floor(a.y - reach.y), 0.0);
+        const double last = std::min(std::floor(b.y + reach.y), size_.y - 1.0);
+        const double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0.0;
+        for (double row = first; row <= last; ++row) {
+            // The part of the line that comes near enough to this row.
+            double enter = a.x, leave = b.x;
+            if (row - reach.y > a.y) enter = a.x + slope * (row - reach.y - a.y);
+            if (row + 1.0 + reach.y < b.y) leave = a.x + slope * (row + 1.0 + reach.y - a.y);
+            const double left = std::max(std::floor(std::min(enter, leave) - reach.x), 0.0);
+            const double right = std::min(std::floor(std::max(enter, leave) + reach.x), size_.x - 1.0);
+            if (left <= right) fill(static_cast<std::uint64_t>(row), left, right);
+        }
+    }
+
+    void fill(std::uint64_t row, double left, double right) {
+        const std::uint64_t last = row * width_ + static_cast<std::uint64_t>(right);
+        for (std::uint64_t pixel = row * width_ + static_cast<std::uint64_t>(left); pixel <= last; ++pixel) {
+            std::uint32_t& word = edges_.bits[pixel / 32];
+            const std::uint32_t bit = 1u << pixel % 32;
+            edges_.count += (word & bit) == 0 ? 1 : 0;
+            word |= bit;
+        }
+    }
+
+    glm::dvec3 eye_;
+    glm::dvec2 size_;
+    glm::dmat3 toView_; // across and down the image times the distance, which z is, in units of that of the focus
+    glm::dvec2 lens_;   // half axes of the blur of what is infinitely far away, in pixels
+    double scale_ = 0;  // pixels of a length as large as its distance
+    std::uint64_t width_;
+    LightEdges edges_;
+};
+
+// ---- round lights --------------------------------------------------------------------------------------------------
+
+// The unit sphere under an affine map.
+struct Ellipsoid {
+    glm::dvec3 center;
+    glm::dmat3 axes;
+};
+
+// What of it the eye sees ends on a circle of the unit sphere, whose plane is across the direction to the eye.
+void drawOutline(const Ellipsoid& light, double pixels, EdgeImage& image) {
+    const glm::dvec3 eye = glm::inverse(light.axes) * (image.eye() - light.center);
+    const double distance = glm::length(eye);
+    if (!(distance > 1.0 && std::isfinite(distance))) return;
+    const glm::dvec3 towards = eye / distance;
+    const glm::dvec3 side = std::abs(towards.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(towards, side)), y = glm::cross(towards, x);
+    const double radius = std::sqrt(1.0 - 1.0 / (distance * distance));
+    // Chords are off by pixels * (pi / corners)^2 / 2.
+    const int corners = static_cast<int>(std::clamp(7.0 * std::sqrt(pixels), 8.0, 1024.0));
+    const double off = pixels * 0.5 * std::pow(std::numbers::pi / corners, 2);
+    const auto corner = [&](int i) {
+        const double angle = 2.0 * std::numbers::pi * i / corners;
+        return light.center + light.axes * (towards / distance + radius * (std::cos(angle) * x + std::sin(angle) * y));
+    };
+    glm::dvec3 from = corner(0);
+    for (int i = 1; i <= corners; ++i) {
+        const glm::dvec3 to = corner(i);
+        image.drawLine(from, to, off);
+        from = to;
+    }
+}
+
+void drawRound(const Light& light, EdgeImage& image) {
+    constexpr double kMostSteps = 64.0;
+    const glm::dvec3 center(light.position);
+    const double distance = glm::length(center - image.eye());
+    if (light.kind == shared::kLightEllipsoid) {
+        const glm::dmat3 axes(light.edgeU, light.edgeV, light.normal);
+        const double longest = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+        drawOutline({center, axes}, image.pixels(longest, distance), image);
+        return;
+    }
+    // One that moves is drawn where it is a pixel further on.
+    const glm::dvec3 way(light.edgeU);
+    const double steps = std::clamp(std::ceil(image.pixels(glm::length(way), distance)), 1.0, kMostSteps);
+    for (double i = 0; i < (way == glm::dvec3(0.0) ? 1.0 : steps + 1.0); ++i) {
+        drawOutline({center + way * (i / steps), glm::dmat3(light.radius)}, image.pixels(light.radius, distance),
+                    image);
+    }
+}
+
+// ---- flat lights ---------------------------------------------------------------------------------------------------
+
+constexpr double kRounding = 0.01; // pixels
+
+void drawQuad(const Light& light, EdgeImage& image) {
+    const glm::dvec3 corner(light.position), u(light.edgeU), v(light.edgeV);
+    image.drawLine(corner, corner + u, kRounding);
+    image.drawLine(corner, corner + v, kRounding);
+    image.drawLine(corner + u, corner + u + v, kRounding);
+    image.drawLine(corner + v, corner + u + v, kRounding);
+}
+
+// Positions on a grid so fine that only those of one vertex share a place, but for where rounding parts them.
+using Place = std::array<std::int64_t, 3>;
+
+struct TriangleEdge {
+    Place first, second; // first <= second
+    bool isFront;        // the eye sees the triangle's front side
+    glm::dvec3 a, b;
+    auto key() const { return std::tie(first, second, isFront); }
+};
+
+void appendEdges(const Light& light, bool isFront, double grid, std::vector<TriangleEdge>& edges) {
+    const glm::dvec3 corners[] = {light.position, light.position + light.edgeU, light.position + light.edgeV};
+    Place places[3];
+    for (int i = 0; i < 3; ++i)
+        for (int c = 0; c < 3; ++c)
+            places[i][static_cast<std::size_t>(c)] = static_cast<std::int64_t>(std::round(corners[i][c] / grid));
+    for (int i = 0; i < 3; ++i) {
+        const int k = (i + 1) % 3;
+        edges.push_back(
+            {std::min(places[i], places[k]), std::max(places[i], places[k]), isFront, corners[i], corners[k]});
+    }
+}
+
+// Those that only one triangle has, of all that face the same way.
+void drawBorders(std::vector<TriangleEdge>& edges, EdgeImage& image) {
+    std::ranges::sort(edges, {}, &TriangleEdge::key);
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t next = i + 1;
+        while (next < edges.size() && edges[next].key() == edges[i].key()) ++next;
+        if (next == i + 1) image.drawLine(edges[i].a, edges[i].b, kRounding);
+        i = next;
+    }
+}
+
+double largestCoordinate(const std::vector<Light>& lights) {
+    float largest = 0;
+    for (const Light& light : lights) {
+        for (const shared::vec3& p : {light.position, light.edgeU, light.edgeV})
+            largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    }
+    return largest;
+}
+
+} // namespace
+
+bool mayHaveLightEdges(const CompiledScene& scene) {
+    const auto hasShape = [](const Light& light) { return isRound(light) || isFlat(light); };
+    return scene.globals.lightCount <= kMostLightsWithEdges &&
+           std::any_of(scene.lights.begin(), scene.lights.begin() + scene.globals.lightCount, hasShape);
+}
+
+LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
+                          std::uint32_t height) {
+    if (!mayHaveLightEdges(scene)) return {};
+    constexpr double kGrid = 1e-5; // of the largest coordinate
+    EdgeImage image(camera, width, height);
+    const double grid = kGrid * std::max(largestCoordinate(scene.lights), 1e-30);
+    std::vector<TriangleEdge> ofTriangles;
+    for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
+        const Light& light = scene.lights[i];
+        if (isRound(light)) drawRound(light, image);
+        if (!isFlat(light)) continue;
+        const bool isFront = glm::dot(glm::dvec3(light.normal), image.eye() - glm::dvec3(light.position)) > 0.0;
+        if (!isFront && light.sides != shared::kSidesBoth) continue;
+        if (light.kind == shared::kLightQuad)
+            drawQuad(light, image);
+        else
+            appendEdges(light, isFront, grid, ofTriangles);
+    }
+    drawBorders(ofTriangles, image);
+    return image.take();
+}
+
+} // namespace rt::scene

@@ -1,0 +1,71 @@
+// Camera rays split at edges of lights, sixteen at a time. Included by one translation unit per instruction set; all it
+// defines has internal linkage.
+#pragma once
+#include "Common/Shared/Path/EdgeRays.h"
+#include "RayTracingCPU/SampleLanes.h"
+
+namespace rt::cpu {
+namespace {
+
+using namespace rt::shared;
+
+// The edge rays of a kernel's samples.
+template <uint kFeatures>
+class EdgeRays {
+  public:
+    explicit EdgeRays(const KernelContext& context) : context_(context) {}
+
+    // Those of a sample in this pixel; they wait for others.
+    void add(const uvec2& pixel, const Sampler& smp, uint sample) {
+        entries_[count_] = {sample, vec3(0.0f)};
+        for (uint i = 0u; i < context_.params.edgeRays; ++i) {
+            set(samplers_, waiting_, edgeSampler(context_.params, smp, i));
+            pixels_[waiting_] = pixel;
+            entryOf_[waiting_] = count_;
+            if (++waiting_ == kLanes) trace();
+        }
+        ++count_;
+    }
+
+    // Adds what they bring to the radiances of the samples.
+    void finish(vec3* radiances, KernelCounters& counters) {
+        if (waiting_ > 0u) trace();
+        for (uint i = 0u; i < count_; ++i) radiances[entries_[i].sample] += entries_[i].radiance;
+        counters.edge += std::uint64_t{count_} * context_.params.edgeRays;
+    }
+
+  private:
+    struct Entry {
+        uint sample;
+        vec3 radiance;
+    };
+
+    void trace() {
+        const RenderParams params = context_.params; // of this function, so that no lane could overlap them
+        const Camera camera = context_.camera;
+        for (uint i = waiting_; i < kLanes; ++i) set(samplers_, i, get(samplers_, 0u));
+        RecordLanes<CameraSamples> u;
+        drawCameraSamples<kFeatures>(samplers_, u);
+        for (uint i = 0u; i < waiting_; ++i) {
+            const Ray ray = cameraRay(kFeatures, params, camera, pixels_[i], get(u, i));
+            PathState path = startEdgeRay(params, ray, vec3(0.0f));
+            const Sampler smp = get(samplers_, i);
+            const Hit hit = traceRay<kFeatures>(*context_.scene, smp, 2u * path.vertex, ray);
+            Vertex unused;
+            arrive(kFeatures, *context_.scene, params, smp, hit, path, unused);
+            entries_[entryOf_[i]].radiance += path.radiance;
+        }
+        waiting_ = 0u;
+    }
+
+    const KernelContext& context_;
+    uint count_ = 0u;   // samples
+    uint waiting_ = 0u; // rays
+    RecordLanes<Sampler> samplers_;
+    uvec2 pixels_[kLanes];
+    uint entryOf_[kLanes];
+    Entry entries_[kBatchSamples];
+};
+
+} // namespace
+} // namespace rt::cpu

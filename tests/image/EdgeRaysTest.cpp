@@ -1,0 +1,200 @@
+// Camera rays split at edges of lights: where these are found, and that nothing changes but the noise.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Image/ImageTest.h"
+#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/LightEdges.h"
+#include "tests/image/AnalyticScenes.h"
+#include "tests/image/Harness.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using glm::dvec3;
+
+constexpr std::uint32_t kLampSide = 48;
+
+// A lamp alone in front of the camera, in the middle of its view.
+struct Lamp {
+    const char* name;
+    ObjectDesc object;
+    double defocusAngle = 0;
+};
+
+MeshDesc square() {
+    MeshData mesh;
+    mesh.positions = {{-0.8, -0.7, 0.2}, {0.9, -0.6, 0}, {0.7, 0.8, -0.1}, {-0.6, 0.7, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return {Indirect<MeshData>(mesh), "lamp"};
+}
+
+GroupDesc squashed() {
+    GroupDesc group;
+    group.transform.push_back(Scale{{1, 0.4, 0.7}});
+    group.transform.push_back(Rotate{{0.3, 0.5, 1}, 40});
+    group.objects.push_back({SphereDesc{{0, 0, 0}, 0.9, {}, "lamp"}});
+    return group;
+}
+
+std::vector<Lamp> lamps() {
+    const QuadDesc quad{{-0.8, -0.6, 0}, {1.5, 0.3, 0.4}, {-0.2, 1.2, -0.9}, "lamp"};
+    return {{"sphere", {SphereDesc{{0.1, -0.1, 0}, 0.8, {}, "lamp"}}},
+            {"small sphere", {SphereDesc{{0.1, -0.1, 0}, 0.02, {}, "lamp"}}},
+            {"near sphere", {SphereDesc{{0.9, 0, 2.2}, 0.8, {}, "lamp"}}},
+            {"moving sphere", {SphereDesc{{-0.6, -0.1, 0}, 0.4, dvec3(0.5, 0.3, 0.1), "lamp"}}},
+            {"ellipsoid", {squashed()}},
+            {"quad", {quad}},
+            {"quad that reaches behind the camera", {QuadDesc{{-0.5, -0.6, -4}, {1, 0, 0}, {0, 0.3, 9}, "lamp"}}},
+            {"mesh", {square()}},
+            {"sphere out of focus", {SphereDesc{{0.1, -0.1, -1}, 0.8, {}, "lamp"}}, 6},
+            {"quad out of focus", {quad}, 6}};
+}
+
+std::shared_ptr<const CompiledScene> compileLamp(const Lamp& lamp) {
+    SceneDesc desc = emptyScene({0, 0, 3}, {0, 0, 0}, 50);
+    desc.id = lamp.name;
+    desc.camera.defocusAngle = lamp.defocusAngle;
+    desc.camera.focusDistance = 2;
+    desc.materials["lamp"] = lambertian(0.5, 1);
+    desc.objects = {lamp.object};
+    return app::compile(desc, false);
+}
+
+app::RenderSettings lampSettings(std::uint32_t spp) {
+    app::RenderSettings settings = smallSettings(kLampSide, spp);
+    settings.maxDepth = 1;
+    settings.replicates = 1;
+    settings.secondMoments = false;
+    return settings;
+}
+
+image::Image renderOn(app::Engine& engine, const CompiledScene& scene, const app::RenderSettings& settings) {
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
+    }
+    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
+    return engine.film().resolve();
+}
+
+// A lamp of radiance 1 before black: what is neither is a pixel with an edge.
+TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
+    for (const Lamp& lamp : lamps()) {
+        const auto scene = compileLamp(lamp);
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        app::RenderSettings settings = lampSettings(256);
+        settings.edgeRays = false;
+        const image::Image picture = renderOn(*engine, *scene, settings);
+        const LightEdges edges = findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin),
+                                                kLampSide, kLampSide);
+        std::uint64_t mixed = 0, count = 0;
+        for (std::uint32_t pixel = 0; pixel < kLampSide * kLampSide; ++pixel) {
+            const float value = picture.data[3 * pixel];
+            const bool isMixed = value > 0.0f && value < 1.0f;
+            const bool isEdge = !edges.bits.empty() && (edges.bits[pixel / 32] >> pixel % 32 & 1u) != 0;
+            EXPECT_TRUE(isEdge || !isMixed) << lamp.name << ": " << pixel % kLampSide << ", " << pixel / kLampSide;
+            mixed += isMixed ? 1 : 0;
+            count += isEdge ? 1 : 0;
+        }
+        EXPECT_EQ(edges.count, count) << lamp.name;
+        EXPECT_GT(mixed, 0u) << lamp.name;
+        EXPECT_LT(count, 1.6 * static_cast<double>(mixed) + 4) << lamp.name; // corners that 256 samples missed
+    }
+}
+
+TEST(EdgeRays, ThereAreNoneInScenesWithoutThem) {
+    const auto edgesOf = [](const SceneDesc& desc) {
+        const auto scene = app::compile(desc, true);
+        return findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin), kLampSide,
+                              kLampSide);
+    };
+    EXPECT_EQ(edgesOf(app::loadScene("one-weekend-final")).count, 0u); // no lights
+    EXPECT_EQ(edgesOf(shell(false, 0.5, 1)).count, 0u);                // the camera is inside
+    SceneDesc behind = floorScene();                                   // a lamp behind the camera
+    behind.objects.push_back({SphereDesc{{0, 1, 9}, 0.5, {}, "light"}});
+    EXPECT_EQ(edgesOf(behind).count, 0u);
+    SceneDesc back = floorScene(); // the back of a lamp
+    back.materials["light"].sides = Sides::Front;
+    back.camera.verticalFov = 60;
+    back.objects.push_back({QuadDesc{{-1, 0.2, 0}, {0, 1, 0}, {1, 0, 0}, "light"}});
+    EXPECT_EQ(edgesOf(back).count, 0u);
+}
+
+// A lamp's coverage of its edge pixels: 8 rays a sample, stratified together, have less than a seventh of the error;
+// where the place on the lens or the time matters, too, less than a third.
+TEST(EdgeRays, ErrorsOfEdgesFall) {
+    for (const Lamp& lamp : lamps()) {
+        const auto scene = compileLamp(lamp);
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        const image::Image truth = renderOn(*engine, *scene, lampSettings(4096));
+        const auto errorOf = [&](bool edgeRays) {
+            app::RenderSettings few = lampSettings(16);
+            few.edgeRays = edgeRays;
+            double sum = 0;
+            for (few.seed = 1; few.seed <= 16; ++few.seed) {
+                const image::Image picture = renderOn(*engine, *scene, few);
+                for (std::size_t i = 0; i < truth.data.size(); ++i)
+                    sum += std::pow(static_cast<double>(picture.data[i]) - static_cast<double>(truth.data[i]), 2);
+            }
+            EXPECT_EQ(engine->report().rays.camera, std::uint64_t{kLampSide} * kLampSide * 16) << lamp.name;
+            EXPECT_EQ(engine->report().rays.edge > 0, edgeRays) << lamp.name;
+            return sum;
+        };
+        const bool needsMore = lamp.defocusAngle > 0 || !scene->sphereMotions.empty();
+        EXPECT_GT(errorOf(false), (needsMore ? 3 : 7) * errorOf(true)) << lamp.name;
+    }
+}
+
+// 4 standard errors, as AgreementTest.cpp.
+TEST(EdgeRays, ChangeNothingButNoise) {
+    for (const char* id : {"cornell-box-lights", "many-lights:200", "veach-mis", "next-week-final"}) {
+        const auto scene = app::compile(app::loadScene(id), true);
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        const auto images = [&](bool edgeRays, std::uint32_t firstSeed) {
+            std::vector<image::Image> images;
+            app::RenderSettings settings = lampSettings(16);
+            settings.width = settings.height = 16;
+            settings.maxDepth = 50;
+            settings.sampler = app::SamplerKind::Independent;
+            settings.edgeRays = edgeRays;
+            for (settings.seed = firstSeed; settings.seed < firstSeed + 32; ++settings.seed)
+                images.push_back(renderOn(*engine, *scene, settings));
+            return images;
+        };
+        const auto result = image::testImages(images(true, 100), images(false, 1000));
+        EXPECT_GT(result.globalP, 1e-4) << id << ", " << result.summary();
+        EXPECT_EQ(result.tileDiscoveries, 0u) << id << ", " << result.summary();
+    }
+}
+
+// No more of them than a camera ray a sample, in the mean, however many lights there are.
+TEST(EdgeRays, AreFewerWhereThereAreManyEdges) {
+    const auto raysOf = [](const char* id, std::uint32_t side) {
+        const auto scene = app::compile(app::loadScene(id), true);
+        app::RenderSettings settings = smallSettings(side, 16);
+        shared::RenderParams params = app::makeRenderParams(*scene, settings);
+        const LightEdges edges =
+            app::splitAtEdges(*scene, makeCamera(scene->camera, side, side, scene->origin), settings, params);
+        EXPECT_LE(params.edgeRays * edges.count, side * side) << id;
+        EXPECT_EQ(edges.count == 0, params.edgeRays == 0) << id;
+        return params.edgeRays;
+    };
+    EXPECT_EQ(raysOf("cornell-box-lights", 200), 8u);
+    EXPECT_EQ(raysOf("many-lights:1000", 64), 4u);
+    EXPECT_EQ(raysOf("many-lights:20000", 64), 0u);
+    EXPECT_EQ(raysOf("one-weekend-final", 64), 0u);
+}
+
+} // namespace
+} // namespace rt::test
