@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -87,12 +88,13 @@ class EdgeImage {
     }
 
     void fill(std::uint64_t row, double left, double right) {
+        const std::uint64_t first = row * width_ + static_cast<std::uint64_t>(left);
         const std::uint64_t last = row * width_ + static_cast<std::uint64_t>(right);
-        for (std::uint64_t pixel = row * width_ + static_cast<std::uint64_t>(left); pixel <= last; ++pixel) {
-            std::uint32_t& word = edges_.bits[pixel / 32];
-            const std::uint32_t bit = 1u << pixel % 32;
-            edges_.count += (word & bit) == 0 ? 1 : 0;
-            word |= bit;
+        for (std::uint64_t word = first / 32; word <= last / 32; ++word) {
+            const std::uint64_t from = word == first / 32 ? first % 32 : 0, to = word == last / 32 ? last % 32 : 31;
+            const std::uint32_t mask = ~0u >> (31 - (to - from)) << from;
+            edges_.count += static_cast<std::uint64_t>(std::popcount(mask & ~edges_.bits[word]));
+            edges_.bits[word] |= mask;
         }
     }
 
