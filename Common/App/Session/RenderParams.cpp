@@ -49,7 +49,6 @@ std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
 // each of the image's samples than kMostEdgeRays in the mean.
 constexpr std::uint32_t kRaysAtEdge = 8;
 constexpr double kMostEdgeRays = 1.0;
-constexpr std::uint32_t kMostSplitSamples = 1u << 28; // edge rays are counted in 32 bits
 
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
@@ -102,8 +101,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
 }
 
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    return settings.edgeRays && settings.spp <= kMostSplitSamples && scattersWidely(scene) &&
-           scene::mayHaveLightEdges(scene);
+    return settings.edgeRays && scattersWidely(scene) && scene::mayHaveLightEdges(scene);
 }
 
 scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,

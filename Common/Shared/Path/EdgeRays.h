@@ -11,7 +11,7 @@ RT_SHARED_BEGIN
 const uint kEdgeKey = 0xed6e5a1du; // keeps the rays' numbers apart from those of paths
 
 // Of edge ray i of the sample that s is the sampler of. The rays of all samples of the pixel are stratified together,
-// and independent of the paths.
+// and independent of the paths; beyond 2^32 rays of a pixel they begin again.
 RT_FN Sampler edgeSampler(RT_IN(RenderParams) params, RT_IN(Sampler) s, uint i) {
     Sampler r = s;
     r.key = s.key ^ kEdgeKey;
