@@ -15,7 +15,7 @@ class EdgeRays {
   public:
     explicit EdgeRays(const KernelContext& context) : context_(context) {}
 
-    // Those of a sample in this pixel; they wait for others.
+    // Adds the edge rays of a sample in this pixel. Up to fifteen rays wait until there are sixteen.
     void add(const uvec2& pixel, const Sampler& smp, uint sample) {
         entries_[count_] = {sample, vec3(0.0f)};
         for (uint i = 0u; i < context_.params.edgeRays; ++i) {

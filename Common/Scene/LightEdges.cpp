@@ -193,7 +193,7 @@ void appendEdges(const Light& light, bool isFront, double grid, std::vector<Tria
     }
 }
 
-// Those that only one triangle has, of all that face the same way.
+// Draws the edges that only one triangle has, of all triangles that face the same way.
 void drawBorders(std::vector<TriangleEdge>& edges, EdgeImage& image) {
     std::ranges::sort(edges, {}, &TriangleEdge::key);
     for (std::size_t i = 0; i < edges.size();) {

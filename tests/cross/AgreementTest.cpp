@@ -41,14 +41,6 @@ app::RenderSettings pairSettings(std::uint32_t spp) {
     return settings;
 }
 
-Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
-    engine.reset(scene.camera, settings);
-    while (!engine.renderSome({}).finished) {
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u);
-    return engine.film().resolve();
-}
-
 struct Pair {
     Image cpu;
     Image gpu;

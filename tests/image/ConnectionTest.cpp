@@ -44,25 +44,10 @@ struct Effort {
     std::uint32_t side, spp;
 };
 
-image::Image renderImage(app::Engine& engine, const CompiledScene& scene, const app::RenderSettings& settings) {
-    engine.reset(scene.camera, settings);
-    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
-    return engine.film().resolve();
-}
-
 std::vector<image::Image> images(app::Engine& engine, const CompiledScene& scene, app::RenderSettings settings,
                                  bool connected, std::uint32_t firstSeed) {
-    constexpr std::uint32_t kImages = 32;
     settings.specularConnections = connected;
-    settings.sampler = app::SamplerKind::Independent;
-    std::vector<image::Image> images;
-    for (std::uint32_t i = 0; i < kImages; ++i) {
-        settings.seed = firstSeed + i;
-        images.push_back(renderImage(engine, scene, settings));
-    }
-    return images;
+    return independentImages(engine, scene, settings, firstSeed);
 }
 
 // 4 standard errors, as AgreementTest.cpp; without connections the light is that of scattering alone.

@@ -1,6 +1,5 @@
 // Camera rays split at edges of lights: where these are found, and that nothing changes but the noise.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -70,19 +69,11 @@ std::shared_ptr<const CompiledScene> compileLamp(const Lamp& lamp) {
 }
 
 app::RenderSettings lampSettings(std::uint32_t spp) {
-    app::RenderSettings settings = smallSettings(kLampSide, spp);
+    app::RenderSettings settings;
+    settings.width = settings.height = kLampSide;
+    settings.spp = spp;
     settings.maxDepth = 1;
-    settings.replicates = 1;
-    settings.secondMoments = false;
     return settings;
-}
-
-image::Image renderOn(app::Engine& engine, const CompiledScene& scene, const app::RenderSettings& settings) {
-    engine.reset(scene.camera, settings);
-    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
-    return engine.film().resolve();
 }
 
 // A lamp of radiance 1 before black: what is neither is a pixel with an edge.
@@ -93,7 +84,7 @@ TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
         engine->setScene(scene, nullptr);
         app::RenderSettings settings = lampSettings(256);
         settings.edgeRays = false;
-        const image::Image picture = renderOn(*engine, *scene, settings);
+        const image::Image picture = renderImage(*engine, *scene, settings);
         const LightEdges edges = findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin),
                                                 kLampSide, kLampSide);
         std::uint64_t mixed = 0, count = 0;
@@ -136,13 +127,13 @@ TEST(EdgeRays, ErrorsOfEdgesFall) {
         const auto scene = compileLamp(lamp);
         const auto engine = cpu::makeCpuEngine({});
         engine->setScene(scene, nullptr);
-        const image::Image truth = renderOn(*engine, *scene, lampSettings(4096));
+        const image::Image truth = renderImage(*engine, *scene, lampSettings(4096));
         const auto errorOf = [&](bool edgeRays) {
             app::RenderSettings few = lampSettings(16);
             few.edgeRays = edgeRays;
             double sum = 0;
             for (few.seed = 1; few.seed <= 16; ++few.seed) {
-                const image::Image picture = renderOn(*engine, *scene, few);
+                const image::Image picture = renderImage(*engine, *scene, few);
                 for (std::size_t i = 0; i < truth.data.size(); ++i)
                     sum += std::pow(static_cast<double>(picture.data[i]) - static_cast<double>(truth.data[i]), 2);
             }
@@ -162,15 +153,11 @@ TEST(EdgeRays, ChangeNothingButNoise) {
         const auto engine = cpu::makeCpuEngine({});
         engine->setScene(scene, nullptr);
         const auto images = [&](bool edgeRays, std::uint32_t firstSeed) {
-            std::vector<image::Image> images;
-            app::RenderSettings settings = lampSettings(16);
+            app::RenderSettings settings;
             settings.width = settings.height = 16;
-            settings.maxDepth = 50;
-            settings.sampler = app::SamplerKind::Independent;
+            settings.spp = 16;
             settings.edgeRays = edgeRays;
-            for (settings.seed = firstSeed; settings.seed < firstSeed + 32; ++settings.seed)
-                images.push_back(renderOn(*engine, *scene, settings));
-            return images;
+            return independentImages(*engine, *scene, settings, firstSeed);
         };
         const auto result = image::testImages(images(true, 100), images(false, 1000));
         EXPECT_GT(result.globalP, 1e-4) << id << ", " << result.summary();

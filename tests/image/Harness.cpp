@@ -108,25 +108,34 @@ std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base) 
     return all;
 }
 
+image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+    engine.reset(scene.camera, settings);
+    while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
+    }
+    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
+    return engine.film().resolve();
+}
+
+std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
+                                            app::RenderSettings settings, std::uint32_t firstSeed) {
+    constexpr std::uint32_t kImages = 32;
+    settings.sampler = app::SamplerKind::Independent;
+    std::vector<image::Image> images;
+    for (std::uint32_t i = 0; i < kImages; ++i) {
+        settings.seed = firstSeed + i;
+        images.push_back(renderImage(engine, scene, settings));
+    }
+    return images;
+}
+
 std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
                                             app::LightSampling sampling, std::uint32_t side, std::uint32_t spp,
                                             std::uint32_t firstSeed) {
-    constexpr std::uint32_t kImages = 32;
-    std::vector<image::Image> images;
-    for (std::uint32_t i = 0; i < kImages; ++i) {
-        app::RenderSettings settings;
-        settings.width = settings.height = side;
-        settings.spp = spp;
-        settings.sampler = app::SamplerKind::Independent;
-        settings.lightSampling = sampling;
-        settings.seed = firstSeed + i;
-        engine.reset(scene.camera, settings);
-        while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
-        }
-        images.push_back(engine.film().resolve());
-    }
-    EXPECT_EQ(engine.report().nonfiniteSamples, 0u) << scene.id;
-    return images;
+    app::RenderSettings settings;
+    settings.width = settings.height = side;
+    settings.spp = spp;
+    settings.lightSampling = sampling;
+    return independentImages(engine, scene, settings, firstSeed);
 }
 
 void expectStability(app::Engine& engine, bool everyEstimator) {

@@ -52,7 +52,13 @@ void expectStability(app::Engine& engine, bool everyEstimator = true);
 // edges go through pixels; and that rows alone are those of the image.
 void expectDepthOfWhatIsHit(app::Engine& engine);
 
-// 32 square images of independent seeds and independent samples, for tests that compare images tile by tile.
+// Asserts that every sample is finite.
+image::Image renderImage(app::Engine& engine, const scene::CompiledScene& scene, const app::RenderSettings& settings);
+
+// 32 images of independent seeds and independent samples, for tests that compare images tile by tile; square ones with
+// this estimator, or as the settings say.
+std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
+                                            app::RenderSettings settings, std::uint32_t firstSeed);
 std::vector<image::Image> independentImages(app::Engine& engine, const scene::CompiledScene& scene,
                                             app::LightSampling sampling, std::uint32_t side, std::uint32_t spp,
                                             std::uint32_t firstSeed);
