@@ -201,7 +201,7 @@ class CpuEngine final : public app::Engine {
         report.features = features_;
         report.lightSampling = app::describeLightShapes(settings_, features_);
         report.kernel = std::string(kernel_ == nullptr ? "" : kernel_->name) + "/" + name(set_);
-        report.rays = {counters_.camera, counters_.scattered, counters_.shadow, counters_.edge};
+        report.rays = {counters_.camera, counters_.scattered, counters_.shadow, counters_.edge, counters_.reuse};
         report.nonfiniteSamples = counters_.nonfinite;
         report.deviceBytes = film_.bytes() + (scene_ ? scene_->accel->bytes() : 0);
         return report;
@@ -239,7 +239,8 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         kernel_->renderTiles(context_, {&task, 1}, nullptr, counters);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow + counters.edge);
+        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow + counters.edge +
+                                              counters.reuse);
         return static_cast<float>((cost == app::Cost::Time ? seconds : rays) / samples);
     }
 
@@ -305,6 +306,7 @@ class CpuEngine final : public app::Engine {
         counters_.scattered += counters.scattered;
         counters_.shadow += counters.shadow;
         counters_.edge += counters.edge;
+        counters_.reuse += counters.reuse;
         counters_.nonfinite += counters.nonfinite;
     }
 

@@ -21,6 +21,7 @@ struct KernelCounters {
     std::uint64_t scattered = 0;
     std::uint64_t shadow = 0;
     std::uint64_t edge = 0;
+    std::uint64_t reuse = 0;
     std::uint64_t nonfinite = 0;
 };
 
@@ -43,13 +44,14 @@ struct TileTask {
         const std::uint32_t end = plan[row * stride + column];
         return end <= first ? 0 : end - first < count ? end - first : count;
     }
-    std::uint32_t samples() const {
-        if (plan == nullptr) return count * width * height;
+    // Of the pixels before this one, row by row.
+    std::uint32_t samplesBefore(std::uint32_t column, std::uint32_t row) const {
+        if (plan == nullptr) return count * (row * width + column);
         std::uint32_t total = 0;
-        for (std::uint32_t row = 0; row < height; ++row)
-            for (std::uint32_t column = 0; column < width; ++column) total += samplesOf(column, row);
+        for (std::uint32_t i = 0; i < row * width + column; ++i) total += samplesOf(i % width, i / width);
         return total;
     }
+    std::uint32_t samples() const { return samplesBefore(0, height); }
 };
 
 inline constexpr std::uint32_t kBatchSamples = 1024; // of all tasks that a kernel is given at a time: a block of a tile

@@ -67,6 +67,7 @@ constexpr Axis kAxes[] = {
     method<"triangle_light", &RenderSettings::triangleLight, kFlatLights>(),
     method<"specular_connections", &RenderSettings::specularConnections, kSpecularConnections>(),
     method<"edge_rays", &RenderSettings::edgeRays, kEdgeRays>(),
+    method<"path_reuse", &RenderSettings::pathReuse, kPathReuse>(),
     method<"sampler", &RenderSettings::sampler, kSamplers>(),
     method<"adaptive", &RenderSettings::adaptive, kAdaptive>(),
     method<"russian_roulette", &RenderSettings::russianRoulette, kOnOff>(),

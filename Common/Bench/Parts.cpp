@@ -117,7 +117,9 @@ std::span<const Part> parts() {
         {"roulette", {{"russian_roulette", "off"}}},
         {"materials (all diffuse)", {}, true},
         {"rays at edges of lights", {{"edge_rays", "off"}}},
-        {"all but camera rays", {{"max_depth", "1"}, {"light_sampling", "bsdf"}, {"edge_rays", "off"}}},
+        {"path reuse", {{"path_reuse", "off"}}},
+        {"all but camera rays",
+         {{"max_depth", "1"}, {"light_sampling", "bsdf"}, {"edge_rays", "off"}, {"path_reuse", "off"}}},
         {"the exact mask (all features)", {{"features", "all"}}},
     };
     return all;

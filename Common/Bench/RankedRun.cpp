@@ -78,7 +78,7 @@ Run toRun(const std::string& statistics) {
     snapshot.spp = json.at("spp_done");
     snapshot.seconds = seconds.at("render");
     snapshot.deviceSeconds = seconds.at("render_device");
-    snapshot.rays = {rays.at("camera"), rays.at("scattered"), rays.at("shadow"), rays.at("edge")};
+    snapshot.rays = {rays.at("camera"), rays.at("scattered"), rays.at("shadow"), rays.at("edge"), rays.at("reuse")};
     Run run;
     for (const nlohmann::json& rank : json.at("ranks")) {
         snapshot.samples += rank.at("samples").get<std::uint64_t>();

@@ -264,6 +264,7 @@ void SuiteRunner::measureDeviceRate(Config config) {
     config.settings.lightSampling = app::LightSampling::Bsdf;
     config.settings.sampler = app::SamplerKind::Independent;
     config.settings.edgeRays = false;
+    config.settings.pathReuse = app::PathReuse::Off;
     config.settings.features.reset();
     app::Engine* engine = engines_.prepare(config, scene_, stop_);
     if (engine == nullptr) return;

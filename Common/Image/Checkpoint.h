@@ -26,8 +26,9 @@ void writeCheckpoint(std::ostream& out, const nlohmann::json& render, const Film
 Checkpoint readCheckpoint(const std::filesystem::path& path);
 Checkpoint readCheckpoint(std::istream& in, const std::string& name);
 
-// Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays.
-inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays"};
+// Choices that earlier programs did not have and checkpoints of theirs do not tell of: connections, split camera rays,
+// paths that pixels share.
+inline constexpr const char* kLaterFields[] = {"specular_connections", "edge_rays", "path_reuse"};
 
 // Adds those that are missing, as "off", to what the caller compares, and returns their names.
 std::vector<std::string> addLaterFields(nlohmann::json& render);

@@ -98,7 +98,7 @@ class FakeEngine : public Engine {
         report.device = "none";
         report.kernel = "fake/none";
         report.threads = 1;
-        report.rays = {10, 20, 30};
+        report.rays = {10, 20, 30, 40, 50};
         return report;
     }
 

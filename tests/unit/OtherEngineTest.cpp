@@ -38,6 +38,7 @@ OtherJob job() {
     s.triangleLight = ShapeSampling::Projected;
     s.sampler = SamplerKind::Independent;
     s.russianRoulette = false;
+    s.pathReuse = PathReuse::Off;
     return job;
 }
 

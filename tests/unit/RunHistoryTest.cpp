@@ -31,7 +31,7 @@ class RunHistoryTest : public ::testing::Test {
         r.lightSelection = "contribution";
         r.sphereLight = r.quadLight = r.triangleLight = "auto";
         r.russianRoulette = r.oneSidedLights = "on";
-        r.adaptive = r.specularConnections = r.edgeRays = "off";
+        r.adaptive = r.specularConnections = r.edgeRays = r.pathReuse = "off";
         r.relmse = 0.1;
         r.hasReference = true;
         r.referenceError = 0.001;
@@ -158,6 +158,7 @@ TEST_F(RunHistoryTest, OldRecordsLoadAndSayWhatTheyLack) {
               "russian_roulette, one_sided_lights, adaptive");
     EXPECT_EQ(old.specularConnections, "off"); // there was nothing else
     EXPECT_EQ(old.edgeRays, "off");
+    EXPECT_EQ(old.pathReuse, "off");
     EXPECT_FALSE(isSameWork(old, old)); // what is not known is not equal
     EXPECT_EQ(lackingIn(record("a")), "");
 }
@@ -185,6 +186,7 @@ TEST_F(RunHistoryTest, OnlyEqualWorkIsTheSame) {
              Change([](RunRecord& r) { r.adaptive = "on"; }),
              Change([](RunRecord& r) { r.specularConnections = "on"; }),
              Change([](RunRecord& r) { r.edgeRays = "on"; }),
+             Change([](RunRecord& r) { r.pathReuse = "on"; }),
          }) {
         RunRecord gpu = gpuRecord("a");
         change(gpu);

@@ -19,7 +19,7 @@ inline app::RunRecord runRecord(const std::string& program, const std::string& e
     r.lightSelection = "contribution";
     r.sphereLight = r.quadLight = r.triangleLight = "auto";
     r.russianRoulette = r.oneSidedLights = "on";
-    r.adaptive = r.specularConnections = r.edgeRays = "off";
+    r.adaptive = r.specularConnections = r.edgeRays = r.pathReuse = "off";
     r.width = r.height = 8;
     r.spp = spp;
     return r;

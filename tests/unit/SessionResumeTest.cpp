@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "Common/App/Options/Names.h"
 #include "Common/Image/Checkpoint.h"
 #include "tests/unit/SessionFixture.h"
 
@@ -64,6 +65,7 @@ TEST_F(SessionResumeTest, CheckpointsOfAnotherRenderAreRefused) {
     refused({"--triangle-light", "area"}, "triangle_light");
     refused({"--specular-connections", "off"}, "specular_connections");
     refused({"--edge-rays", "off"}, "edge_rays");
+    refused({"--path-reuse", "off"}, "path_reuse");
     refused({"--russian-roulette", "off"}, "russian_roulette");
     refused({"--replicates", "2"}, "replicates");
     refused({"--width", "21"}, "width");
@@ -76,23 +78,27 @@ TEST_F(SessionResumeTest, CheckpointsOfAnotherRenderAreRefused) {
               std::string::npos);
 }
 
-// As they were before there were connections, and before camera rays were split.
+// As they were before there were connections, before camera rays were split, and before pixels shared paths.
 TEST_F(SessionResumeTest, CheckpointsThatDoNotTellOfAMethodDidWithout) {
     const auto runWithout = [&](std::vector<std::string> arguments) {
-        arguments.insert(arguments.end(), {"--specular-connections", "off", "--edge-rays", "off"});
+        arguments.insert(arguments.end(),
+                         {"--specular-connections", "off", "--edge-rays", "off", "--path-reuse", "off"});
         run(arguments);
     };
     runWithout({"--spp", "4", "--checkpoint", path("c.rtc")});
     image::Checkpoint checkpoint = image::readCheckpoint(path("c.rtc"));
     for (const char* field : image::kLaterFields) ASSERT_EQ(checkpoint.render.erase(field), 1u);
     image::writeCheckpoint(path("c.rtc"), checkpoint.render, checkpoint.film);
-    const auto errorWith = [&](const std::string& field) {
-        const std::string other = field == "--edge-rays" ? "--specular-connections" : "--edge-rays";
-        return error<InputError>({"--spp", "8", "--resume", path("c.rtc"), field, "on", other, "off"});
+    const auto errorWith = [&](const std::string& flag) {
+        std::vector<std::string> arguments = {"--spp", "8", "--resume", path("c.rtc")};
+        for (const char* field : image::kLaterFields)
+            arguments.insert(arguments.end(), {flagOf(field), flagOf(field) == flag ? "on" : "off"});
+        return error<InputError>(arguments);
     };
     const std::string told = R"( is "off" in the checkpoint (of a program that had no choice) but "on" now)";
     EXPECT_EQ(errorWith("--specular-connections"), path("c.rtc") + ": specular_connections" + told);
     EXPECT_EQ(errorWith("--edge-rays"), path("c.rtc") + ": edge_rays" + told);
+    EXPECT_EQ(errorWith("--path-reuse"), path("c.rtc") + ": path_reuse" + told);
     runWithout({"--spp", "8", "--resume", path("c.rtc"), "-o", path("a.pfm")});
     runWithout({"--spp", "8", "-o", path("b.pfm")});
     EXPECT_EQ(bytesOfFile(path("a.pfm")), bytesOfFile(path("b.pfm")));

@@ -94,13 +94,15 @@ TEST_F(SessionTest, StatisticsHaveEveryKeyOfTheContract) {
                            {"error_is", "replicates"}};
     for (const auto& [key, value] : expected.items()) EXPECT_EQ(stats[key], value) << key;
     for (const char* key : {"light_sampling", "light_selection", "sphere_light", "quad_light", "triangle_light",
-                            "sampler", "one_sided_lights", "russian_roulette", "replicates"})
+                            "edge_rays", "path_reuse", "sampler", "one_sided_lights", "russian_roulette", "replicates"})
         EXPECT_TRUE(stats["settings"].contains(key)) << key;
     for (const char* key : {"load", "accel_build", "pipeline", "render", "render_device", "write"})
         EXPECT_GE(stats["seconds"].at(key).get<double>(), 0.0) << key;
     EXPECT_EQ(stats["rays"]["camera"], 10);
     EXPECT_EQ(stats["rays"]["scattered"], 20);
     EXPECT_EQ(stats["rays"]["shadow"], 30);
+    EXPECT_EQ(stats["rays"]["edge"], 40);
+    EXPECT_EQ(stats["rays"]["reuse"], 50);
     EXPECT_GT(stats["samples_per_second"], 0.0);
     EXPECT_GT(stats["memory"]["peak_rss_bytes"], 100'000);
     EXPECT_FALSE(stats.contains("error"));

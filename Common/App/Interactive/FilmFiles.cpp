@@ -104,6 +104,7 @@ RunRecord recordOfWork(const scene::CompiledScene& scene, bool oneSidedLights, c
     record.triangleLight = nameOf(kFlatLights, settings.triangleLight);
     record.specularConnections = nameOf(kSpecularConnections, settings.specularConnections);
     record.edgeRays = nameOf(kEdgeRays, settings.edgeRays);
+    record.pathReuse = nameOf(kPathReuse, settings.pathReuse);
     record.russianRoulette = nameOf(kOnOff, settings.russianRoulette);
     record.oneSidedLights = nameOf(kOnOff, oneSidedLights);
     record.adaptive = nameOf(kAdaptive, settings.adaptive);

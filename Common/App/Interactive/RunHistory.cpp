@@ -72,6 +72,7 @@ void forEachLaterField(Record&& r, const Visit& visit) {
     visit("/adaptive", "adaptive", r.adaptive);
     visit("/specular_connections", "specular_connections", r.specularConnections);
     visit("/edge_rays", "edge_rays", r.edgeRays);
+    visit("/path_reuse", "path_reuse", r.pathReuse);
 }
 
 // Likewise, but no part of the work.
@@ -87,6 +88,7 @@ RunRecord fromJson(const nlohmann::json& json) {
     });
     if (r.specularConnections.empty()) r.specularConnections = nameOf(kSpecularConnections, false);
     if (r.edgeRays.empty()) r.edgeRays = nameOf(kEdgeRays, false);
+    if (r.pathReuse.empty()) r.pathReuse = nameOf(kPathReuse, PathReuse::Off);
     r.referenceError = json.value(kReferenceError, 0.0);
     for (const nlohmann::json& point : json.at("curve")) r.curve.push_back({point.at(0), point.at(1)});
     return r;
@@ -172,7 +174,8 @@ std::vector<WorkField> workOf(const RunRecord& r) {
             {"One-sided", r.oneSidedLights},
             {"Adaptive", r.adaptive},
             {"Glass spheres", r.specularConnections},
-            {"Edges of lights", r.edgeRays}};
+            {"Edges of lights", r.edgeRays},
+            {"Path reuse", r.pathReuse}};
 }
 
 bool isSameWork(const RunRecord& a, const RunRecord& b) {

@@ -19,10 +19,10 @@ struct RunRecord {
     double loadSeconds = 0, buildSeconds = 0, pipelineSeconds = 0, renderSeconds = 0;
     double samplesPerSecond = 0, raysPerSecond = 0;
     // What else the work depends on, as the flags take it. Empty in records of programs that did not write it yet; but
-    // those had no connections and split no rays: they read as "off".
+    // those had no connections, split no rays and shared no paths: they read as "off".
     std::string sceneHash, camera; // 16 hexadecimal digits; JSON as a window copies it
     std::string lightSelection, sphereLight, quadLight, triangleLight, russianRoulette, oneSidedLights, adaptive,
-        specularConnections, edgeRays;
+        specularConnections, edgeRays, pathReuse;
     double relmse = 0;
     bool hasReference = false; // relmse is against a reference; otherwise the film's own estimate
     double referenceError = 0; // the reference's own relMSE, estimated; 0: not known

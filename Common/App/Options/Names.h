@@ -86,6 +86,10 @@ inline constexpr Named<bool> kSpecularConnections[] = {
 inline constexpr Named<bool> kEdgeRays[] = {
     {"off", false, "One ray a sample", "the path's own ray finds or misses the light"},
     {"on", true, "Split rays", "several rays a sample where a light's edge crosses a pixel; unbiased"}};
+inline constexpr Named<PathReuse> kPathReuse[] = {
+    {"auto", PathReuse::Auto, "Where it wins", "in rooms of few lamps, where indirect light makes the noise"},
+    {"off", PathReuse::Off, "Own paths", "each pixel has the light of its own paths alone"},
+    {"on", PathReuse::On, "Shared paths", "less noise of light by way of other surfaces; unbiased"}};
 inline constexpr Named<bool> kOnOff[] = {{"on", true}, {"off", false}};
 
 // Each setting that chooses a method: visit(key, title, help, table, settings.member...), the key as in files; with
@@ -107,6 +111,9 @@ void forEachMethod(const Visit& visit, Settings&... settings) {
           kSpecularConnections, settings.specularConnections...);
     visit("edge_rays", "Edges of lights", "how camera rays sample lights in sight at their edges", kEdgeRays,
           settings.edgeRays...);
+    visit("path_reuse", "Path reuse",
+          "whether neighbouring pixels share what their paths bring from the second vertex on", kPathReuse,
+          settings.pathReuse...);
     visit("sampler", "Pixel sampling", "the random numbers", kSamplers, settings.sampler...);
     visit("adaptive", "Sample density", "how many samples each pixel gets", kAdaptive, settings.adaptive...);
 }

@@ -48,6 +48,7 @@ Message toMessage(Bytes bytes) {
 }
 
 nlohmann::json toJson(const EngineReport& report) {
+    const RayCounts& rays = report.rays;
     return {{"engine", report.engine},
             {"device", report.device},
             {"kernel", report.kernel},
@@ -57,7 +58,7 @@ nlohmann::json toJson(const EngineReport& report) {
             {"pipeline", report.pipelineSeconds},
             {"render_device", report.renderDeviceSeconds},
             {"longest_dispatch", report.longestDispatchSeconds},
-            {"rays", {report.rays.camera, report.rays.scattered, report.rays.shadow, report.rays.edge}},
+            {"rays", {rays.camera, rays.scattered, rays.shadow, rays.edge, rays.reuse}},
             {"nonfinite", report.nonfiniteSamples},
             {"device_bytes", report.deviceBytes},
             {"light_sampling", report.lightSampling}};
@@ -75,7 +76,7 @@ EngineReport toReport(const nlohmann::json& json) {
     report.renderDeviceSeconds = json.at("render_device");
     report.longestDispatchSeconds = json.at("longest_dispatch");
     const nlohmann::json& rays = json.at("rays");
-    report.rays = {rays.at(0), rays.at(1), rays.at(2), rays.at(3)};
+    report.rays = {rays.at(0), rays.at(1), rays.at(2), rays.at(3), rays.at(4)};
     report.nonfiniteSamples = json.at("nonfinite");
     report.deviceBytes = json.at("device_bytes");
     report.lightSampling = json.at("light_sampling");

@@ -35,17 +35,20 @@ struct RayCounts {
     std::uint64_t camera = 0; // of paths
     std::uint64_t scattered = 0;
     std::uint64_t shadow = 0;
-    std::uint64_t edge = 0; // from the camera too, at edges of lights
+    std::uint64_t edge = 0;  // from the camera too, at edges of lights
+    std::uint64_t reuse = 0; // between vertices of neighbours' paths
 
-    std::uint64_t all() const { return camera + scattered + shadow + edge; }
+    std::uint64_t all() const { return camera + scattered + shadow + edge + reuse; }
     friend RayCounts operator-(const RayCounts& a, const RayCounts& b) {
-        return {a.camera - b.camera, a.scattered - b.scattered, a.shadow - b.shadow, a.edge - b.edge};
+        return {a.camera - b.camera, a.scattered - b.scattered, a.shadow - b.shadow, a.edge - b.edge,
+                a.reuse - b.reuse};
     }
     RayCounts& operator+=(const RayCounts& other) {
         camera += other.camera;
         scattered += other.scattered;
         shadow += other.shadow;
         edge += other.edge;
+        reuse += other.reuse;
         return *this;
     }
 };
@@ -122,7 +125,7 @@ struct Preview {
 };
 
 enum class Cost {
-    Rays, // camera, scattered and shadow
+    Rays, // but for those by which pixels share paths
     Time, // by the processor's clock, in seconds, or by that of the device's shaders, in its ticks
 };
 

@@ -25,6 +25,12 @@ enum class ShapeSampling : std::uint32_t {
     Projected = shared::kShapeProjected,
     Area = shared::kShapeArea
 };
+enum class PathReuse : std::uint32_t {
+    Off,
+    On,  // wherever the scene allows it
+    Auto // where it wins
+};
+
 enum class SamplerKind : std::uint32_t {
     Independent = shared::kSamplerIndependent,
     Stratified = shared::kSamplerStratified,
@@ -47,8 +53,9 @@ struct RenderSettings {
     ShapeSampling triangleLight = ShapeSampling::Auto;
     SamplerKind sampler = SamplerKind::Sobol;
     bool russianRoulette = true;
-    bool specularConnections = true; // to lights, by way of smooth spheres
-    bool edgeRays = true;            // more camera rays where the edge of a light crosses a pixel
+    bool specularConnections = true;       // to lights, by way of smooth spheres
+    bool edgeRays = true;                  // more camera rays where the edge of a light crosses a pixel
+    PathReuse pathReuse = PathReuse::Auto; // pixels share what their paths bring
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
     bool secondMoments = false;            // keep what error estimates need

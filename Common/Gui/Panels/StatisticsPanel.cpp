@@ -44,7 +44,9 @@ void drawStatisticsPanel(Gui& gui) {
     const double seconds = state.renderSeconds;
     const auto perSecond = [seconds](double count) { return seconds > 0 ? withPrefix(count / seconds) + "/s" : "-"; };
     figure("Samples", "Paths from the camera", perSecond(static_cast<double>(state.status.samplesDone)));
-    figure("Rays", "All of them: camera, scattered and shadow, and more from the camera at edges of lights",
+    figure("Rays",
+           "All of them: camera, scattered and shadow, more from the camera at edges of lights, and those between "
+           "neighbours' paths",
            perSecond(static_cast<double>(report.rays.all())));
     figure("Render time", nullptr, shortDuration(seconds));
     figure("Memory", "Of this process; and what the engine holds of scene and film",
