@@ -37,8 +37,8 @@ using namespace rt::shared;
 
 // Connections that paths attempt. Few do at a time: they wait until every lane has one.
 struct ConnectionLanes {
-    uint count;          // of lanes in use
-    uint sample[kLanes]; // of TileSamples, whose path it is
+    uint count;         // of lanes in use
+    uint entry[kLanes]; // what it brings is summed in, as the caller counts them
     uint sphere[kLanes];
     Vertex vertex[kLanes];
     vec3 throughput[kLanes];
@@ -195,7 +195,10 @@ class Connections {
     Connections(const CpuScene&, const RenderParams&, KernelCounters&) {}
 };
 
-// The connections of the samples of a packet. What they bring to a sample is summed apart from its path, in the order
+// Entries of a packet's samples, then of what these share of their paths.
+constexpr uint kConnectionEntries = 2u * kBatchSamples;
+
+// The connections of the samples of a packet. What they bring to an entry is summed apart from its path, in the order
 // of its vertices: the sum does not depend on how long a connection waits for others.
 template <uint kFeatures>
 class Connections<kFeatures, true> {
@@ -204,15 +207,15 @@ class Connections<kFeatures, true> {
         : scene_(scene), params_(params), counters_(counters) {}
 
     // connectLight() for the paths `lit`, whose time and throughput are in lanes, up to the light's end. `rates` is
-    // what goes into their chains; sampleOf(i) the sample of a path.
-    template <class SampleOf>
-    void attempt(uint lit, const PathLanes& lanes, FloatLanes& rates, const SampleOf& sampleOf) {
+    // what goes into their chains; entryOf(i) the entry, < kConnectionEntries, of a path's light.
+    template <class EntryOf>
+    void attempt(uint lit, const PathLanes& lanes, FloatLanes& rates, const EntryOf& entryOf) {
         FloatLanes totals, chances;
         const uint attempted = drawAttempts<kFeatures>(scene_, params_, lanes, totals, chances, rates);
         eachLane(lit & attempted, [&](uint i) {
             const float target = lanesOf<&VertexSamples::roulette>(lanes.u).y.at[i] / chances.at[i] * totals.at[i];
             if (!addConnection<kFeatures>(scene_, params_, lanes, i, target, rates.at[i], c_)) return;
-            c_.sample[c_.count - 1u] = sampleOf(i);
+            c_.entry[c_.count - 1u] = entryOf(i);
             if (c_.count == kLanes) finish();
         });
     }
@@ -228,8 +231,8 @@ class Connections<kFeatures, true> {
         c_.count = 0u;
     }
 
-    // What connections bring to a sample.
-    vec3 radiance(uint sample) const { return radiances_[sample]; }
+    // What connections bring to an entry.
+    vec3 radiance(uint entry) const { return radiances_[entry]; }
 
   private:
     // Adds what comes along the path if its segments are free.
@@ -240,7 +243,7 @@ class Connections<kFeatures, true> {
             ++counters_.shadow;
             float tMax;
             const Ray ray = passageRay(passage, c_.time[i], tMax);
-            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, radiances_[c_.sample[i]]);
+            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, radiances_[c_.entry[i]]);
         }
     }
 
@@ -248,7 +251,7 @@ class Connections<kFeatures, true> {
     const RenderParams& params_;
     KernelCounters& counters_;
     ConnectionLanes c_{};
-    vec3 radiances_[kBatchSamples]{}; // by sample
+    vec3 radiances_[kConnectionEntries]{};
 };
 
 } // namespace

@@ -51,8 +51,9 @@ class EdgeRays {
             PathState path = startEdgeRay(params, ray, vec3(0.0f));
             const Sampler smp = get(samplers_, i);
             const Hit hit = traceRay<kFeatures>(*context_.scene, smp, 2u * path.vertex, ray);
+            vec3 unusedPrefix;
             Vertex unused;
-            arrive(kFeatures, *context_.scene, params, smp, hit, path, unused);
+            arrive(kFeatures, *context_.scene, params, smp, hit, path, unusedPrefix, unused);
             entries_[entryOf_[i]].radiance += path.radiance;
         }
         waiting_ = 0u;

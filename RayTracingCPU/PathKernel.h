@@ -81,7 +81,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
 // What the kernels cover, from the leanest; the last covers everything, the one before all but what the books lack.
 constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
                                        kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
-                                       kFeatureQuadLights;
+                                       kFeatureQuadLights | kFeatureReuse;
 constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
                                            kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |

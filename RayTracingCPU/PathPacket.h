@@ -6,6 +6,7 @@
 #include "RayTracingCPU/ConnectionLanes.h"
 #include "RayTracingCPU/EdgeLanes.h"
 #include "RayTracingCPU/LightLanes.h"
+#include "RayTracingCPU/SharedPaths.h"
 #include "RayTracingCPU/TileSamples.h"
 
 namespace rt::cpu {
@@ -147,9 +148,11 @@ class PathPacket {
           scene_(*context.scene),
           params_(context.params),
           cancel_(cancel),
+          tasks_(tasks),
           samples_(context, tasks),
           radiances_(radiances),
           counters_(counters),
+          shared_(context),
           connections_(scene_, params_, counters),
           edgeRays_(context) {}
 
@@ -168,12 +171,14 @@ class PathPacket {
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
         }
         if constexpr (kConnects) addConnections();
+        if constexpr (kReuses) shared_.finish(tasks_, radiances_, counters_);
         edgeRays_.finish(radiances_, counters_);
         return true;
     }
 
   private:
     static constexpr bool kConnects = (kFeatures & kFeatureConnections) != 0u;
+    static constexpr bool kReuses = (kFeatures & kFeatureReuse) != 0u;
 
     // Takes every path to its next vertex: one that ends on the way makes room for the next sample's.
     ActiveSlots arriveAll() {
@@ -184,7 +189,7 @@ class PathPacket {
             for (;;) {
                 if (slot.sample == kNone && !begin(slot, i)) break;
                 const Sampler smp = get(lanes_.samplers, i);
-                if (arrive(kFeatures, scene_, params_, smp, get(lanes_.hits, i), slot.path, v)) break;
+                if (arriveAtNext(slot, smp, get(lanes_.hits, i), v)) break;
                 end(slot);
             }
             if (slot.sample == kNone) continue;
@@ -197,6 +202,15 @@ class PathPacket {
         }
         if (active.principled != 0u) completeVertices<kFeatures>(scene_, active.principled, active.layered, lanes_);
         return active;
+    }
+
+    // False: the path has ended.
+    bool arriveAtNext(PathSlot& slot, const Sampler& smp, const Hit& hit, Vertex& v) {
+        const uint before = slot.path.reuse;
+        vec3 prefix;
+        if (!arrive(kFeatures, scene_, params_, smp, hit, slot.path, prefix, v)) return false;
+        if constexpr (kReuses) shared_.arrived(slot.sample, before, slot.path, prefix, v, radiances_[slot.sample]);
+        return true;
     }
 
     // False: there is no sample left.
@@ -214,7 +228,10 @@ class PathPacket {
     }
 
     void end(PathSlot& slot) {
-        radiances_[slot.sample] = slot.path.radiance;
+        if constexpr (kReuses)
+            shared_.ended(slot.sample, slot.path, radiances_[slot.sample]);
+        else
+            radiances_[slot.sample] = slot.path.radiance;
         counters_.scattered += slot.path.vertex - 1u;
         slot.sample = kNone;
     }
@@ -240,14 +257,20 @@ class PathPacket {
     void connectLights(uint lit) {
         if (lit == 0u || params_.connectedSpheres == 0u) return;
         FloatLanes rates;
-        connections_.attempt(lit, lanes_, rates, [&](uint i) { return slots_[i].sample; });
+        connections_.attempt(lit, lanes_, rates, [&](uint i) {
+            const bool isShared = slots_[i].path.reuse == kReuseSuffix;
+            return slots_[i].sample + (isShared ? kBatchSamples : 0u);
+        });
         eachLane(lit, [&](uint i) { slots_[i].path.chain.rate = rates.at[i]; });
     }
 
     void addConnections() {
         if (params_.connectedSpheres == 0u) return;
         connections_.finish();
-        for (uint i = 0u; i < samples_.count(); ++i) radiances_[i] += connections_.radiance(i);
+        for (uint i = 0u; i < samples_.count(); ++i) {
+            radiances_[i] += connections_.radiance(i);
+            if constexpr (kReuses) shared_.add(i, connections_.radiance(i + kBatchSamples));
+        }
     }
 
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
@@ -267,7 +290,7 @@ class PathPacket {
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
         }
         if (has(kFeatures, kFeatureConnections)) goOnChain(v, b, path);
-        if (goOn(params_, v, b, u.roulette.x, path)) {
+        if (goOn(kFeatures, params_, v, b, u.roulette.x, path)) {
             set(lanes_.hits, i, traceOn(i, direct, path));
         } else {
             traceShadow(i, direct, path);
@@ -309,11 +332,13 @@ class PathPacket {
     const CpuScene& scene_;
     const RenderParams& params_;
     const std::atomic<bool>* cancel_;
+    std::span<const TileTask> tasks_;
     TileSamples samples_;
     vec3* radiances_;
     KernelCounters& counters_;
     PathSlot slots_[kLanes]{};
     PathLanes lanes_{};
+    SharedPaths<kFeatures> shared_;
     Connections<kFeatures> connections_;
     EdgeRays<kFeatures> edgeRays_;
 };

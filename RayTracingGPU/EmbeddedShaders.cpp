@@ -21,6 +21,9 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Cost.rgen.h>
 #include <FilmReduce.comp.h>
 #include <FilmResolve.comp.h>
+#include <PathReuse.Query.comp.h>
+#include <PathReuse.comp.h>
+#include <PathReuse.rgen.h>
 #include <PathTrace.Full.Query.comp.h>
 #include <PathTrace.Full.comp.h>
 #include <PathTrace.Query.comp.h>
@@ -50,6 +53,10 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return PathTrace_Full_comp;
         case Shader::FullPathQuery:
             return PathTrace_Full_Query_comp;
+        case Shader::ReuseCompute:
+            return PathReuse_comp;
+        case Shader::ReuseQuery:
+            return PathReuse_Query_comp;
         case Shader::AovCompute:
             return Aov_comp;
         case Shader::AovQuery:
@@ -74,6 +81,8 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return RayTracing_rgen;
         case Shader::FullRayGeneration:
             return RayTracing_Full_rgen;
+        case Shader::ReuseGeneration:
+            return PathReuse_rgen;
         case Shader::AovGeneration:
             return Aov_rgen;
         case Shader::CostGeneration:

@@ -10,6 +10,8 @@ enum class Shader {
     PathQuery,
     FullPathCompute, // with all code of shared headers, as have others named so, see Shim.h
     FullPathQuery,
+    ReuseCompute,
+    ReuseQuery,
     AovCompute,
     AovQuery,
     CostCompute,
@@ -22,6 +24,7 @@ enum class Shader {
     FullTimeQuery,
     RayGeneration,
     FullRayGeneration,
+    ReuseGeneration,
     AovGeneration,
     CostGeneration,
     FullCostGeneration,

@@ -57,7 +57,10 @@ class GpuEngine final : public app::Engine {
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                     Memory::Device, "constants"),
-          launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}),
+          launches_(context, cache_,
+                    {.invocations = maxInvocations(context, engine_),
+                     .samples = kMaxSamples,
+                     .sharingSamples = kMaxSharingSamples}),
           readBacks_(context) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
@@ -94,6 +97,8 @@ class GpuEngine final : public app::Engine {
     void finishPaths();
     void endLaunch();
     void endLaunches();
+    LaunchKernels launchKernels() const { return {*kernel_, reuse_.get()}; }
+    std::uint64_t mostSamples() const { return reuse_ ? kMaxSharingSamples : kMaxSamples; }
     void planSamples(const std::atomic<bool>* cancel);
     bool nextRegion();
     void refresh();
@@ -114,8 +119,10 @@ class GpuEngine final : public app::Engine {
     app::RenderSettings settings_;
     shared::RenderParams params_{};
     std::uint32_t features_ = 0;
-    std::unique_ptr<Kernel> kernel_, firstHits_; // the second once it was asked for
-    SpecializationConstants constants_;          // that they were compiled for
+    std::unique_ptr<Kernel> kernel_;
+    std::unique_ptr<Kernel> reuse_;     // if samples share their paths
+    std::unique_ptr<Kernel> firstHits_; // once it was asked for
+    SpecializationConstants constants_; // that they were compiled for
 
     Film film_;                          // the whole film, on the host
     image::TileList tiles_;              // of it, that are to be rendered
@@ -154,12 +161,15 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     const SpecializationConstants constants =
         makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount,
                                     app::mayHaveEdges(scene_->compiled(), settings), traversal);
-    if (!kernel_ || constants_ != constants) {
+    const bool sharesPaths = params_.pathReuse != 0;
+    if (!kernel_ || constants_ != constants || sharesPaths != (reuse_ != nullptr)) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
+        reuse_ = nullptr;
         firstHits_ = nullptr;
         constants_ = constants;
         kernel_ = makeKernel(KernelPurpose::Paths);
+        reuse_ = sharesPaths ? makeKernel(KernelPurpose::Reuse) : nullptr;
         cache_.save();
         report_.pipelineSeconds = watch.seconds();
         launchSize_.reset();
@@ -270,7 +280,7 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
         region_->leaveOutDone();
     }
     const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
-    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted);
+    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted, mostSamples());
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
 }
@@ -288,7 +298,7 @@ void GpuEngine::planSamples(const std::atomic<bool>* cancel) {
 
 // Behind the last launch of the last region the pass is over.
 void GpuEngine::launchNext() {
-    const shared::FilmLaunch launch = nextLaunch(*region_, *pass_, launchSize_->suggest());
+    const shared::FilmLaunch launch = nextLaunch(*region_, *pass_, launchSize_->suggest(), mostSamples());
     beginLaunch(launch);
     pass_->nextSlot += launch.bandWidth;
     if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) {
@@ -299,16 +309,16 @@ void GpuEngine::launchNext() {
 
 void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
     if (launches_.overlaps(launch)) finishPaths();
-    while (!launches_.hasRoom(launch)) endLaunch();
-    samplesDone_ += launches_.begin(*kernel_, *region_, launch);
+    while (!launches_.hasRoom(launch, reuse_ != nullptr)) endLaunch();
+    samplesDone_ += launches_.begin(launchKernels(), *region_, launch);
     dirty_ = true;
 }
 
 // Goes on with the paths that the last launch has left, and leaves none.
 void GpuEngine::finishPaths() {
     if (!launches_.isUnfinished()) return;
-    while (!launches_.hasRoom({})) endLaunch();
-    samplesDone_ += launches_.finish(*kernel_, *region_);
+    while (!launches_.hasRoom({}, false)) endLaunch();
+    samplesDone_ += launches_.finish(launchKernels(), *region_);
     dirty_ = true;
 }
 
@@ -317,7 +327,7 @@ void GpuEngine::endLaunch() {
     const LaunchQueue::Ended ended = launches_.end();
     if (ended.samples != 0) launchSize_->measured(ended.samples, ended.seconds);
     report_.renderDeviceSeconds += ended.seconds;
-    report_.rays += {ended.samples, ended.scattered, ended.shadow, ended.edgeRays};
+    report_.rays += {ended.samples, ended.scattered, ended.shadow, ended.edgeRays, ended.reuse};
     report_.nonfiniteSamples += ended.nonfinite;
     if (ended.finished != ended.due) {
         failed_ = true; // what is on the device is not a film

@@ -31,6 +31,8 @@ constexpr std::uint32_t kFeaturesOfFull = shared::kFeatureProjected | shared::kF
 
 Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {
+        case KernelPurpose::Reuse:
+            return {Shader::ReuseGeneration, Shader::ReuseCompute, Shader::ReuseQuery};
         case KernelPurpose::FirstHits:
             return {Shader::AovGeneration, Shader::AovCompute, Shader::AovQuery}; // full as well
         case KernelPurpose::Rays:
@@ -55,7 +57,10 @@ std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan:
     if (engine == app::GpuEngineKind::Pipeline) {
         return std::make_unique<RtPipeline>(context, cache, bindings, constants, shader);
     }
-    return std::make_unique<ComputePipeline>(context, cache, bindings, constants, shader,
+    SpecializationConstants own = constants;
+    // Few registers, so small groups fill the device.
+    if (purpose == KernelPurpose::Reuse) own.traversal.groupSize = TraversalShape().groupSize;
+    return std::make_unique<ComputePipeline>(context, cache, bindings, own, shader,
                                              engine == app::GpuEngineKind::Query);
 }
 

@@ -14,6 +14,7 @@ namespace rt::gpu {
 
 enum class KernelPurpose {
     Paths,     // samples of the film
+    Reuse,     // what pixels share of them
     FirstHits, // albedo, normal, depth
     Rays,      // rays that a pixel costs
     Time,      // ticks that it takes; of devices with a shader clock

@@ -18,8 +18,12 @@ VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {
     return VkDeviceSize{shared::launchSamples(launch)} * sizeof(shared::vec3);
 }
 
-VkDeviceSize leftBytes(std::uint32_t invocations) {
-    return VkDeviceSize{invocations} * sizeof(shared::UnfinishedPath);
+VkDeviceSize sharedBytes(const shared::FilmLaunch& launch, bool isShared) {
+    return isShared ? VkDeviceSize{shared::launchSamples(launch)} * shared::kSharedPathBytes : 0;
+}
+
+VkDeviceSize progressBytes(std::uint64_t invocations) {
+    return kCounterBytes + invocations * sizeof(shared::UnfinishedPath);
 }
 
 // Where it is too small, without its contents; larger by a factor then, since launches grow until they are as long as
@@ -36,7 +40,7 @@ void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSiz
 
 LaunchQueue::Launch::Launch(vulkan::VulkanContext& context)
     : run(context),
-      counters(context.memory(), kCounterBytes, 0, Memory::Device, "counters"),
+      progress(context.memory(), kCounterBytes, 0, Memory::Device, "a launch"),
       hostCounters(context.memory(), kCounterBytes, 0, Memory::ReadBack, "counters") {}
 
 LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits)
@@ -47,11 +51,11 @@ LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineC
 
 void LaunchQueue::prepare(std::uint64_t samples) {
     const VkDeviceSize radiance = std::min(samples, limits_.samples) * sizeof(shared::vec3);
-    const VkDeviceSize left = std::min<VkDeviceSize>(samples, limits_.invocations) * sizeof(shared::UnfinishedPath);
+    const VkDeviceSize progress = progressBytes(std::min<std::uint64_t>(samples, limits_.invocations));
     try {
         for (Launch& launch : launches_) {
             reserve(context_, launch.radiance, radiance, radiance);
-            reserve(context_, launch.left, left, left);
+            reserve(context_, launch.progress, progress, progress);
         }
     } catch (const RenderError&) { // smaller launches may do
     }
@@ -63,11 +67,12 @@ std::uint32_t LaunchQueue::invocationsFor(const shared::FilmLaunch& launch) cons
 }
 
 // Where its memory does not suffice, there is more when none of it is in use.
-bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch) const {
+bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch, bool isShared) const {
     if (isEmpty()) return true;
     const Launch& next = numbered(begun_);
     return begun_ - ended_ < launches_.size() && radianceBytes(launch) <= next.radiance.bytes() &&
-           leftBytes(invocationsFor(launch)) <= next.left.bytes();
+           sharedBytes(launch, isShared) <= next.sharedPaths.bytes() &&
+           progressBytes(invocationsFor(launch)) <= next.progress.bytes();
 }
 
 bool LaunchQueue::overlaps(const shared::FilmLaunch& launch) const {
@@ -76,50 +81,59 @@ bool LaunchQueue::overlaps(const shared::FilmLaunch& launch) const {
                                                     last_->firstSlot < launch.firstSlot + launch.bandWidth);
 }
 
-std::uint64_t LaunchQueue::begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch) {
+std::uint64_t LaunchQueue::begin(const LaunchKernels& kernels, DeviceFilm& film, const shared::FilmLaunch& launch) {
     Launch& next = numbered(begun_);
     const std::uint32_t invocations = invocationsFor(launch);
     reserve(context_, next.radiance, radianceBytes(launch), limits_.samples * sizeof(shared::vec3));
-    reserve(context_, next.left, leftBytes(invocations), leftBytes(limits_.invocations));
+    reserve(context_, next.sharedPaths, sharedBytes(launch, kernels.reuse != nullptr),
+            limits_.sharingSamples * shared::kSharedPathBytes);
+    reserve(context_, next.progress, progressBytes(invocations), progressBytes(limits_.invocations));
     next.samples = film.samplesOf(launch);
     shared::FilmLaunch push = launch;
-    const std::uint64_t added = submit(kernel, film, push, invocations);
+    const std::uint64_t added = submit(kernels, film, push, invocations);
     last_ = push;
     invocations_ = invocations;
     return added;
 }
 
-std::uint64_t LaunchQueue::finish(const Kernel& kernel, DeviceFilm& film) {
+std::uint64_t LaunchQueue::finish(const LaunchKernels& kernels, DeviceFilm& film) {
     shared::FilmLaunch push = *last_;
     push.slotCount = 0;
     numbered(begun_).samples = 0;
-    const std::uint64_t added = submit(kernel, film, push, invocations_);
+    const std::uint64_t added = submit(kernels, film, push, invocations_);
     last_.reset();
     return added;
 }
 
-// Records paths, and what the samples of the launch before add to the film.
-std::uint64_t LaunchQueue::submit(const Kernel& kernel, DeviceFilm& film, shared::FilmLaunch& push,
+// Records paths, what the samples of the launch before share, and what they add to the film.
+std::uint64_t LaunchQueue::submit(const LaunchKernels& kernels, DeviceFilm& film, shared::FilmLaunch& push,
                                   std::uint32_t invocations) {
     Launch& next = numbered(begun_);
     const Launch& before = numbered(begun_ + 1); // they take turns
     push.radiance = next.radiance.address();
-    push.left = next.left.address();
-    push.counters = next.counters.address();
+    push.sharedPaths = next.sharedPaths.address();
+    push.progress = next.progress.address();
     push.radianceBefore = before.radiance.address();
-    push.leftBefore = before.left.address();
-    push.countersBefore = before.counters.address();
+    push.sharedPathsBefore = before.sharedPaths.address();
+    push.progressBefore = before.progress.address();
+    const vulkan::Access tracing = kernels.paths.access();
     next.run.begin([&](VkCommandBuffer commands) {
-        vkCmdFillBuffer(commands, next.counters.get(), 0, VK_WHOLE_SIZE, 0);
-        if (!last_) vkCmdFillBuffer(commands, before.counters.get(), 0, VK_WHOLE_SIZE, 0);
-        vulkan::barrier(commands, vulkan::kTransferWrite, kernel.access());
-        kernel.launch(commands, push, invocations);
-        vulkan::barrier(commands, kernel.access(), vulkan::kComputeRead | vulkan::kTransferRead);
+        vkCmdFillBuffer(commands, next.progress.get(), 0, kCounterBytes, 0);
+        if (!last_) vkCmdFillBuffer(commands, before.progress.get(), 0, kCounterBytes, 0);
+        vulkan::barrier(commands, vulkan::kTransferWrite, tracing);
+        kernels.paths.launch(commands, push, invocations);
+        if (last_ && kernels.reuse != nullptr) {
+            vulkan::barrier(commands, tracing, tracing);
+            shared::FilmLaunch sharing = *last_;
+            sharing.progress = push.progress;
+            kernels.reuse->launch(commands, sharing, shared::launchSamples(sharing) / shared::kReuseGroup);
+        }
+        vulkan::barrier(commands, tracing, vulkan::kComputeRead | vulkan::kTransferRead);
         if (last_) reducer_.run(commands, *last_, last_->slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};
-        vkCmdCopyBuffer(commands, next.counters.get(), next.hostCounters.get(), 1, &all);
+        vkCmdCopyBuffer(commands, next.progress.get(), next.hostCounters.get(), 1, &all);
         // The next launch goes on with paths and film, and clears the counters that this one has read.
-        const vulkan::Access done = kernel.access() | vulkan::kComputeWrite | vulkan::kTransferWrite;
+        const vulkan::Access done = tracing | vulkan::kComputeWrite | vulkan::kTransferWrite;
         vulkan::barrier(commands, done, context_.bufferUses() | vulkan::kHostRead);
     });
     ++begun_;
@@ -149,6 +163,7 @@ LaunchQueue::Ended LaunchQueue::end() {
         ended.edgeRays += counters[line + shared::kCounterEdgeRays];
         ended.scattered += counters[line + shared::kCounterScattered];
         ended.shadow += counters[line + shared::kCounterShadow];
+        ended.reuse += counters[line + shared::kCounterReuse];
         ended.nonfinite += counters[line + shared::kCounterNonfinite];
         ended.finished += counters[line + shared::kCounterFinished];
     }

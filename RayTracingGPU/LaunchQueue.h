@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "Common/Shared/Path/PathReuse.h"
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
@@ -15,10 +16,17 @@
 
 namespace rt::gpu {
 
+// What launches run.
+struct LaunchKernels {
+    const Kernel& paths;
+    const Kernel* reuse; // null: samples share nothing
+};
+
 // Of a launch, at most.
 struct LaunchLimits {
     std::uint32_t invocations = 0; // that share its work
     std::uint64_t samples = 0;
+    std::uint64_t sharingSamples = 0; // where they share their paths
 };
 
 class LaunchQueue {
@@ -29,18 +37,18 @@ class LaunchQueue {
     // Otherwise they get it when they first are that large: on an H100 that takes 8 ms.
     void prepare(std::uint64_t samples);
     // Whether begin() may be called with it before another end(); with FilmLaunch{}, whether finish() may.
-    bool hasRoom(const shared::FilmLaunch& launch) const;
+    bool hasRoom(const shared::FilmLaunch& launch, bool isShared) const;
     // Whether it goes on where samples of the launch before are still to come; then finish() comes first.
     bool overlaps(const shared::FilmLaunch& launch) const;
     // Hands over a launch that `film` describes, whose memory must last until the end of the launch behind it. Throws
     // DeviceLostError or RenderError; then nothing has begun. Returns how many samples come to the film behind it:
     // those of the launch before.
-    std::uint64_t begin(const Kernel& kernel, DeviceFilm& film, const shared::FilmLaunch& launch);
+    std::uint64_t begin(const LaunchKernels& kernels, DeviceFilm& film, const shared::FilmLaunch& launch);
 
     // Whether the last launch has left paths, and its samples are still to come.
     bool isUnfinished() const { return last_.has_value(); }
     // Hands over what the last launch has left. Otherwise like begin().
-    std::uint64_t finish(const Kernel& kernel, DeviceFilm& film);
+    std::uint64_t finish(const LaunchKernels& kernels, DeviceFilm& film);
     // Its samples are not to come. Only when isEmpty().
     void forget();
 
@@ -54,6 +62,7 @@ class LaunchQueue {
         std::uint64_t edgeRays = 0;  // see EdgeRays.h
         std::uint64_t scattered = 0; // rays
         std::uint64_t shadow = 0;    // rays
+        std::uint64_t reuse = 0;     // rays, for samples of the launch before
         std::uint64_t nonfinite = 0; // samples that were dropped
         double seconds = 0;          // by the device's clock, if it has one
     };
@@ -67,16 +76,17 @@ class LaunchQueue {
         explicit Launch(vulkan::VulkanContext& context);
 
         vulkan::Run run;
-        vulkan::Buffer counters;
-        vulkan::Buffer hostCounters; // their copy, when it has ended
+        vulkan::Buffer progress;     // counters, and paths that are left
+        vulkan::Buffer hostCounters; // a copy, when it has ended
         vulkan::Buffer radiance;
-        vulkan::Buffer left;
+        vulkan::Buffer sharedPaths;
         std::uint64_t samples = 0;
     };
     Launch& numbered(std::uint64_t n) { return launches_[n % launches_.size()]; }
     const Launch& numbered(std::uint64_t n) const { return launches_[n % launches_.size()]; }
     std::uint32_t invocationsFor(const shared::FilmLaunch& launch) const;
-    std::uint64_t submit(const Kernel& kernel, DeviceFilm& film, shared::FilmLaunch& push, std::uint32_t invocations);
+    std::uint64_t submit(const LaunchKernels& kernels, DeviceFilm& film, shared::FilmLaunch& push,
+                         std::uint32_t invocations);
 
     vulkan::VulkanContext& context_;
     FilmPipeline reducer_;

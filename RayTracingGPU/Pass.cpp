@@ -16,17 +16,17 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 // shorter than it may be. Where there is a plan, a pass ends where half of the tiles are done, and the next one leaves
 // them out. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
-              std::uint64_t wanted) {
+              std::uint64_t wanted, std::uint64_t most) {
     const std::uint64_t replicates = region.replicates();
     const std::uint64_t stepSamples = region.stepSamples();
     const std::uint64_t round = shared::kBlock * replicates; // samples per pixel
     std::uint64_t end = (begun / round + kRegionRounds) * round;
     if (region.isWhole()) {
-        const std::uint64_t most = std::max<std::uint64_t>(std::min(fitting, kMaxSamples) / region.columnSamples(), 1);
+        const std::uint64_t mostSteps = std::max<std::uint64_t>(std::min(fitting, most) / region.columnSamples(), 1);
         std::uint64_t steps =
             std::max(std::max(2 * fitting, wanted) / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
         if (region.hasPlan()) steps = std::min<std::uint64_t>(steps, region.stepsOfHalf());
-        end = begun + std::clamp<std::uint64_t>(steps, 1, most) * replicates;
+        end = begun + std::clamp<std::uint64_t>(steps, 1, mostSteps) * replicates;
     }
     end = std::min(end, spp);
     return {.end = static_cast<std::uint32_t>(end),
@@ -34,13 +34,13 @@ Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, 
             .stepSamples = stepSamples};
 }
 
-shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting) {
-    const std::uint64_t room = kMaxSamples / (region.columnSamples() * pass.steps);
+shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t most) {
+    const std::uint64_t room = most / (region.columnSamples() * pass.steps);
     const std::uint64_t columns = fitting * region.bandSlots() / (pass.stepSamples * pass.steps);
     const std::uint32_t left = region.bandSlots() - pass.nextSlot;
     const std::uint32_t half = (region.bandSlots() + 1) / 2;
-    const std::uint64_t most = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));
-    const std::uint64_t launches = (left + most - 1) / most; // that take alike many
+    const std::uint64_t width = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));
+    const std::uint64_t launches = (left + width - 1) / width; // that take alike many
     shared::FilmLaunch launch{};
     region.describe(launch, pass.nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
     launch.steps = pass.steps;

@@ -6,7 +6,9 @@
 
 namespace rt::gpu {
 
-inline constexpr std::uint64_t kMaxSamples = 12'000'000; // of a launch, whose radiance takes 144 MB
+// Of a launch: its radiance takes 144 MB, or 72 and what its paths share 456.
+inline constexpr std::uint64_t kMaxSamples = 12'000'000;
+inline constexpr std::uint64_t kMaxSharingSamples = 6'000'000;
 
 // Takes every pixel of the film further, slot by slot of each region.
 struct Pass {
@@ -17,11 +19,11 @@ struct Pass {
 };
 
 // From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples; of `wanted`
-// samples in all, or more where that is less than two launches.
+// samples in all, or more where that is less than two launches, which may have `most` each.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
-              std::uint64_t wanted);
+              std::uint64_t wanted, std::uint64_t most);
 
-// The next slots of the pass in all bands of the region, up to about `fitting` samples.
-shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting);
+// The next slots of the pass in all bands of the region, up to about `fitting` samples, and `most` in any case.
+shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t most);
 
 } // namespace rt::gpu

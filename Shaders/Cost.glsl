@@ -1,5 +1,6 @@
-// What a pixel costs, averaged over its first samples: rays, camera, scattered and shadow; or with RT_TIME ticks of the
-// shader clock, which count all that lanes of a group wait for each other. The includer provides traceRay().
+// What a pixel costs, averaged over its first samples: rays, camera, scattered and shadow, none for sharing paths; or
+// with RT_TIME ticks of the shader clock, which count all that lanes of a group wait for each other. The includer
+// provides traceRay().
 #ifdef RT_TIME
 #extension GL_ARB_shader_clock : require
 #endif
@@ -23,7 +24,8 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool i
         if (checking) {
             endChecked(scene, hit, path, direct, passage);
         } else {
-            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, direct, passage);
+            vec3 unusedPrefix;
+            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, unusedPrefix, direct, passage);
         }
     }
     return rays;

@@ -9,6 +9,7 @@
 #extension GL_KHR_memory_scope_semantics : require
 #include "SceneAccess.glsl"
 #include "Edges.glsl"
+#include "SharedPaths.glsl"
 #include "TraceStep.glsl"
 #include "PixelEnd.glsl"
 
@@ -22,12 +23,8 @@ struct Work {
     bool isResumed; // the launch before began it
 };
 
-// Where an invocation counts: neighbours, whose sums are one access, in one place.
-uint counterLine(uint invocation) {
-    return invocation / 32u % kCounterLines * kCounters;
-}
-
-// Finds the sample of this number. False: there is no such pixel or sample.
+// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with existsSample()
+// of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint slot = launchSlot(launch, step / launch.steps);
@@ -47,7 +44,7 @@ bool takeWork(inout Work work) {
     uint samples = launchSamples(launch);
     work.isResumed = false;
     for (;;) {
-        work.number = atomicAdd(launch.counters.at[kCounterWork], 1u);
+        work.number = atomicAdd(launch.progress.counters[kCounterWork], 1u);
         if (work.number >= samples) return false;
         if (findWork(work)) return true;
     }
@@ -67,7 +64,7 @@ void expectEdgeRays(uint invocation, inout Work work) {
     uint rays = edgeRays(work.pixel);
     if (rays == 0u) return;
     work.edgeRays = rays + 1u;
-    atomicAdd(launch.counters.at[counterLine(invocation) + kCounterEdgeRays], rays);
+    atomicAdd(launch.progress.counters[counterLine(invocation) + kCounterEdgeRays], rays);
 }
 
 void nextEdgeRay(RenderParams params, inout Work work) {
@@ -81,8 +78,8 @@ void nextEdgeRay(RenderParams params, inout Work work) {
 // Goes on with the path of this number that the launch before left. False: there is none.
 bool resumePath(uint number, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
                 inout Passage passage, inout bool goesOn) {
-    if (number >= launch.countersBefore.at[kCounterLeft]) return false;
-    UnfinishedPath unfinished = launch.leftBefore.at[number];
+    if (number >= launch.progressBefore.counters[kCounterLeft]) return false;
+    UnfinishedPath unfinished = launch.progressBefore.left[number];
     work.number = unfinished.number;
     work.smp = makeSampler(params, 0u, 0u, 0u);
     work.smp.key = unfinished.key;
@@ -111,16 +108,63 @@ void leavePath(Work work, PathState path, DirectLight direct, Passage passage, b
     unfinished.path = path;
     unfinished.direct = direct;
     if (has(kFeatures, kFeatureConnections)) unfinished.passage = passage;
-    launch.left.at[atomicAdd(launch.counters.at[kCounterLeft], 1u)] = unfinished;
+    launch.progress.left[atomicAdd(launch.progress.counters[kCounterLeft], 1u)] = unfinished;
+}
+
+// What the samples of this path's launch bring, and what they share.
+MutableVectorArray radiancesOf(Work work) {
+    MutableVectorArray radiance = launch.radiance;
+    if (work.isResumed) radiance = launch.radianceBefore;
+    return radiance;
+}
+
+SharedPathArray sharedPathsOf(Work work) {
+    SharedPathArray paths = launch.sharedPaths;
+    if (work.isResumed) paths = launch.sharedPathsBefore;
+    return paths;
+}
+
+// The path has stepped to the first or the second vertex that is shared.
+void keepVertex(Work work, PathState path, vec3 prefix) {
+    SharedPathArray paths = sharedPathsOf(work);
+    if (path.reuse == kReuseFirst) keepFirst(paths, work.number, path.last.position, path.last.normal, path.throughput);
+    if (path.reuse == kReuseSuffix) {
+        keepSecond(paths, work.number, path.last.position, path.last.normal);
+        radiancesOf(work).at[work.number] = prefix;
+    }
+}
+
+// The sample's own path has ended. What its second vertex sends out is shared: then true. What it had brought before
+// is where keepVertex() has put it, or comes back for edge rays to add to.
+bool endShared(Work work, inout PathState path, inout uint nonfinite) {
+    if (path.reuse == kReuseSuffix && !isFinite(path.radiance)) {
+        path.radiance = vec3(0.0f);
+        nonfinite++;
+    }
+    keepEnd(sharedPathsOf(work), work.number, path.radiance, path.reuse);
+    if (path.reuse != kReuseSuffix) return false;
+    if (kHasEdges != 0u && work.edgeRays > 1u) path.radiance = radiancesOf(work).at[work.number];
+    return true;
 }
 
 // Whether an invocation has found no sample any more.
 bool samplesAreSpent() {
-    return atomicLoad(launch.counters.at[kSpent], gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed) != 0u;
+    return atomicLoad(launch.progress.counters[kSpent], gl_ScopeDevice, gl_StorageSemanticsNone,
+                      gl_SemanticsRelaxed) != 0u;
 }
 
 void tellSamplesAreSpent() {
-    atomicStore(launch.counters.at[kSpent], 1u, gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
+    atomicStore(launch.progress.counters[kSpent], 1u, gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
+}
+
+// Takes the path a step further, given what its ray hits. False: it has ended.
+bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
+               inout Passage passage) {
+    uint before = path.reuse;
+    vec3 prefix;
+    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, prefix, direct, passage);
+    if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, prefix);
+    return goesOn;
 }
 
 // What an invocation does; all invocations of a launch share its samples.
@@ -164,7 +208,7 @@ void tracePaths(uint invocation) {
         if (isOver && !work.isResumed && launch.slotCount != 0u) break;
         if (tracesApart()) {
             Hit hit = traceStep(work.smp, path, direct, passage, false, nonfinite);
-            goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
+            goesOn = stepAlong(scene, params, work, hit, path, direct, passage);
             scattered += uint(goesOn);
             while (isChecking(direct, passage)) {
                 hit = traceStep(work.smp, path, direct, passage, true, nonfinite);
@@ -181,12 +225,14 @@ void tracePaths(uint invocation) {
                     endChecked(scene, hit, path, direct, passage);
                     shadow++;
                 } else {
-                    goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, passage);
+                    goesOn = stepAlong(scene, params, work, hit, path, direct, passage);
                     scattered += uint(goesOn);
                 }
             }
         }
         begins = !goesOn && !isChecking(direct, passage);
+        bool isOwn = work.edgeRays == 0u || work.edgeRays > params.edgeRays;
+        bool isKept = reusesPaths(kFeatures, params) && begins && isOwn && endShared(work, path, nonfinite);
         if (begins && work.edgeRays <= 1u) {
             work.edgeRays = 0u;
             // A sample that is not a number is dropped and counted, and stays in the divisor.
@@ -194,16 +240,14 @@ void tracePaths(uint invocation) {
                 path.radiance = vec3(0.0f);
                 nonfinite++;
             }
-            MutableVectorArray radiance = launch.radiance;
-            if (work.isResumed) radiance = launch.radianceBefore;
-            radiance.at[work.number] = path.radiance;
+            if (!isKept) radiancesOf(work).at[work.number] = path.radiance;
             finished++;
         }
     }
     if (!isSpent) leavePath(work, path, direct, passage, goesOn);
     uint line = counterLine(invocation);
-    atomicAdd(launch.counters.at[line + kCounterFinished], finished);
-    atomicAdd(launch.counters.at[line + kCounterScattered], scattered);
-    atomicAdd(launch.counters.at[line + kCounterShadow], shadow);
-    if (nonfinite != 0u) atomicAdd(launch.counters.at[line + kCounterNonfinite], nonfinite);
+    atomicAdd(launch.progress.counters[line + kCounterFinished], finished);
+    atomicAdd(launch.progress.counters[line + kCounterScattered], scattered);
+    atomicAdd(launch.progress.counters[line + kCounterShadow], shadow);
+    if (nonfinite != 0u) atomicAdd(launch.progress.counters[line + kCounterNonfinite], nonfinite);
 }

@@ -107,7 +107,40 @@ struct UnfinishedPath {
     DirectLight direct;
     Passage passage; // read with kFeatureConnections
 };
-RT_MUTABLE_ARRAY(UnfinishedPathArray, UnfinishedPath)
+
+// Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
+const uint kCounterWork = 0u;      // of line 0: samples handed out
+const uint kCounterScattered = 1u; // rays
+const uint kCounterShadow = 2u;
+const uint kCounterNonfinite = 3u; // samples that were dropped
+const uint kCounterFinished = 4u;  // samples
+const uint kCounterLeft = 5u;      // of line 0: paths left to the next launch
+const uint kCounterReuse = 6u;     // rays, of the launch before
+const uint kCounterEdgeRays = 7u;
+const uint kCounters = 8u;
+const uint kCounterLines = 64u;
+// 1 when no sample is left; away from what is written often.
+const uint kSpent = (kCounterLines - 1u) * kCounters + kCounterLeft;
+
+// Where an invocation counts: neighbours, whose sums are one access, in one place.
+RT_FN uint counterLine(uint invocation) {
+    return invocation / 32u % kCounterLines * kCounters;
+}
+
+// What the invocations of a launch tell each other, the next launch and the host.
+const uint kSharedPathBytes = 64u; // of each sample that shares its path
+#ifdef __cplusplus
+using LaunchProgress = std::uint64_t;
+using SharedPathArray = std::uint64_t;
+#else
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SharedPathArray {
+    uvec4 at[];
+};
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaunchProgress {
+    uint counters[kCounters * kCounterLines];
+    UnfinishedPath left[]; // as many as the counters say
+};
+#endif
 
 // What a film keeps besides sums.
 const uint kKeepsBlockSquares = 1u;  // of (block sum)^2 / kBlock
@@ -124,11 +157,11 @@ struct FilmLaunch {
     MutableWordArray plan;             // most samples of each pixel, if kIsPlanned
     MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
     MutableVectorArray radiance;       // of each sample of the launch, see sampleAt()
-    UnfinishedPathArray left;          // as many as its counters say, see below
-    MutableWordArray counters;         // kCounters per line
+    SharedPathArray sharedPaths;       // likewise, where params.pathReuse says so; see SharedPaths.glsl
+    LaunchProgress progress;
     MutableVectorArray radianceBefore; // these three: of the launch before
-    UnfinishedPathArray leftBefore;
-    MutableWordArray countersBefore;
+    SharedPathArray sharedPathsBefore;
+    LaunchProgress progressBefore;
     uint replicates;
     uint filmSlots;
     uint activeSlots; // the first ones of these: the others have all that a plan gives them
@@ -155,18 +188,6 @@ struct ResolveLaunch {
     uint halves; // whose means make the picture: 2 where there is a plan, else 1
     uint filmSlots;
 };
-
-// Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.
-const uint kCounterWork = 0u;      // of line 0: samples handed out
-const uint kCounterScattered = 1u; // rays
-const uint kCounterShadow = 2u;
-const uint kCounterNonfinite = 3u; // samples that were dropped
-const uint kCounterFinished = 4u;  // samples
-const uint kCounterLeft = 5u;      // of line 0: paths left to the next launch
-const uint kCounterEdgeRays = 7u;
-const uint kCounters = 8u;
-const uint kCounterLines = 64u;
-const uint kSpent = (kCounterLines - 1u) * kCounters + 6u; // 1 when no sample is left; away from what is written often
 
 // Samples of replicate r among the first `spp` of a pixel: sample s belongs to replicate s mod R.
 RT_FN uint replicateSamples(uint spp, uint replicate, uint replicates) {

@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
@@ -145,7 +146,8 @@ class StabilitySuite {
         while (!engine_.renderSome({std::chrono::seconds(1), nullptr}).finished) {
         }
         Rendered r;
-        const app::FilmEstimate estimate = app::estimate(engine_.film());
+        const app::FilmEstimate estimate =
+            app::estimate(engine_.film(), app::dependentPixels(engine_.report().features));
         for (std::size_t c = 0; c < 3; ++c) {
             r.mean += estimate.meanRadiance[c] / 3;
             if (estimate.standardError) r.standardError = std::max(r.standardError, (*estimate.standardError)[c]);

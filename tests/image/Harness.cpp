@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "Common/App/Options/Names.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Bench/Stability.h"
 #include "tests/image/AnalyticScenes.h"
 
@@ -43,7 +44,8 @@ Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const ap
             }
         }
     }
-    for (int c = 0; c < 3; ++c) estimate.standardError[c] = std::sqrt(variance[c]);
+    const std::uint32_t dependent = app::dependentPixels(engine.report().features);
+    for (int c = 0; c < 3; ++c) estimate.standardError[c] = std::sqrt(variance[c] * dependent);
     return estimate;
 }
 

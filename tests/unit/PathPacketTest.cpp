@@ -56,7 +56,8 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         DirectLight direct = noDirectLight();
         Passage passage = noPassage();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct, passage);
+        vec3 unusedPrefix;
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPrefix, direct, passage);
         while (passage.segments != 0u) {
             ++counters.shadow;
             float tMax;
@@ -94,7 +95,8 @@ bool hasSameBits(vec3 a, vec3 b) {
 }
 
 void comparePaths(const TracedScene& scene, const app::RenderSettings& settings) {
-    const KernelContext context = scene.context(settings);
+    KernelContext context = scene.context(settings);
+    context.params.pathReuse = 0u; // which has a test of its own
     TileTask tasks[2];
     tasks[0].x = 11;
     tasks[0].y = 17;

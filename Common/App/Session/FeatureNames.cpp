@@ -43,6 +43,7 @@ constexpr Named<std::uint32_t> kFeatures[] = {
     {"mixture", kFeatureMixture},
     {"projected", kFeatureProjected},
     {"connections", kFeatureConnections},
+    {"path-reuse", kFeatureReuse},
 };
 
 constexpr bool haveOneNameEach() {
@@ -52,7 +53,7 @@ constexpr bool haveOneNameEach() {
         if ((named & row.value) != 0) return false;
         named |= row.value;
     }
-    return (named | kFeaturesUnused) == kFeatureAll;
+    return named == kFeatureAll;
 }
 static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
 

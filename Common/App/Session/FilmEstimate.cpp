@@ -1,5 +1,7 @@
 #include "Common/App/Session/FilmEstimate.h"
 
+#include <cmath>
+
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/Metrics.h"
 
@@ -15,10 +17,13 @@ std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film) {
     return image::estimateRelMse(image::meanRows(film), image::varianceRows(film));
 }
 
-FilmEstimate estimate(const image::Film& film) {
+FilmEstimate estimate(const image::Film& film, std::uint32_t dependentPixels) {
     FilmEstimate result;
     result.meanRadiance = image::channelMeans(image::meanRows(film));
-    if (hasVariance(film)) result.standardError = image::standardErrors(image::varianceRows(film));
+    if (hasVariance(film)) {
+        result.standardError = image::standardErrors(image::varianceRows(film));
+        for (double& error : *result.standardError) error *= std::sqrt(dependentPixels);
+    }
     result.relmse = estimateRelMse(film);
     return result;
 }

@@ -1,6 +1,7 @@
 // What a film says about its own error.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "Common/Image/ErrorEstimate.h"
@@ -19,6 +20,7 @@ bool hasVariance(const image::Film& film);
 
 // Both take a few rows of memory, however large the image is.
 std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film);
-FilmEstimate estimate(const image::Film& film);
+// So many pixels each, that are neighbours, may depend on each other: the standard error is then an upper bound.
+FilmEstimate estimate(const image::Film& film, std::uint32_t dependentPixels);
 
 } // namespace rt::app

@@ -8,6 +8,7 @@
 #include "Common/Image/SamplePlan.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Material/Bsdf.h"
+#include "Common/Shared/Path/PathReuse.h"
 
 namespace rt::app {
 namespace {
@@ -29,6 +30,7 @@ constexpr std::uint32_t kRoulette = 2;
 constexpr std::uint32_t kRouletteOfManyLamps = 1;
 constexpr std::uint32_t kRouletteUnderSky = 4;
 constexpr std::ptrdiff_t kManyLamps = 32; // more are many
+constexpr std::uint32_t kFewLamps = 16;   // are few
 
 bool isUnderPlainSky(const scene::CompiledScene& scene) {
     return scene.globals.skyKind == shared::kSkyConstant || scene.globals.skyKind == shared::kSkyGradient;
@@ -69,6 +71,29 @@ bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& set
            !shared::has(scene.features, shared::kFeatureOpacity) && scattersWidely(scene);
 }
 
+// Whether pixels may share what their paths bring: where light goes from one diffuse surface to another, is not
+// scattered in between and finds all as it is at any time.
+bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    constexpr std::uint32_t kPrevents =
+        shared::kFeatureVolumes | shared::kFeatureMovingSpheres | shared::kFeatureOpacity;
+    return settings.lightSampling != LightSampling::Mixture &&
+           shared::has(scene.features, shared::kFeatureLambertian) && !shared::has(scene.features, kPrevents);
+}
+
+// Whether that gains more than it costs, by error times time (docs/light-sampling.md): where indirect light makes the
+// noise, and not a sky, many lamps, the edges of a mesh's light, blurred mirrors or light by way of glass.
+bool gainsByReuse(const scene::CompiledScene& scene) {
+    constexpr std::uint32_t kOtherNoise =
+        shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureManyLights | shared::kFeatureFuzz;
+    return !shared::has(scene.features, kOtherNoise) && scene.globals.lightCount <= kFewLamps &&
+           scene.globals.lightCount > 0 && scene.smoothSpheres.empty();
+}
+
+bool reusesPaths(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    if (settings.pathReuse == PathReuse::Off || !mayReusePaths(scene, settings)) return false;
+    return settings.pathReuse == PathReuse::On || gainsByReuse(scene);
+}
+
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
 std::uint32_t logOfBlock(const RenderSettings& settings) {
     const std::uint32_t samples = (settings.spp + settings.replicates - 1) / settings.replicates;
@@ -96,8 +121,13 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
         params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
+    params.pathReuse = reusesPaths(scene, settings) ? 1u : 0u;
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
+}
+
+std::uint32_t dependentPixels(std::uint32_t features) {
+    return shared::has(features, shared::kFeatureReuse) ? shared::kReuseGroup : 1u;
 }
 
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {
@@ -143,6 +173,7 @@ std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::Cam
     if (settings.lightSampling == LightSampling::Mixture && scene.globals.lightCount + scene.globals.targetCount > 0)
         features |= shared::kFeatureMixture;
     if (connectsLights(scene, settings)) features |= shared::kFeatureConnections;
+    if (reusesPaths(scene, settings)) features |= shared::kFeatureReuse;
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
         if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
     // Mirrors, glass and emitters alone leave light sampling nothing to do.

@@ -6,6 +6,7 @@
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/ImagePart.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Hash.h"
 
 namespace rt::app {
@@ -45,11 +46,9 @@ double perSecond(double count, double seconds) {
 }
 
 Json raysJson(const RayCounts& rays, double seconds) {
-    return {{"camera", rays.camera},
-            {"scattered", rays.scattered},
-            {"shadow", rays.shadow},
-            {"edge", rays.edge},
-            {"per_second", perSecond(static_cast<double>(rays.all()), seconds)}};
+    return {{"camera", rays.camera}, {"scattered", rays.scattered},
+            {"shadow", rays.shadow}, {"edge", rays.edge},
+            {"reuse", rays.reuse},   {"per_second", perSecond(static_cast<double>(rays.all()), seconds)}};
 }
 
 Json errorJson(const image::ErrorFigures& error) {
@@ -88,7 +87,7 @@ Json ranksJson(const std::vector<RankFigures>& ranks) {
 
 std::string Statistics::toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
                                const image::Film& film) const {
-    const FilmEstimate estimated = estimate(film);
+    const FilmEstimate estimated = estimate(film, dependentPixels(report.features));
     const RenderSettings& settings = options.settings;
     Json json{{"version", 1},
               {"app", options.program},

@@ -349,6 +349,7 @@ struct RenderParams {
     uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
     uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
+    uint pathReuse;        // 1: pixels share what their paths bring, see PathReuse.h
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
@@ -402,6 +403,13 @@ struct SphereChain {
     uint state;  // kChain...
 };
 
+// What of a path is shared, see PathReuse.h.
+const uint kReuseBefore = 0u; // it has met mirrors and glass only
+const uint kReuseFirst = 1u;  // it has scattered at its first vertex
+const uint kReuseSuffix = 2u; // it is behind its second, whose light it finds
+const uint kReuseEnded = 3u;  // its first vertex is shared, but there was no second one
+const uint kReuseNone = 4u;   // nothing is
+
 // A path between two steps of PathStep.h.
 struct PathState {
     Ray ray;
@@ -411,6 +419,7 @@ struct PathState {
     uint vertex;       // surfaces and collisions met so far
     LightContext last; // where ray starts, for the weights of multiple importance sampling
     SphereChain chain; // where it scattered, for the weights against connections
+    uint reuse;        // kReuse...
 };
 
 // What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes

@@ -25,6 +25,7 @@ RT_FN PathState startEdgeRay(RT_IN(RenderParams) params, RT_IN(Ray) ray, vec3 ra
     s.throughput = vec3(1.0f / float(params.edgeRays));
     s.radiance = radiance;
     s.vertex = params.maxDepth - 1u;
+    s.reuse = kReuseNone;
     return s;
 }
 

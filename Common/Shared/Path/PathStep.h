@@ -1,7 +1,7 @@
 // A path, vertex by vertex. Each vertex goes through these stages:
 //
 //   arrive                 collision in a medium, emission weighed against the light sampling of the vertex before,
-//                          surface
+//                          surface, what of the path is shared
 //   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
 //   connect                mis, with smooth spheres: connectLight(), which leaves two or three segments
@@ -21,6 +21,7 @@
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Path/ConnectionChain.h"
 #include "Common/Shared/Path/Mixture.h"
+#include "Common/Shared/Path/PathReuse.h"
 
 RT_SHARED_BEGIN
 
@@ -50,6 +51,7 @@ RT_FN PathState startPath(RT_IN(Ray) ray) {
     s.chain.sphere = kNone;
     s.chain.met = kNone;
     s.chain.state = kChainNone;
+    s.reuse = kReuseBefore;
     return s;
 }
 
@@ -109,10 +111,10 @@ RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) par
     return 1.0f;
 }
 
-// Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. False: the path has
-// ended.
+// Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. `prefix`: see
+// followReuse(). False: the path has ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
-                  RT_INOUT(PathState) s, RT_OUT(Vertex) v) {
+                  RT_INOUT(PathState) s, RT_INOUT(vec3) prefix, RT_OUT(Vertex) v) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
@@ -132,13 +134,16 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
+        if (reusesPaths(features, params)) {
+            followReuse(surface, v, isLambertian(features, v.bsdf), isDelta(features, v.bsdf), s, prefix);
+        }
     }
     s.last = lightContext(params, v);
     return true;
 }
 
 // Goes on from v into the direction that b sampled; `survival` decides the roulette. False: the path ends here.
-RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
+RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
                 RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
     float strongest = maxComponent(s.throughput);
@@ -154,8 +159,12 @@ RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
     s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
-    if (params.russianRoulette != 0u && v.index > 0u) {
-        float probability = clamp(float(params.russianRoulette) * strongest, kLeastSurvival, 1.0f);
+    // What is shared was drawn with the bsdf's density, and no other.
+    bool mayEnd = v.index > 0u && !(reusesPaths(features, params) && s.reuse == kReuseFirst);
+    if (params.russianRoulette != 0u && mayEnd) {
+        float survivors = float(params.russianRoulette) * strongest;
+        if (reusesPaths(features, params) && s.reuse == kReuseSuffix) survivors *= kReuseSurvival;
+        float probability = clamp(survivors, kLeastSurvival, 1.0f);
         if (survival >= probability) return false;
         s.throughput /= probability;
     }
@@ -165,9 +174,10 @@ RT_FN bool goOn(RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b
 // All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
 // `passage` and `direct`, which the caller sets to noPassage() and noDirectLight(), have been added if they arrive.
 RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
-                    RT_INOUT(PathState) s, RT_INOUT(DirectLight) direct, RT_INOUT(Passage) passage) {
+                    RT_INOUT(PathState) s, RT_INOUT(vec3) prefix, RT_INOUT(DirectLight) direct,
+                    RT_INOUT(Passage) passage) {
     Vertex v;
-    if (!arrive(features, scene, params, smp, hit, s, v)) return false;
+    if (!arrive(features, scene, params, smp, hit, s, prefix, v)) return false;
     completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
@@ -190,7 +200,7 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
 #ifdef RT_FULL
     if (has(features, kFeatureConnections)) goOnChain(v, b, s);
 #endif
-    return goOn(params, v, b, u.roulette.x, s);
+    return goOn(features, params, v, b, u.roulette.x, s);
 }
 
 RT_SHARED_END

@@ -1,0 +1,138 @@
+// What the paths of neighbouring pixels share. Included by one translation unit per instruction set; all it defines has
+// internal linkage.
+#pragma once
+#include <algorithm>
+#include <span>
+
+#include "Common/Shared/Path/PathReuse.h"
+#include "RayTracingCPU/SceneAccess.h"
+
+namespace rt::cpu {
+namespace {
+
+using namespace rt::shared;
+
+// What the path of a sample shares.
+struct SharedPath {
+    vec3 first; // its first vertex, where rays start
+    vec3 firstNormal;
+    vec3 throughput; // of the path behind it
+    vec3 second;     // its second vertex, likewise
+    vec3 secondNormal;
+    vec3 radiance; // that the second sends out
+    uint reuse;    // how the path has ended: kReuse...
+};
+
+// The samples of one number in a group of pixels.
+struct ReuseGroup {
+    uint count = 0u;
+    uint samples[kReuseGroup];
+};
+
+// What the paths of a kernel's samples share, in the order of TileSamples.
+template <uint kFeatures>
+class SharedPaths {
+  public:
+    explicit SharedPaths(const KernelContext& context)
+        : scene_(*context.scene), isUsed_(reusesPaths(kFeatures, context.params)) {}
+
+    // After the path of a sample, whose PathState::reuse was `before`, has arrived at v. What it had brought before its
+    // second vertex goes to the sample's radiance.
+    void arrived(uint sample, uint before, const PathState& path, const vec3& prefix, const Vertex& v, vec3& radiance) {
+        if (!isUsed_ || path.reuse == before) return;
+        SharedPath& shared = paths_[sample];
+        if (path.reuse == kReuseFirst) {
+            shared.first = v.origin;
+            shared.firstNormal = v.normal;
+            shared.throughput = path.throughput * v.bsdf.albedo;
+        } else if (path.reuse == kReuseSuffix) {
+            shared.second = v.origin;
+            shared.secondNormal = v.normal;
+            radiance = prefix;
+        }
+    }
+
+    // The path of a sample has ended.
+    void ended(uint sample, const PathState& path, vec3& radiance) {
+        SharedPath& shared = paths_[sample];
+        shared.reuse = isUsed_ ? path.reuse : kReuseNone;
+        (shared.reuse == kReuseSuffix ? shared.radiance : radiance) = path.radiance;
+    }
+
+    // To what the second vertex of an ended path sends out.
+    void add(uint sample, const vec3& radiance) {
+        if (paths_[sample].reuse == kReuseSuffix) paths_[sample].radiance += radiance;
+    }
+
+    // Adds to the radiances of all samples of the tasks what their groups' paths have found.
+    void finish(std::span<const TileTask> tasks, vec3* radiances, KernelCounters& counters) {
+        if (!isUsed_) return;
+        uint first = 0u;
+        for (const TileTask& task : tasks) {
+            for (uint y = 0u; y < task.height; y += kReuseSide)
+                for (uint x = 0u; x < task.width; x += kReuseSide) share(task, first, x, y, radiances, counters);
+            first += task.samples();
+        }
+    }
+
+  private:
+    // Of the groups whose upper left pixel is this one of the task; `first` is the task's first sample.
+    void share(const TileTask& task, uint first, uint x, uint y, vec3* radiances, KernelCounters& counters) {
+        struct Pixel {
+            uint first, count; // of its samples
+        };
+        Pixel pixels[kReuseGroup];
+        uint pixelCount = 0u, most = 0u;
+        for (uint row = y; row < std::min(y + kReuseSide, task.height); ++row) {
+            for (uint column = x; column < std::min(x + kReuseSide, task.width); ++column) {
+                const uint count = task.samplesOf(column, row);
+                pixels[pixelCount++] = {first + task.samplesBefore(column, row), count};
+                most = std::max(most, count);
+            }
+        }
+        for (uint i = 0u; i < most; ++i) {
+            ReuseGroup group;
+            for (uint p = 0u; p < pixelCount; ++p) {
+                const uint sample = pixels[p].first + i;
+                if (i < pixels[p].count && sharesVertex(paths_[sample].reuse)) group.samples[group.count++] = sample;
+            }
+            share(group, radiances, counters);
+        }
+    }
+
+    // Of the samples whose first vertices are shared.
+    void share(const ReuseGroup& group, vec3* radiances, KernelCounters& counters) {
+        vec3 received[kReuseGroup] = {}; // at their first vertices
+        for (uint j = 0u; j < group.count; ++j) {
+            const SharedPath& suffix = paths_[group.samples[j]];
+            if (suffix.reuse != kReuseSuffix || !(maxComponent(suffix.radiance) > 0.0f)) continue;
+            float densities[kReuseGroup];
+            float sum = 0.0f;
+            for (uint k = 0u; k < group.count; ++k) {
+                densities[k] = density(paths_[group.samples[k]], suffix, k == j, counters);
+                sum += densities[k];
+            }
+            for (uint k = 0u; k < group.count; ++k) received[k] += suffix.radiance * (densities[k] / sum);
+        }
+        for (uint k = 0u; k < group.count; ++k)
+            radiances[group.samples[k]] += paths_[group.samples[k]].throughput * received[k];
+    }
+
+    // With which a path's first vertex could have drawn the second of another, or of itself; > 0 then.
+    float density(const SharedPath& path, const SharedPath& suffix, bool isItself, KernelCounters& counters) const {
+        const float density = reuseDensity(path.first, path.firstNormal, suffix.second, suffix.secondNormal);
+        if (isItself) return max(density, kLeastReuseDensity);
+        if (density == 0.0f) return 0.0f;
+        ++counters.reuse;
+        float tMax;
+        const Ray ray = reuseRay(path.first, suffix.second, tMax);
+        return isOccluded(scene_, ray, tMax) ? 0.0f : density;
+    }
+
+    const CpuScene& scene_;
+    bool isUsed_;
+    SharedPath paths_[kBatchSamples];
+};
+
+} // namespace
+} // namespace rt::cpu

@@ -1,0 +1,124 @@
+// Paths that neighbouring pixels share: the light stays what it is, and there is less noise.
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "Common/App/Session/RenderParams.h"
+#include "Common/App/Session/SceneSource.h"
+#include "Common/Image/ImageTest.h"
+#include "Common/Image/Statistics.h"
+#include "Common/Shared/Base/Features.h"
+#include "tests/image/AnalyticScenes.h"
+#include "tests/image/Harness.h"
+
+namespace rt::test {
+namespace {
+
+using namespace rt::scene;
+using app::PathReuse;
+
+std::shared_ptr<const CompiledScene> compiledScene(const char* id) {
+    return app::compile(app::loadScene(id), true);
+}
+
+// A bright box: every vertex receives from every other.
+TEST(PathReuse, EnclosureHasItsClosedFormRadiance) {
+    for (bool box : {false, true}) {
+        const auto scene = compileScene(shell(box, 0.6, 0.5));
+        for (app::RenderSettings settings : allEstimators(smallSettings(6, 1024))) {
+            settings.pathReuse = PathReuse::On;
+            for (std::uint32_t depth : {1u, 2u, 3u, 7u}) {
+                settings.maxDepth = depth;
+                const double truth = enclosureRadiance(0.6, 0.5, static_cast<int>(depth));
+                EXPECT_TRUE(isMean(render(*scene, settings), glm::dvec3(truth)))
+                    << (box ? "box, " : "sphere, ") << depth << ", " << describe(settings);
+            }
+        }
+    }
+}
+
+// 4 standard errors, as AgreementTest.cpp. An odd size leaves groups of two pixels and of one. Glass and mirrors in
+// front of first vertices, connections behind second ones, normals that are interpolated, boxes in instances, lights
+// that are seen by scattering alone, numbers of samples that a plan gives.
+TEST(PathReuse, ChangesNothingButNoise) {
+    const auto expectSame = [](const char* id, app::RenderSettings settings) {
+        const auto scene = compiledScene(id);
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        const auto images = [&](PathReuse reuse, std::uint32_t firstSeed) {
+            settings.pathReuse = reuse;
+            const auto result = independentImages(*engine, *scene, settings, firstSeed);
+            EXPECT_EQ(engine->report().rays.reuse > 0, reuse == PathReuse::On) << id;
+            return result;
+        };
+        const auto result = image::testImages(images(PathReuse::On, 100), images(PathReuse::Off, 1000));
+        EXPECT_GT(result.globalP, 1e-4) << id << ", " << result.summary();
+        EXPECT_EQ(result.tileDiscoveries, 0u) << id << ", " << result.summary();
+    };
+    app::RenderSettings settings;
+    settings.width = settings.height = 17;
+    settings.spp = 16;
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box-glass", "rest-of-life-cornell-box-mirror",
+                           "cornell-box-lucy", "many-lights:200", "triangle-lights"})
+        expectSame(id, settings);
+    settings.adaptive = true;
+    settings.replicates = 2;
+    settings.spp = 64;
+    expectSame("cornell-box-lights", settings);
+    settings.adaptive = false;
+    settings.replicates = 1;
+    settings.spp = 64;
+    settings.lightSampling = app::LightSampling::Bsdf;
+    expectSame("rest-of-life-cornell-box", settings);
+}
+
+// Four paths in place of one leave less than half of the noise where nearly all of it is of indirect light.
+TEST(PathReuse, LeavesLessNoise) {
+    const auto scene = compiledScene("rest-of-life-cornell-box");
+    const auto engine = cpu::makeCpuEngine({});
+    engine->setScene(scene, nullptr);
+    const auto variance = [&](PathReuse reuse) {
+        app::RenderSettings settings;
+        settings.width = settings.height = 48;
+        settings.spp = 64;
+        settings.pathReuse = reuse;
+        std::vector<image::Image> images;
+        for (settings.seed = 1; settings.seed <= 8; ++settings.seed)
+            images.push_back(renderImage(*engine, *scene, settings));
+        double sum = 0;
+        for (std::size_t i = 0; i < images[0].data.size(); ++i) {
+            std::vector<double> values;
+            for (const image::Image& picture : images) values.push_back(static_cast<double>(picture.data[i]));
+            sum += rt::image::estimate(values).varianceOfMean;
+        }
+        return sum;
+    };
+    EXPECT_GT(variance(PathReuse::Off), 2 * variance(PathReuse::On));
+}
+
+// Where indirect light makes the noise. What moves, is in a medium or drawn by Shirley's mixture is never shared.
+TEST(PathReuse, IsChosenWhereItGains) {
+    const auto shares = [](const char* id, PathReuse reuse, app::LightSampling sampling = app::LightSampling::Mis) {
+        const auto scene = compiledScene(id);
+        app::RenderSettings settings = smallSettings(16, 16);
+        settings.pathReuse = reuse;
+        settings.lightSampling = sampling;
+        const bool isShared = app::makeRenderParams(*scene, settings).pathReuse != 0;
+        EXPECT_EQ(shared::has(app::renderFeatures(*scene, scene->camera, settings), shared::kFeatureReuse), isShared);
+        return isShared;
+    };
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box", "next-week-simple-light"})
+        EXPECT_TRUE(shares(id, PathReuse::Auto)) << id;
+    for (const char* id : {"one-weekend-final", "veach-mis", "many-lights:200", "rest-of-life-cornell-box-glass"}) {
+        EXPECT_FALSE(shares(id, PathReuse::Auto)) << id;
+        EXPECT_TRUE(shares(id, PathReuse::On)) << id;
+    }
+    for (const char* id : {"next-week-cornell-smoke", "next-week-random-spheres"})
+        EXPECT_FALSE(shares(id, PathReuse::On)) << id;
+    EXPECT_FALSE(shares("cornell-box-lights", PathReuse::On, app::LightSampling::Mixture));
+    EXPECT_FALSE(shares("cornell-box-lights", PathReuse::Off));
+}
+
+} // namespace
+} // namespace rt::test
