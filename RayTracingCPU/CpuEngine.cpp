@@ -239,8 +239,7 @@ class CpuEngine final : public app::Engine {
         const Clock::time_point start = Clock::now();
         kernel_->renderTiles(context_, {&task, 1}, nullptr, counters);
         const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow + counters.edge +
-                                              counters.reuse);
+        const auto rays = static_cast<double>(counters.camera + counters.scattered + counters.shadow + counters.edge);
         return static_cast<float>((cost == app::Cost::Time ? seconds : rays) / samples);
     }
 

@@ -44,14 +44,13 @@ struct TileTask {
         const std::uint32_t end = plan[row * stride + column];
         return end <= first ? 0 : end - first < count ? end - first : count;
     }
-    // Of the pixels before this one, row by row.
-    std::uint32_t samplesBefore(std::uint32_t column, std::uint32_t row) const {
-        if (plan == nullptr) return count * (row * width + column);
+    std::uint32_t samples() const {
+        if (plan == nullptr) return count * width * height;
         std::uint32_t total = 0;
-        for (std::uint32_t i = 0; i < row * width + column; ++i) total += samplesOf(i % width, i / width);
+        for (std::uint32_t row = 0; row < height; ++row)
+            for (std::uint32_t column = 0; column < width; ++column) total += samplesOf(column, row);
         return total;
     }
-    std::uint32_t samples() const { return samplesBefore(0, height); }
 };
 
 inline constexpr std::uint32_t kBatchSamples = 1024; // of all tasks that a kernel is given at a time: a block of a tile

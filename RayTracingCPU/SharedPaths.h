@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "Common/Image/Film.h"
 #include "Common/Shared/Path/PathReuse.h"
 #include "RayTracingCPU/SceneAccess.h"
 
@@ -69,25 +70,33 @@ class SharedPaths {
         if (!isUsed_) return;
         uint first = 0u;
         for (const TileTask& task : tasks) {
+            PixelSamples pixels[image::Film::kTilePixels];
+            PixelSamples* next = pixels;
+            for (uint y = 0u; y < task.height; ++y) {
+                for (uint x = 0u; x < task.width; ++x) {
+                    *next = {first, task.samplesOf(x, y)};
+                    first += next++->count;
+                }
+            }
             for (uint y = 0u; y < task.height; y += kReuseSide)
-                for (uint x = 0u; x < task.width; x += kReuseSide) share(task, first, x, y, radiances, counters);
-            first += task.samples();
+                for (uint x = 0u; x < task.width; x += kReuseSide) share(task, pixels, x, y, radiances, counters);
         }
     }
 
   private:
-    // Of the groups whose upper left pixel is this one of the task; `first` is the task's first sample.
-    void share(const TileTask& task, uint first, uint x, uint y, vec3* radiances, KernelCounters& counters) {
-        struct Pixel {
-            uint first, count; // of its samples
-        };
-        Pixel pixels[kReuseGroup];
+    struct PixelSamples {
+        uint first, count;
+    };
+
+    // Of the groups whose upper left pixel is this one of the task's, which are listed row by row.
+    void share(const TileTask& task, const PixelSamples* ofTask, uint x, uint y, vec3* radiances,
+               KernelCounters& counters) {
+        PixelSamples pixels[kReuseGroup];
         uint pixelCount = 0u, most = 0u;
         for (uint row = y; row < std::min(y + kReuseSide, task.height); ++row) {
             for (uint column = x; column < std::min(x + kReuseSide, task.width); ++column) {
-                const uint count = task.samplesOf(column, row);
-                pixels[pixelCount++] = {first + task.samplesBefore(column, row), count};
-                most = std::max(most, count);
+                pixels[pixelCount] = ofTask[row * task.width + column];
+                most = std::max(most, pixels[pixelCount++].count);
             }
         }
         for (uint i = 0u; i < most; ++i) {

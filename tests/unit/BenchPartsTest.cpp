@@ -44,6 +44,7 @@ TEST(BenchParts, EachIsLeftOutInTurn) {
     const PartRow& whole = rows.front();
     EXPECT_GT(perSample(whole.rays.shadow, whole), 1);
     EXPECT_EQ(by.at("light sampling (BSDF alone)").rays.shadow, 0u);
+    EXPECT_GT(whole.rays.reuse, 0u);
     EXPECT_EQ(by.at("path reuse").rays.reuse, 0u);
     EXPECT_GT(perSample(by.at("roulette").rays.scattered, by.at("roulette")),
               1.3 * perSample(whole.rays.scattered, whole)); // 4.4 rays instead of 2.1

@@ -83,8 +83,7 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
 // Whether that gains more than it costs, by error times time (docs/light-sampling.md): where indirect light makes the
 // noise, and not a sky, many lamps, the edges of a mesh's light, blurred mirrors or light by way of glass.
 bool gainsByReuse(const scene::CompiledScene& scene) {
-    constexpr std::uint32_t kOtherNoise =
-        shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureManyLights | shared::kFeatureFuzz;
+    constexpr std::uint32_t kOtherNoise = shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureFuzz;
     return !shared::has(scene.features, kOtherNoise) && scene.globals.lightCount <= kFewLamps &&
            scene.globals.lightCount > 0 && scene.smoothSpheres.empty();
 }

@@ -31,13 +31,13 @@ RT_FN bool reusesPaths(uint features, RT_IN(RenderParams) params) {
 
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and
 // `prefix` is what it had brought before.
-RT_FN void followReuse(RT_IN(Surface) surface, RT_IN(Vertex) v, bool isDiffuse, bool isDelta, RT_INOUT(PathState) s,
+RT_FN void followReuse(uint features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
                        RT_INOUT(vec3) prefix) {
     // Where normals are interpolated, how v scatters depends on where it is seen from.
-    bool isPlain = isDiffuse && surface.shading == surface.normal;
+    bool isPlain = isLambertian(features, v.bsdf) && surface.shading == surface.normal;
     if (s.reuse == kReuseBefore) {
         bool scatters = maxComponent(s.throughput * v.bsdf.albedo) > 0.0f;
-        if (!isDelta) s.reuse = isPlain && scatters ? kReuseFirst : kReuseNone;
+        if (!isDelta(features, v.bsdf)) s.reuse = isPlain && scatters ? kReuseFirst : kReuseNone;
     } else if (s.reuse == kReuseFirst) {
         s.reuse = isPlain ? kReuseSuffix : kReuseEnded;
         if (isPlain) {
@@ -48,12 +48,12 @@ RT_FN void followReuse(RT_IN(Surface) surface, RT_IN(Vertex) v, bool isDiffuse, 
     }
 }
 
-// What a path shares that has ended.
+// Whether a path that has ended like this shares its first vertex.
 RT_FN bool sharesVertex(uint reuse) {
     return reuse == kReuseFirst || reuse == kReuseSuffix || reuse == kReuseEnded;
 }
 
-// Density of y to be drawn from x by a diffuse surface, over area, but for what is the same for all x. 0: each is
+// Density of y to be drawn from x by a diffuse surface, over area, but for what is the same for all x. 0: one is
 // behind the other. `n` and `nY` are the normals of the sides that see each other.
 RT_FN float reuseDensity(vec3 x, vec3 n, vec3 y, vec3 nY) {
     vec3 d = y - x;

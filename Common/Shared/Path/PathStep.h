@@ -134,9 +134,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
-        if (reusesPaths(features, params)) {
-            followReuse(surface, v, isLambertian(features, v.bsdf), isDelta(features, v.bsdf), s, prefix);
-        }
+        if (reusesPaths(features, params)) followReuse(features, surface, v, s, prefix);
     }
     s.last = lightContext(params, v);
     return true;
