@@ -32,6 +32,7 @@ constexpr std::array kEntries{
     entry(shared::kListedXQuadsId, kAxisQuads),
     entry(shared::kListedYQuadsId, kAxisQuads + sizeof(std::uint32_t)),
     entry(shared::kListedZQuadsId, kAxisQuads + 2 * sizeof(std::uint32_t)),
+    entry(shared::kListedCuboidsId, kTraversal + offsetof(TraversalShape, listedCuboids)),
     entry(shared::kListedQuadsId, kTraversal + offsetof(TraversalShape, listedQuads)),
     entry(shared::kListedTrianglesId, kTraversal + offsetof(TraversalShape, listedTriangles)),
 };
@@ -58,6 +59,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     shape.isLinear = bvh.isLinear ? 1 : 0;
     shape.listedSpheres = bvh.lists.spheres;
     shape.listedAxisQuads = bvh.lists.axisQuads;
+    shape.listedCuboids = bvh.lists.cuboids;
     shape.listedQuads = bvh.lists.quads;
     shape.listedTriangles = bvh.lists.triangles;
     return shape;

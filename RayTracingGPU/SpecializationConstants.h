@@ -21,7 +21,8 @@ struct TraversalShape {
     std::uint32_t isLinear = 0;
     std::uint32_t listedSpheres = 0;
     std::array<std::uint32_t, 3> listedAxisQuads{}; // perpendicular to x, y, z
-    std::uint32_t listedQuads = 0;                  // all others
+    std::uint32_t listedCuboids = 0;
+    std::uint32_t listedQuads = 0; // all others
     std::uint32_t listedTriangles = 0;
     bool operator==(const TraversalShape&) const = default;
 };

@@ -27,6 +27,7 @@ const uint kListedZQuadsId = 15u;
 const uint kListedQuadsId = 16u;
 const uint kListedTrianglesId = 17u;
 const uint kTreeIsWideId = 19u;
+const uint kListedCuboidsId = 21u;
 // Of the preview, see Preview.glsl.
 const uint kShapeId = 18u;
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "Common/Accel/Build/Collapse.h"
 #include "Common/Accel/Build/SceneTrees.h"
+#include "Common/Accel/Cuboids.h"
 #include "Common/Core/Error.h"
 #include "Common/Shared/Shape/Shapes.h"
 
@@ -57,15 +59,32 @@ std::optional<int> perpendicularAxis(const shared::Quad& quad) {
     return {};
 }
 
-std::array<vec4, 2> axisQuadVectors(const shared::Quad& quad, std::uint32_t index, int axis) {
-    const int first = (axis + 1) % 3, second = (axis + 2) % 3;
-    const shared::QuadFrame frame = shared::quadFrame(quad.edgeU, quad.edgeV);
-    const bool turned = quad.edgeU[first] == 0;
-    const vec3 edge = quad.edgeU + quad.edgeV;
-    const shared::vec2 margin = turned ? shared::vec2(frame.margin.y, frame.margin.x) : frame.margin;
-    const std::uint32_t place = turned ? index | shared::kTurned : index;
-    return {vec4(quad.corner, std::bit_cast<float>(place)),
-            vec4(1 / edge[first], 1 / edge[second], margin.x, margin.y)};
+// Of a rectangle along an axis: the middle, rounded, and how far its sides and their errors may be from that.
+vec4 halfExtent(const shared::Quad& quad, vec3 center, int axis) {
+    vec4 half(0.0f);
+    for (int i = 0; i < 2; ++i) {
+        const int along = (axis + 1 + i) % 3;
+        const double begin = quad.corner[along];
+        const double end = begin + double{quad.edgeU[along]} + double{quad.edgeV[along]};
+        const double reach = std::max(std::abs(begin - center[along]), std::abs(end - center[along]));
+        half[i] = static_cast<float>(reach + double{shared::kQuadError} * std::abs(end - begin));
+    }
+    return half;
+}
+
+// Of three faces, each in a byte.
+float packFaces(const std::uint32_t* faces) {
+    std::uint32_t packed = 0;
+    for (int i = 0; i < 3; ++i) packed |= (faces[i] == shared::kNone ? shared::kNoFace : faces[i]) << (8 * i);
+    return std::bit_cast<float>(packed);
+}
+
+std::array<vec4, 4> cuboidVectors(const Cuboid& cuboid) {
+    const std::array<vec3, 3>& edges = cuboid.edges;
+    const vec3 center = cuboid.corner + 0.5f * (edges[0] + edges[1] + edges[2]);
+    const auto row = [&](int i) { return edges[i] * (2 / shared::dot(edges[i], edges[i])); };
+    return {vec4(center, packFaces(&cuboid.faces[0])), vec4(row(0), packFaces(&cuboid.faces[3])), vec4(row(1), 0.0f),
+            vec4(row(2), 0.0f)};
 }
 
 LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
@@ -79,16 +98,27 @@ LinearLists makeLists(const AccelInput& input, const shared::Geometry& world) {
         const std::uint32_t index = world.firstSphere + i;
         add({sphereVector(input, index), vec4(vec3(motionVector(input, index)), std::bit_cast<float>(index))});
     }
+    std::vector<std::uint32_t> slanted; // quads
+    for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
+        if (!perpendicularAxis(input.quads[i])) slanted.push_back(i);
+    }
     for (int axis = 0; axis < 3; ++axis) {
         for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
             if (perpendicularAxis(input.quads[i]) != axis) continue;
-            const std::array<vec4, 2> quad = axisQuadVectors(input.quads[i], i, axis);
-            add({quad[0], quad[1]});
+            const shared::Quad& quad = input.quads[i];
+            const vec3 center = quad.corner + 0.5f * (quad.edgeU + quad.edgeV);
+            add({vec4(center, std::bit_cast<float>(i)), halfExtent(quad, center, axis)});
             ++lists.axisQuads[axis];
         }
     }
-    for (std::uint32_t i = world.firstQuad; i < world.firstQuad + world.quadCount; ++i) {
-        if (perpendicularAxis(input.quads[i])) continue;
+    std::vector<Cuboid> cuboids;
+    if (world.firstQuad + world.quadCount <= shared::kNoFace) cuboids = findCuboids(input.quads, slanted);
+    for (const Cuboid& cuboid : cuboids) {
+        const std::array<vec4, 4> v = cuboidVectors(cuboid);
+        add({v[0], v[1], v[2], v[3]});
+        ++lists.cuboids;
+    }
+    for (const std::uint32_t i : slanted) {
         const shared::TreeQuad quad = quadRecord(input, i);
         add({quad.corner, quad.normal, quad.dualU, quad.dualV});
         ++lists.quads;

@@ -33,7 +33,8 @@ struct LinearLists {
     std::vector<shared::vec4> vectors;        // as in TreeRecords.h
     std::uint32_t spheres = 0;                // how many of each there are
     std::array<std::uint32_t, 3> axisQuads{}; // perpendicular to x, y, z
-    std::uint32_t quads = 0;                  // all others
+    std::uint32_t cuboids = 0;                // of the others' faces
+    std::uint32_t quads = 0;                  // the rest
     std::uint32_t triangles = 0;
 };
 

@@ -158,6 +158,15 @@ INSTANTIATE_TEST_SUITE_P(Queries, AgreementTest, ::testing::Combine(::testing::V
                          sceneName);
 INSTANTIATE_TEST_SUITE_P(NightlyQueries, AgreementTest, ::testing::Combine(kEveryScene, kQueries), sceneName);
 
+// Turned boxes, which the compute engine's lists hold whole.
+TEST(CuboidAgreementTest, SampleForSample) {
+    const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/cuboids.json"), true);
+    EnginePair engines(scene, app::GpuEngineKind::Compute);
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
+    for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
+}
+
 // More features than a scene needs change nothing but rounding: code that nothing needs, arrays that are not there.
 class SupersetTest : public ::testing::TestWithParam<app::GpuEngineKind> {};
 INSTANTIATE_TEST_SUITE_P(Engines, SupersetTest, kFirstEngine, engineName);

@@ -135,22 +135,59 @@ RT_FN ShapeHit intersectQuad(Ray ray, vec3 corner, QuadFrame frame, float tMax) 
     return intersectQuad(ray, length(ray.direction), corner, frame, tMax);
 }
 
-// A quad that is a rectangle perpendicular to an axis, in coordinates of which that axis is the last: `toCorner` from
-// the ray's origin; `inverse` 1 / direction.z; `scale` 1 / extent, signed; `margin` as QuadFrame's. u runs along x, v
-// along y.
-RT_FN ShapeHit intersectAxisQuad(vec3 toCorner, vec3 direction, float inverse, float rayLength, vec2 scale, vec2 margin,
-                                 float tMax) {
-    ShapeHit hit = missedShape();
-    float t = toCorner.z * inverse;
-    if (!(t > 0.0f && t < tMax)) return hit; // not a number where the ray lies in the plane
-    float u = (t * direction.x - toCorner.x) * scale.x;
-    float v = (t * direction.y - toCorner.y) * scale.y;
-    vec2 reach = t * rayLength * margin + (0.5f + kQuadError);
-    if (!(abs(u - 0.5f) <= reach.x && abs(v - 0.5f) <= reach.y)) return hit;
-    hit.t = t;
-    hit.u = clamp(u, 0.0f, 1.0f);
-    hit.v = clamp(v, 0.0f, 1.0f);
+// The t in (0, tMax) where the ray meets a rectangle perpendicular to an axis, or -1, in coordinates of which that axis
+// is the last: `toCenter` from the ray's origin; `inverse` 1 / direction.z; `halfExtent` with what quadFrame() adds
+// for errors, but for those of t: rayLength times t.
+RT_FN float intersectAxisQuad(vec3 toCenter, vec2 halfExtent, vec3 direction, float inverse, float rayLength,
+                              float tMax) {
+    float t = toCenter.z * inverse; // not a number where the ray lies in the plane
+    float reach = t * (kQuadError * rayLength);
+    bool isWithin = abs(t * direction.x - toCenter.x) <= halfExtent.x + reach &&
+                    abs(t * direction.y - toCenter.y) <= halfExtent.y + reach;
+    return isWithin && t > 0.0f && t < tMax ? t : -1.0f;
+}
+
+// Below this a direction counts as parallel to a slab: its reciprocal stays finite, and no product with it is not a
+// number.
+const float kParallel = 1.0e-20f;
+
+RT_FN float slabInverse(float d) {
+    return 1.0f / (abs(d) < kParallel ? (d < 0.0f ? -kParallel : kParallel) : d);
+}
+
+// Where a ray enters and leaves a cuboid.
+struct CuboidHit {
+    float enter;    // t, negative: behind the origin
+    float leave;    // less than `enter`: missed
+    uint enterFace; // 0, 1, 2: on the negative side along x, y, z; 3, 4, 5: on the positive side
+    uint leaveFace;
+};
+
+// In coordinates of which the cuboid reaches from -1 to 1 along each axis. Widened by what rounding may take off its
+// edges, as quads are.
+RT_FN CuboidHit intersectCuboid(vec3 toCenter, vec3 direction) {
+    vec3 inverse = vec3(slabInverse(direction.x), slabInverse(direction.y), slabInverse(direction.z));
+    vec3 middle = toCenter * inverse;
+    vec3 reach = abs(inverse) * (1.0f + 2.0f * kQuadError);
+    vec3 enter = middle - reach;
+    vec3 leave = middle + reach;
+    CuboidHit hit;
+    hit.enter = max(enter.x, max(enter.y, enter.z));
+    hit.leave = min(leave.x, min(leave.y, leave.z));
+    uint x = inverse.x > 0.0f ? 0u : 3u; // the faces through which a ray of this direction enters
+    uint y = inverse.y > 0.0f ? 1u : 4u;
+    uint z = inverse.z > 0.0f ? 2u : 5u;
+    hit.enterFace = enter.x == hit.enter ? x : (enter.y == hit.enter ? y : z);
+    uint opposite = leave.x == hit.leave ? x : (leave.y == hit.leave ? y : z);
+    hit.leaveFace = opposite < 3u ? opposite + 3u : opposite - 3u;
     return hit;
+}
+
+// u and v of the place where the ray meets a rectangle at parameter t.
+RT_FN vec2 rectanglePlace(Ray ray, float t, vec3 corner, vec3 edgeU, vec3 edgeV) {
+    vec3 place = t * ray.direction - (corner - ray.origin);
+    vec2 uv = vec2(dot(place, edgeU) / dot(edgeU, edgeU), dot(place, edgeV) / dot(edgeV, edgeV));
+    return clamp(uv, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
 }
 
 // p.x q.y - p.y q.x, rounded alike for both directions of an edge, however a compiler fuses products with sums: the two

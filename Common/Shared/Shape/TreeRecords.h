@@ -74,13 +74,16 @@ struct TreeTriangle {
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
 // Vectors of one array: two a sphere (center, radius; motion, index of the primitive), two a quad whose edges run along
-// axes (below), then four of any other quad, three a triangle, as above.
+// axes (below), four a cuboid (below), then four of any other quad, three a triangle, as above.
 //
-// Quads along axes, those perpendicular to x first, then to y, to z: corner and place; 1 / extent and margin of u and v
-// (QuadFrame) along the two axes that follow the perpendicular one in cyclic order. The place is the index of the
-// primitive, and kTurned if edgeU runs along the second of these axes.
+// Quads along axes, those perpendicular to x first, then to y, to z: center and index of the primitive; half of what
+// they extend (intersectAxisQuad()) along the two axes that follow the perpendicular one in cyclic order.
+//
+// Cuboids: center; three vectors whose products with what leads from the center to a face's middle are 1. The first
+// two have faces, the index of a quad in each byte: those on the negative sides, in the order of the vectors, then
+// those on the positive sides.
 
-const uint kTurned = 0x80000000u;
+const uint kNoFace = 255u;
 const uint kMaxListedPrimitives = 64u; // most that lists may hold
 const uint kListVectors = 4u * kMaxListedPrimitives;
 
