@@ -22,16 +22,18 @@ struct Window {
     double squares = 0; // of the means
     double variances = 0;
     double pixels = 0;
+    double dependentMeans = 0; // of the pixel in the middle, and those of the window that depend on it
+    double dependentPixels = 0;
 };
 
 // What a value adds to relMSE, by the formulas of the header.
 double relativeError(double mean, double variance, const Window& window) {
     if (!(variance > 0)) return 0;
-    const double n = window.pixels, others = std::max(n - 1, 1.0);
-    const double spread = (window.squares - window.means * window.means / n) / others;
+    const double n = window.pixels, others = n - window.dependentPixels;
+    const double spread = (window.squares - window.means * window.means / n) / std::max(n - 1, 1.0);
     const double signal = std::max(spread - window.variances / n, 0.0);
-    const double trust = n > 1 ? signal / (signal + variance) : 1;
-    const double around = (window.means - mean) / others;
+    const double trust = others > 0 ? signal / (signal + variance) : 1;
+    const double around = (window.means - window.dependentMeans) / std::max(others, 1.0);
     const double ownSquare = std::max(mean * mean - variance, variance);
     const double aroundSquare = around * around + variance / (n * n);
     const double expectedSquare = trust * trust * ownSquare + (1 - trust) * (1 - trust) * aroundSquare +
@@ -45,6 +47,13 @@ struct Span {
     Span(std::size_t at, std::size_t size)
         : first(at < kReach ? 0 : at - kReach), last(std::min(at + kReach, size - 1)) {}
     double count() const { return static_cast<double>(last - first + 1); }
+};
+
+// The pixels from 0 to size - 1 of the square that `at` is in.
+struct Square {
+    std::size_t begin, end;
+    Square(std::size_t at, std::size_t side, std::size_t size)
+        : begin(at / side * side), end(std::min(begin + side, size)) {}
 };
 
 // The rows of an image that the windows of one row cover, each read once.
@@ -73,8 +82,9 @@ class SlidingRows {
 class RowOfWindows {
   public:
     // `row`: the first that it is moved to.
-    RowOfWindows(const ImageRows& mean, const ImageRows& variance, std::size_t row)
-        : width_(mean.width),
+    RowOfWindows(const ImageRows& mean, const ImageRows& variance, std::size_t dependentSide, std::size_t row)
+        : dependentSide_(dependentSide),
+          width_(mean.width),
           height_(mean.height),
           channels_(mean.channels),
           mean_(mean, Span(row, mean.height).first),
@@ -109,16 +119,23 @@ class RowOfWindows {
     }
 
   private:
-    Window window(std::size_t x, std::size_t channel) const {
+    Window window(std::size_t x, std::size_t channel) {
         const std::size_t left = x * channels_ + channel; // the margin shifts it from the middle
         const auto across = [&](const std::vector<double>& sums) {
             double sum = 0;
             for (std::size_t i = 0; i <= 2 * kReach; ++i) sum += sums[left + i * channels_];
             return sum;
         };
-        return {across(means_), across(squares_), across(variances_), rows_.count() * Span(x, width_).count()};
+        Window window{across(means_), across(squares_), across(variances_), rows_.count() * Span(x, width_).count()};
+        const Square rows(row_, dependentSide_, height_), columns(x, dependentSide_, width_);
+        for (std::size_t y = rows.begin; y < rows.end; ++y)
+            for (std::size_t i = columns.begin; i < columns.end; ++i)
+                window.dependentMeans += mean_.row(y)[i * channels_ + channel];
+        window.dependentPixels = static_cast<double>((rows.end - rows.begin) * (columns.end - columns.begin));
+        return window;
     }
 
+    std::size_t dependentSide_;
     std::size_t width_, height_, channels_;
     SlidingRows mean_, variance_;
     std::size_t margin_; // empty values at either end of the sums
@@ -138,14 +155,14 @@ double RelMseEstimate::high() const {
 }
 
 // The rows are read one after the other within a chunk; in the same order for any number of threads.
-RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance) {
+RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance, std::uint32_t dependentSide) {
     struct Sums {
         double errors = 0, squares = 0; // of pixels
     };
     const Chunks chunks(mean.height, kChunkRows);
     std::vector<Sums> parts(chunks.count);
     parallelFor(0, chunks.count, [&](std::size_t chunk) {
-        RowOfWindows row(mean, variance, chunks.begin(chunk));
+        RowOfWindows row(mean, variance, dependentSide, chunks.begin(chunk));
         Sums sums;
         for (std::size_t y = chunks.begin(chunk); y < chunks.end(chunk); ++y) {
             row.moveTo(y);
@@ -164,7 +181,8 @@ RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance) 
         sums.squares += part.squares;
     }
     const double values = static_cast<double>(mean.rowValues()) * mean.height;
-    return {sums.errors / values, std::hypot(std::sqrt(sums.squares), kSystematic * sums.errors) / values};
+    const double ofEvents = dependentSide * std::sqrt(sums.squares);
+    return {sums.errors / values, std::hypot(ofEvents, kSystematic * sums.errors) / values};
 }
 
 } // namespace rt::image

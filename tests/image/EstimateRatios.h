@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Common/App/Session/Engine.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Image/ErrorEstimate.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Scene/CompiledScene.h"
@@ -27,7 +28,8 @@ inline std::vector<EstimatedRun> renderSeeds(app::Engine& engine, const scene::C
         while (!engine.renderSome({std::chrono::seconds(1), nullptr}).finished) {
         }
         run.picture = engine.film().resolve();
-        run.estimated = image::estimateRelMse(run.picture, engine.film().varianceOfMean());
+        run.estimated = image::estimateRelMse(run.picture, engine.film().varianceOfMean(),
+                                              app::dependentSide(engine.report().features));
     }
     return runs;
 }

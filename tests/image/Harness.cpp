@@ -44,8 +44,8 @@ Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const ap
             }
         }
     }
-    const std::uint32_t dependent = app::dependentPixels(engine.report().features);
-    for (int c = 0; c < 3; ++c) estimate.standardError[c] = std::sqrt(variance[c] * dependent);
+    const double side = app::dependentSide(engine.report().features);
+    for (int c = 0; c < 3; ++c) estimate.standardError[c] = side * std::sqrt(variance[c]);
     return estimate;
 }
 

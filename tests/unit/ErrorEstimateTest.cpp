@@ -19,28 +19,29 @@ constexpr int kReplicates = 4;
 
 using Noise = std::function<double(std::uint32_t x, std::uint32_t y, std::mt19937& random)>; // one replicate's mean
 
-// Of a picture of four replicates, all channels alike.
+// Of a picture of four replicates, all channels alike, in which `side` x `side` pixels have the same noise.
 RelMseEstimate estimateOf(const Noise& noise, std::uint32_t seed, std::uint32_t width = kSide,
-                          std::uint32_t height = kSide) {
+                          std::uint32_t height = kSide, std::uint32_t side = 1) {
     std::mt19937 random(seed);
     Image mean(width, height, 1), variance(width, height, 1);
     for (std::uint32_t y = 0; y < height; ++y)
         for (std::uint32_t x = 0; x < width; ++x) {
+            if (side > 1) random.seed(seed + 1000 * (y / side * width + x / side));
             test::Mean replicates;
             for (int r = 0; r < kReplicates; ++r) replicates.add(noise(x, y, random));
             *mean.pixel(x, y) = static_cast<float>(replicates.mean());
             *variance.pixel(x, y) = static_cast<float>(replicates.variance() / kReplicates);
         }
-    return estimateRelMse(mean, variance);
+    return estimateRelMse(mean, variance, side);
 }
 
 // Against the truth, over 40 seeds: the mean within 10 %, the interval around it in 95 % of them.
-void expectTruth(const Noise& noise, double truth) {
+void expectTruth(const Noise& noise, double truth, std::uint32_t side = 1) {
     constexpr int kSeeds = 40;
     test::Mean mean;
     int within = 0;
     for (std::uint32_t seed = 1; seed <= kSeeds; ++seed) {
-        const RelMseEstimate estimate = estimateOf(noise, seed);
+        const RelMseEstimate estimate = estimateOf(noise, seed, kSide, kSide, side);
         mean.add(estimate.value);
         within += estimate.low() <= truth && truth <= estimate.high() ? 1 : 0;
     }
@@ -64,6 +65,16 @@ TEST(ErrorEstimate, RareBrightEvents) {
             return kRest + (std::bernoulli_distribution(kChance)(random) ? kRadiance : 0);
         },
         kChance * (1 - kChance) * kRadiance * kRadiance / kReplicates / (kMean * kMean + kRelativeFloor));
+}
+
+// As of paths that neighbours share: there are fewer events than pixels have met.
+TEST(ErrorEstimate, EventsThatPixelsShare) {
+    constexpr double kChance = 0.05, kRadiance = 4, kRest = 0.8, kMean = kRest + kChance * kRadiance;
+    expectTruth(
+        [&](auto, auto, std::mt19937& random) {
+            return kRest + (std::bernoulli_distribution(kChance)(random) ? kRadiance : 0);
+        },
+        kChance * (1 - kChance) * kRadiance * kRadiance / kReplicates / (kMean * kMean + kRelativeFloor), 2);
 }
 
 // Pixels of which a bright light covers a part are unlike both sides: their neighbours say little about them. One
@@ -122,7 +133,7 @@ TEST(ErrorEstimate, EveryChannelCounts) {
     Image mean(8, 8), variance(8, 8);
     std::fill(mean.data.begin(), mean.data.end(), 1.0f);
     for (std::size_t i = 1; i < variance.data.size(); i += 3) variance.data[i] = 0.0303f;
-    EXPECT_NEAR(estimateRelMse(mean, variance).value, 0.01, 1e-4);
+    EXPECT_NEAR(estimateRelMse(mean, variance, 1).value, 0.01, 1e-4);
 }
 
 } // namespace

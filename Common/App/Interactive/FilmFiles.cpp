@@ -5,6 +5,7 @@
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/Outputs.h"
+#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
 #include "Common/Image/Display.h"
@@ -83,7 +84,7 @@ RunRecord makeRecord(const std::string& program, const LoadedScene& scene, const
     if (record.hasReference) {
         record.relmse = reference.curve().back().relmse;
         record.referenceError = reference.error();
-    } else if (const auto estimated = estimateRelMse(film.engine().film())) {
+    } else if (const auto estimated = estimateRelMse(film.engine().film(), dependentSide(report.features))) {
         record.relmse = estimated->value;
     }
     for (const ErrorPoint& point : reference.curve()) record.curve.push_back({point.seconds, point.relmse});

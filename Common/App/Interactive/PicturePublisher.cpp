@@ -123,12 +123,13 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
         if (hasVariance(engine.film()))
             picture.variance = std::make_shared<image::Image>(engine.film().varianceOfMean());
     }
+    const EngineReport report = film.report();
     std::optional<double> relmse;
     if (!reference.curve().empty())
         relmse = reference.curve().back().relmse;
     else if (film.status().finished)
-        if (const auto estimated = estimateRelMse(engine.film())) relmse = estimated->value;
-    const EngineReport report = film.report();
+        if (const auto estimated = estimateRelMse(engine.film(), dependentSide(report.features)))
+            relmse = estimated->value;
     state_.update([&](SessionState& state) {
         put(std::move(picture), state);
         state.status = film.status();

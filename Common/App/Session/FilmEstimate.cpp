@@ -1,7 +1,5 @@
 #include "Common/App/Session/FilmEstimate.h"
 
-#include <cmath>
-
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/Metrics.h"
 
@@ -12,19 +10,19 @@ bool hasVariance(const image::Film& film) {
     return film.desc().secondMoments && film.minSamples() > image::Film::kBlock;
 }
 
-std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film) {
+std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film, std::uint32_t dependentSide) {
     if (!hasVariance(film)) return std::nullopt;
-    return image::estimateRelMse(image::meanRows(film), image::varianceRows(film));
+    return image::estimateRelMse(image::meanRows(film), image::varianceRows(film), dependentSide);
 }
 
-FilmEstimate estimate(const image::Film& film, std::uint32_t dependentPixels) {
+FilmEstimate estimate(const image::Film& film, std::uint32_t dependentSide) {
     FilmEstimate result;
     result.meanRadiance = image::channelMeans(image::meanRows(film));
     if (hasVariance(film)) {
         result.standardError = image::standardErrors(image::varianceRows(film));
-        for (double& error : *result.standardError) error *= std::sqrt(dependentPixels);
+        for (double& error : *result.standardError) error *= dependentSide;
     }
-    result.relmse = estimateRelMse(film);
+    result.relmse = estimateRelMse(film, dependentSide);
     return result;
 }
 

@@ -18,9 +18,9 @@ struct FilmEstimate {
 // Whether a variance can be told: it needs samples in two replicates or more, and then in each, or two blocks of one.
 bool hasVariance(const image::Film& film);
 
-// Both take a few rows of memory, however large the image is.
-std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film);
-// So many pixels each, that are neighbours, may depend on each other: the standard error is then an upper bound.
-FilmEstimate estimate(const image::Film& film, std::uint32_t dependentPixels);
+// Both take a few rows of memory, however large the image is. The noise of pixels of a square of `dependentSide` may
+// be alike: standard errors are then upper bounds.
+std::optional<image::RelMseEstimate> estimateRelMse(const image::Film& film, std::uint32_t dependentSide);
+FilmEstimate estimate(const image::Film& film, std::uint32_t dependentSide);
 
 } // namespace rt::app

@@ -93,7 +93,7 @@ bool FilmRun::reachesTargetError() {
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
     const image::Film& film = engine_->film();
     if (film.minReplicateSamples() < kLeastSamples) return false;
-    const auto relmse = estimateRelMse(film);
+    const auto relmse = estimateRelMse(film, dependentSide(engine_->report().features));
     const bool isBelow = relmse && relmse->high() < *limits_.targetError;
     return std::exchange(wasBelowTarget_, isBelow) && isBelow;
 }

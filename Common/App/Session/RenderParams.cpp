@@ -125,8 +125,8 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     return params;
 }
 
-std::uint32_t dependentPixels(std::uint32_t features) {
-    return shared::has(features, shared::kFeatureReuse) ? shared::kReuseGroup : 1u;
+std::uint32_t dependentSide(std::uint32_t features) {
+    return shared::has(features, shared::kFeatureReuse) ? shared::kReuseSide : 1u;
 }
 
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {

@@ -13,8 +13,8 @@ namespace rt::app {
 // The settings as kernels see them for this scene.
 shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings);
 
-// How many neighbouring pixels may depend on each other in a render with these features.
-std::uint32_t dependentPixels(std::uint32_t features);
+// Side of the squares of pixels whose noise may be alike in a render with these features.
+std::uint32_t dependentSide(std::uint32_t features);
 
 // Whether any camera could have edges of lights in sight, at which its rays are to be split.
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings);

@@ -87,7 +87,7 @@ Json ranksJson(const std::vector<RankFigures>& ranks) {
 
 std::string Statistics::toJson(const Options& options, const scene::CompiledScene& scene, const EngineReport& report,
                                const image::Film& film) const {
-    const FilmEstimate estimated = estimate(film, dependentPixels(report.features));
+    const FilmEstimate estimated = estimate(film, dependentSide(report.features));
     const RenderSettings& settings = options.settings;
     Json json{{"version", 1},
               {"app", options.program},
