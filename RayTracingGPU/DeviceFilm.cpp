@@ -104,7 +104,7 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
 
 void DeviceFilm::uploadCounts() {
     std::vector<std::uint32_t> counts = samples_;
-    counts.insert(counts.end(), tiles_.begin(), tiles_.end());
+    for (const std::uint32_t tile : tiles_) counts.push_back(shared::packTile(tile % tilesX_, tile / tilesX_));
     vulkan::upload(context_, samplesBuffer_, std::as_bytes(std::span(counts)));
 }
 
@@ -257,7 +257,7 @@ std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
         if (slot >= launch.activeSlots) continue;
-        const std::uint32_t reached = shared::samplesAfter(launch, slot, samples_[slot]);
+        const std::uint32_t reached = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
         added += samplesBetween(slot, samples_[slot], reached);
     }
     return added;
@@ -283,7 +283,8 @@ std::uint64_t DeviceFilm::stepSamples() const {
 void DeviceFilm::advance(const shared::FilmLaunch& launch) {
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot < launch.activeSlots) samples_[slot] = shared::samplesAfter(launch, slot, samples_[slot]);
+        if (slot < launch.activeSlots)
+            samples_[slot] = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
     }
 }
 
@@ -294,7 +295,6 @@ app::Snapshot DeviceFilm::snapshot(FilmResolver& resolver) const {
     launch.open = open_.address();
     launch.width = desc_.width;
     launch.height = desc_.height;
-    launch.tilesX = tilesX_;
     launch.replicates = desc_.replicates;
     launch.plan = planBuffer_.address();
     launch.halves = plan_.empty() ? 1 : 2;
@@ -335,9 +335,9 @@ image::Image FilmResolver::resolve(shared::ResolveLaunch launch) {
         pixels_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::ReadBack, "a picture");
     }
     launch.pixels = pixels_.address();
-    const std::uint32_t rows = (launch.height + shared::kTile - 1) / shared::kTile;
+    const auto tilesIn = [](std::uint32_t pixels) { return (pixels + shared::kTile - 1) / shared::kTile; };
     context_.run([&](VkCommandBuffer commands) {
-        pipeline_.run(commands, launch, launch.tilesX * rows);
+        pipeline_.run(commands, launch, tilesIn(launch.width) * tilesIn(launch.height));
         vulkan::barrier(commands, vulkan::kComputeWrite, vulkan::kHostRead);
     });
     std::memcpy(image.data.data(), pixels_.mapped<std::byte>().data(), bytes);

@@ -34,7 +34,7 @@ void main() {
     if (slot >= launch.activeSlots) return;
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
     uint done = launch.samples.at[slot];
-    uint end = samplesAfter(launch, slot, done);
+    uint end = samplesAfter(launch, slot % launch.replicates, done);
     if (end == done) return;
     bool blockSquares = (launch.flags & kKeepsBlockSquares) != 0u;
     bool sampleSquares = (launch.flags & kKeepsSampleSquares) != 0u;

@@ -11,9 +11,8 @@ layout(push_constant, scalar) uniform Launch { ResolveLaunch launch; };
 void main() {
     uint position = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
     if (position * launch.replicates >= launch.filmSlots) return;
-    uint tile = launch.samples.at[launch.filmSlots + position];
     uint tilePixel = gl_LocalInvocationID.x;
-    uvec2 pixel = uvec2(tile % launch.tilesX, tile / launch.tilesX) * kTile + uvec2(tilePixel % kTile, tilePixel / kTile);
+    uvec2 pixel = pixelInTile(launch.samples.at[launch.filmSlots + position], tilePixel);
     if (pixel.x >= launch.width || pixel.y >= launch.height) return;
     vec3 mean = vec3(0.0f);
     for (uint half_ = 0u; half_ < launch.halves; half_++) {

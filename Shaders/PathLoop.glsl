@@ -23,20 +23,23 @@ struct Work {
     bool isResumed; // the launch before began it
 };
 
-// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with existsSample()
-// of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
+// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with findStep() and
+// existsSample() of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
-    uint slot = launchSlot(launch, step / launch.steps);
+    uint inSlot;
+    uint slot = launchSlot(launch, quotient(step, launch.steps, inSlot));
     if (slot >= launch.activeSlots) return false;
     uint tilePixel = work.number % kTilePixels;
-    work.pixel = pixelInTile(constants.params.width, launch.samples.at[tileEntry(launch, slot)], tilePixel);
+    uint replicate;
+    uint tile = quotient(slot, launch.replicates, replicate);
+    work.pixel = pixelInTile(launch.samples.at[launch.filmSlots + tile], tilePixel);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
     uint done = launch.samples.at[slot];
-    uint index = done + step % launch.steps;
+    uint index = done + inSlot;
     uint pixelIndex = work.pixel.y * constants.params.width + work.pixel.x;
-    work.smp = makeSampler(renderParams(), pixelIndex, slot % launch.replicates, index);
-    return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, slot, done));
+    work.smp = makeSampler(renderParams(), pixelIndex, replicate, index);
+    return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, replicate, done));
 }
 
 // False: all have been taken.

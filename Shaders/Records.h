@@ -3,6 +3,7 @@
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
 #include "Common/Shared/Base/SceneArrays.h"
+#include "Common/Shared/Base/Elementary.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Shape/TreeRecords.h"
 
@@ -151,13 +152,13 @@ const uint kIsPlanned = 4u;
 // each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
 // without slots takes no samples and leaves no paths.
 struct FilmLaunch {
-    MutableWordArray samples;          // per slot: samples that its pixels have; then per tile: its number in the image
-    FilmSumArray sums;                 // of closed blocks
-    FilmSumArray squares;              // if a flag says of what
-    MutableWordArray plan;             // most samples of each pixel, if kIsPlanned
-    MutableVectorArray open;           // sums of open blocks; needed only where a block is or stays open
-    MutableVectorArray radiance;       // of each sample of the launch, see sampleAt()
-    SharedPathArray sharedPaths;       // likewise, where params.pathReuse says so; see SharedPaths.glsl
+    MutableWordArray samples; // per slot: samples of its pixels; from filmSlots on: its tiles (packTile)
+    FilmSumArray sums;        // of closed blocks
+    FilmSumArray squares;     // if a flag says of what
+    MutableWordArray plan;    // most samples of each pixel, if kIsPlanned
+    MutableVectorArray open;  // sums of open blocks; needed only where a block is or stays open
+    MutableVectorArray radiance; // of each sample of the launch, see sampleAt()
+    SharedPathArray sharedPaths; // likewise, where params.pathReuse says so; see SharedPaths.glsl
     LaunchProgress progress;
     MutableVectorArray radianceBefore; // these three: of the launch before
     SharedPathArray sharedPathsBefore;
@@ -183,7 +184,6 @@ struct ResolveLaunch {
     MutableVectorArray pixels; // the means, row by row; 0 where there are no samples
     uint width;
     uint height;
-    uint tilesX;
     uint replicates;
     uint halves; // whose means make the picture: 2 where there is a plan, else 1
     uint filmSlots;
@@ -191,18 +191,21 @@ struct ResolveLaunch {
 
 // Samples of replicate r among the first `spp` of a pixel: sample s belongs to replicate s mod R.
 RT_FN uint replicateSamples(uint spp, uint replicate, uint replicates) {
+    if (replicates == 1u) return spp;
     return replicate < spp ? (spp - 1u - replicate) / replicates + 1u : 0u;
 }
 
-// How many samples the pixels of a slot have after a launch, before which they have `done`.
-RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint slot, uint done) {
-    uint end = replicateSamples(launch.spp, slot % launch.replicates, launch.replicates);
+// How many samples the pixels of a slot of this replicate have after a launch, before which they have `done`.
+RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint replicate, uint done) {
+    uint end = replicateSamples(launch.spp, replicate, launch.replicates);
     return max(done, min(done + launch.steps, end));
 }
 
 // Slot i of a launch, i < slotCount. There is none from activeSlots on, where the last band ends early.
 RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
-    return i / launch.bandWidth * launch.bandSlots + launch.firstSlot + i % launch.bandWidth;
+    uint inBand;
+    uint band = quotient(i, launch.bandWidth, inBand);
+    return band * launch.bandSlots + launch.firstSlot + inBand;
 }
 
 // The samples of a launch are numbered slot by slot, in each step by step, a step being one sample of each pixel: rays
@@ -216,15 +219,13 @@ RT_FN uint launchSamples(RT_IN(FilmLaunch) launch) {
     return sampleAt(launch, launch.slotCount, 0u, 0u);
 }
 
-// Where launch.samples has the number of a slot's tile in the image.
-RT_FN uint tileEntry(RT_IN(FilmLaunch) launch, uint slot) {
-    return launch.filmSlots + slot / launch.replicates;
+// A tile of the image, as samples of a film have it: its column and its row.
+RT_FN uint packTile(uint column, uint row) {
+    return column | row << 16u;
 }
 
-// Of an image so many pixels wide.
-RT_FN uvec2 pixelInTile(uint width, uint tile, uint tilePixel) {
-    uint tilesX = (width + kTile - 1u) / kTile;
-    return uvec2(tile % tilesX * kTile + tilePixel % kTile, tile / tilesX * kTile + tilePixel / kTile);
+RT_FN uvec2 pixelInTile(uint tile, uint tilePixel) {
+    return uvec2((tile & 0xffffu) * kTile + tilePixel % kTile, (tile >> 16u) * kTile + tilePixel / kTile);
 }
 
 // ---- first-hit features and costs ----------------------------------------------------------------------------------

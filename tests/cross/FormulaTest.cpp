@@ -61,6 +61,8 @@ constexpr Bound kBounds[] = {
     {shared::kProbeSpherePoint, "point on a sphere", 1e-4, 100}, // grazing rays, and misses
     {shared::kProbeTonemap, "tone curves", 1e-5, 0},
     {shared::kProbeEllipsoidLight, "ellipsoid light", 1e-4, 50},
+    {shared::kProbeAxisQuadHit, "ray and quad along axes", 1e-4, 20},
+    {shared::kProbeCuboidHit, "ray and cuboid", 1e-4, 50},
 };
 static_assert(std::size(kBounds) == shared::kProbeCount - shared::kProbeFloats);
 
@@ -99,6 +101,15 @@ TEST(FormulaTest, IntegersAreEqual) {
         for (std::uint32_t i = 0; i < kInputs; ++i) {
             ASSERT_EQ(onDevice(formula, i), onHost(formula, i)) << "formula " << formula << ", input " << i;
         }
+    }
+}
+
+// By floats, on either side.
+TEST(FormulaTest, QuotientsAreThoseOfIntegers) {
+    for (std::uint32_t i = 0; i < kInputs; ++i) {
+        const Words& words = onDevice(shared::kProbeQuotient, i);
+        ASSERT_EQ(words[0], words[2]) << i;
+        ASSERT_EQ(words[1], words[3]) << i;
     }
 }
 

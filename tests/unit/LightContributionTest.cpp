@@ -23,6 +23,7 @@ LightBound boundOf(const Light& light) {
     if (light.kind == kLightSphere) {
         bound.center = light.position;
         bound.radius = light.radius;
+        bound.omnidirectional = 1.0f;
         bound.intensity = kPi * light.radius * light.radius;
         return bound;
     }

@@ -32,6 +32,7 @@ struct LitScene {
         bound.radius = isSphere ? light.radius : 0.5f * length(light.edgeU) + 0.5f * length(light.edgeV);
         bound.axis = isSphere ? vec3(0.0f) : light.normal;
         bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
+        bound.omnidirectional = isSphere ? 1.0f : 0.0f;
         bound.intensity = intensity;
         lights.push_back(light);
         bounds.push_back(bound);

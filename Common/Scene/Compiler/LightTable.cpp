@@ -60,7 +60,11 @@ shared::LightBound punctualBound(const shared::Light& light) {
     bound.center = light.position;
     bound.radius = kPointRadius;
     bound.intensity = luminous;
-    if (light.kind == shared::kLightSpot) bound.axis = light.normal;
+    bound.omnidirectional = 1;
+    if (light.kind == shared::kLightSpot) {
+        bound.axis = light.normal;
+        bound.omnidirectional = 0;
+    }
     if (light.kind == shared::kLightDirectional) {
         // Seen from anywhere in the scene the true direction is one to a point in the sphere around the distant one:
         // where the light contributes a part of the sphere is above the horizon. The margin is for rounding.
@@ -76,6 +80,7 @@ shared::LightBound boundOf(const shared::Light& light) {
     if (shared::isPunctual(shared::kFeatureAll, light)) return punctualBound(light);
     shared::LightBound bound{};
     const double luminous = luminance(light.emission);
+    bound.omnidirectional = isFlat(light) ? 0.0f : 1.0f;
     if (light.kind == shared::kLightEllipsoid) {
         bound.center = light.position;
         bound.radius = static_cast<float>(longestHalfAxis(light)) * (1 + 4 * shared::kEpsilon);

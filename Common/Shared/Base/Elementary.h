@@ -22,6 +22,21 @@ RT_FN bool isFinite(vec3 v) {
     return isFinite(v.x) && isFinite(v.y) && isFinite(v.z);
 }
 
+// n / d and, in `rest`, n % d, for n < 2^22: devices divide integers in some twenty instructions, floats in few.
+RT_FN uint quotient(uint n, uint d, RT_INOUT(uint) rest) {
+    uint q = uint(float(n) / float(d));
+    rest = n - q * d;
+    if (rest >= 0x80000000u) { // below 0: the quotient was rounded up
+        q--;
+        rest += d;
+    }
+    if (rest >= d) {
+        q++;
+        rest -= d;
+    }
+    return q;
+}
+
 // (sin, cos) of 2 pi r, |r| <= 1/8. Absolute error <= 1.2e-7.
 RT_FN vec2 sinCosOctant(float r) {
     float z = r * r;

@@ -80,6 +80,9 @@ using std::pow;
 RT_FN float sqrt(float x) {
     return ::sqrtf(x);
 }
+RT_FN float inversesqrt(float x) {
+    return 1.0f / ::sqrtf(x);
+}
 // GLM's own is a comparison, which becomes a branch that no processor predicts.
 RT_FN float abs(float x) {
     return std::fabs(x);

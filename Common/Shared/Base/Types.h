@@ -182,9 +182,10 @@ struct Light {
 struct LightBound {
     vec3 center;
     float radius;
-    vec3 axis;       // unit normal of a flat light; zero for a light that emits in all directions
-    float twoSided;  // 1: emits to both sides of axis
-    float intensity; // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
+    vec3 axis;             // unit normal of a flat light; zero for a light that emits in all directions
+    float twoSided;        // 1: emits to both sides of axis
+    float omnidirectional; // 1: there is no axis; otherwise 0
+    float intensity;       // luminance(emission) * area (sphere: * pi r^2): radiant intensity along the normal
 };
 
 const uint kContributionLights = 32u; // up to here `contribution` weighs every light at the shading point

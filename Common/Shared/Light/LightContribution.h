@@ -23,14 +23,13 @@ RT_FN float lightContribution(RT_IN(LightBound) bound, vec3 position, vec3 norma
     float d2 = dot(v, v);
     float r = bound.radius;
     float r2 = r * r;
-    float inverse2 = 1.0f / max(d2, 0.25f * r2);
-    float inverse = sqrt(inverse2);
+    float inverse = inversesqrt(max(d2, 0.25f * r2));
     float surface = isSurface(normal) ? 1.0f : 0.0f;
     float receiver = surface * (meanClamped(dot(normal, v), r) * inverse) + (1.0f - surface);
     float facing = -dot(bound.axis, v);
     facing = max(facing, -facing * bound.twoSided);
-    float emitter = dot(bound.axis, bound.axis) > 0.0f ? facing * inverse : 1.0f;
-    return bound.intensity * receiver * emitter * inverse2;
+    float emitter = bound.omnidirectional + facing * inverse;
+    return bound.intensity * receiver * emitter * (inverse * inverse);
 }
 
 RT_SHARED_END

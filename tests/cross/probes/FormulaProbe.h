@@ -20,39 +20,42 @@ RT_SHARED_BEGIN
 const uint kProbeHash = 0u;
 const uint kProbePermute = 1u;
 const uint kProbeSampler = 2u;
-const uint kProbeFloats = 3u;
-const uint kProbeSinCos = 3u;
-const uint kProbeArcTan = 4u;
-const uint kProbeExponential = 5u;
-const uint kProbeLogarithm = 6u;
-const uint kProbeSrgb = 7u;
-const uint kProbeFrame = 8u;
-const uint kProbeHemisphere = 9u;
-const uint kProbeSphere = 10u;
-const uint kProbeOffset = 11u;
-const uint kProbeFresnel = 12u;
-const uint kProbeMetal = 13u;
-const uint kProbeMetalPdf = 14u;
-const uint kProbeDielectric = 15u;
-const uint kProbeSphereLight = 16u;
-const uint kProbeQuadLight = 17u;
-const uint kProbeTriangleLight = 18u;
-const uint kProbeContribution = 19u;
-const uint kProbeSphereHit = 20u;
-const uint kProbeQuadHit = 21u;
-const uint kProbeTriangleHit = 22u;
-const uint kProbeSphereMedium = 23u;
-const uint kProbeBoxMedium = 24u;
-const uint kProbeFreeFlight = 25u;
-const uint kProbeCamera = 26u;
-const uint kProbeSphereProjected = 27u; // lights by projected solid angle, several of them cut by the horizon
-const uint kProbeQuadProjected = 28u;
-const uint kProbeTriangleProjected = 29u;
-const uint kProbeCluster = 30u;
-const uint kProbeSpherePoint = 31u;
-const uint kProbeTonemap = 32u;
-const uint kProbeEllipsoidLight = 33u;
-const uint kProbeCount = 34u;
+const uint kProbeQuotient = 3u;
+const uint kProbeFloats = 4u;
+const uint kProbeSinCos = 4u;
+const uint kProbeArcTan = 5u;
+const uint kProbeExponential = 6u;
+const uint kProbeLogarithm = 7u;
+const uint kProbeSrgb = 8u;
+const uint kProbeFrame = 9u;
+const uint kProbeHemisphere = 10u;
+const uint kProbeSphere = 11u;
+const uint kProbeOffset = 12u;
+const uint kProbeFresnel = 13u;
+const uint kProbeMetal = 14u;
+const uint kProbeMetalPdf = 15u;
+const uint kProbeDielectric = 16u;
+const uint kProbeSphereLight = 17u;
+const uint kProbeQuadLight = 18u;
+const uint kProbeTriangleLight = 19u;
+const uint kProbeContribution = 20u;
+const uint kProbeSphereHit = 21u;
+const uint kProbeQuadHit = 22u;
+const uint kProbeTriangleHit = 23u;
+const uint kProbeSphereMedium = 24u;
+const uint kProbeBoxMedium = 25u;
+const uint kProbeFreeFlight = 26u;
+const uint kProbeCamera = 27u;
+const uint kProbeSphereProjected = 28u; // lights by projected solid angle, several of them cut by the horizon
+const uint kProbeQuadProjected = 29u;
+const uint kProbeTriangleProjected = 30u;
+const uint kProbeCluster = 31u;
+const uint kProbeSpherePoint = 32u;
+const uint kProbeTonemap = 33u;
+const uint kProbeEllipsoidLight = 34u;
+const uint kProbeAxisQuadHit = 35u;
+const uint kProbeCuboidHit = 36u;
+const uint kProbeCount = 37u;
 
 // In the cube [-1, 1]^3.
 RT_FN vec3 cubePoint(RT_INOUT(Arguments) a) {
@@ -247,6 +250,13 @@ RT_FN uvec4 probeNumbers(RT_INOUT(Arguments) a, uint which, uint i) {
     if (which == kProbePermute)
         return uvec4(permute(i % 977u, 977u, hash1(i)), sobolWords(i, uvec3(i, 11u, 13u)), hash1(i));
     if (which == kProbeSampler) return probeSampler(i);
+    if (which == kProbeQuotient) {
+        uint n = hash1(i) >> 10u;
+        uint d = 1u + (hash1(i + 1u) >> (9u + i % 23u));
+        uint rest;
+        uint q = quotient(n, d, rest);
+        return uvec4(q, rest, n / d, n % d);
+    }
     return which <= kProbeSrgb ? probeElementary(a, which) : probeSampling(a, which);
 }
 
@@ -259,6 +269,7 @@ RT_FN uvec4 probeLights(RT_INOUT(Arguments) a, uint which) {
     bound.radius = 0.3f;
     bound.axis = unitVector(a);
     bound.twoSided = 0.0f;
+    bound.omnidirectional = 0.0f;
     bound.intensity = 2.0f;
     vec3 p = cubePoint(a);
     return floatWords(lightContribution(bound, p, unitVector(a)), 0.0f, 0.0f, 0.0f);
@@ -282,6 +293,20 @@ RT_FN uvec4 probeScene(RT_INOUT(Arguments) a, uint which, uint i) {
         float t = intersectSphere(ray, center, radius, kInfinity);
         if (t < 0.0f) return floatWords(t, 0.0f, 0.0f, 0.0f);
         return floatWords(spherePoint(ray, center, radius, t).position, 0.0f);
+    }
+    if (which == kProbeAxisQuadHit) {
+        vec3 direction = ray.direction;
+        float t = intersectAxisQuad(cubePoint(a) - ray.origin, vec2(0.4f, 0.7f), direction, 1.0f / direction.z,
+                                    length(direction), kInfinity);
+        if (t < 0.0f) return floatWords(t, 0.0f, 0.0f, 0.0f);
+        vec3 corner = ray.origin + t * direction - vec3(0.2f, 0.3f, 0.0f);
+        return floatWords(vec3(rectanglePlace(ray, t, corner, vec3(0.8f, 0.0f, 0.0f), vec3(0.0f, 1.4f, 0.0f)), t),
+                          0.0f);
+    }
+    if (which == kProbeCuboidHit) {
+        CuboidHit hit = intersectCuboid(cubePoint(a) * 0.8f - ray.origin, ray.direction);
+        if (!(hit.enter <= hit.leave)) return floatWords(-1.0f, -1.0f, 0.0f, 0.0f);
+        return floatWords(hit.enter, hit.leave, float(hit.enterFace), float(hit.leaveFace));
     }
     if (which == kProbeTonemap) return floatWords(tonemap(8.0f * (cubePoint(a) + 1.0f), 0.5f, i % 3u), 0.0f);
     vec2 image = uniformPair(a);

@@ -298,6 +298,7 @@ RT_FN LightBound probeTableBound(uint i) {
     bound.radius = 0.5f * length(abs(light.edgeU) + abs(light.edgeV));
     bound.axis = light.normal;
     bound.twoSided = light.sides == kSidesBoth ? 1.0f : 0.0f;
+    bound.omnidirectional = 0.0f;
     bound.intensity = light.area * float(1u + i % 4u);
     return bound;
 }
