@@ -57,10 +57,7 @@ class GpuEngine final : public app::Engine {
           bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
           uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                     Memory::Device, "constants"),
-          launches_(context, cache_,
-                    {.invocations = maxInvocations(context, engine_),
-                     .samples = kMaxSamples,
-                     .sharingSamples = kMaxSharingSamples}),
+          launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}),
           readBacks_(context) {}
 
     bool setScene(std::shared_ptr<const scene::CompiledScene> compiled, const std::atomic<bool>* cancel) override {
@@ -98,7 +95,6 @@ class GpuEngine final : public app::Engine {
     void endLaunch();
     void endLaunches();
     LaunchKernels launchKernels() const { return {*kernel_, reuse_.get()}; }
-    std::uint64_t mostSamples() const { return reuse_ ? kMaxSharingSamples : kMaxSamples; }
     void planSamples(const std::atomic<bool>* cancel);
     bool nextRegion();
     void refresh();
@@ -280,7 +276,7 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
         region_->leaveOutDone();
     }
     const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
-    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted, mostSamples());
+    pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted, kMaxSamples);
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
     return true;
 }
@@ -298,7 +294,7 @@ void GpuEngine::planSamples(const std::atomic<bool>* cancel) {
 
 // Behind the last launch of the last region the pass is over.
 void GpuEngine::launchNext() {
-    const shared::FilmLaunch launch = nextLaunch(*region_, *pass_, launchSize_->suggest(), mostSamples());
+    const shared::FilmLaunch launch = nextLaunch(*region_, *pass_, launchSize_->suggest(), kMaxSamples);
     beginLaunch(launch);
     pass_->nextSlot += launch.bandWidth;
     if (pass_->nextSlot == region_->bandSlots() && !nextRegion()) {

@@ -86,7 +86,7 @@ std::uint64_t LaunchQueue::begin(const LaunchKernels& kernels, DeviceFilm& film,
     const std::uint32_t invocations = invocationsFor(launch);
     reserve(context_, next.radiance, radianceBytes(launch), limits_.samples * sizeof(shared::vec3));
     reserve(context_, next.sharedPaths, sharedBytes(launch, kernels.reuse != nullptr),
-            limits_.sharingSamples * shared::kSharedPathBytes);
+            limits_.samples * shared::kSharedPathBytes);
     reserve(context_, next.progress, progressBytes(invocations), progressBytes(limits_.invocations));
     next.samples = film.samplesOf(launch);
     shared::FilmLaunch push = launch;

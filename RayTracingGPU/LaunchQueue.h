@@ -26,7 +26,6 @@ struct LaunchKernels {
 struct LaunchLimits {
     std::uint32_t invocations = 0; // that share its work
     std::uint64_t samples = 0;
-    std::uint64_t sharingSamples = 0; // where they share their paths
 };
 
 class LaunchQueue {

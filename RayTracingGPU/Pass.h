@@ -6,9 +6,8 @@
 
 namespace rt::gpu {
 
-// Of a launch: its radiance takes 144 MB, or 72 and what its paths share 456.
+// Of a launch: its radiance takes 144 MB, what its paths share 768.
 inline constexpr std::uint64_t kMaxSamples = 12'000'000;
-inline constexpr std::uint64_t kMaxSharingSamples = 6'000'000;
 
 // Takes every pixel of the film further, slot by slot of each region.
 struct Pass {

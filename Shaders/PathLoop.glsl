@@ -23,8 +23,8 @@ struct Work {
     bool isResumed; // the launch before began it
 };
 
-// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with findStep() and
-// existsSample() of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
+// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with existsSample()
+// of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
 bool findWork(inout Work work) {
     uint step = work.number / kTilePixels;
     uint inSlot;

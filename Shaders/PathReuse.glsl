@@ -8,31 +8,20 @@
 
 layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
 
-// A step of a launch: a sample of each pixel of a slot.
-struct Step {
-    uint slot;
-    uint tile;  // as pixelInTile() has it
-    uint index; // of the samples
-    uint end;   // that samples of the slot's pixels have not reached
-};
-
-// False: there is no such step.
-bool findStep(uint number, out Step step) {
+// Whether a number stands for a sample: it has a pixel, which has not got all of its samples. To look up once what a
+// group's samples have in common took the third book's box 1.02 times as long on an H200, and others as long as this.
+bool existsSample(uint number) {
+    uint step = number / kTilePixels;
     uint inSlot, replicate;
-    step.slot = launchSlot(launch, quotient(number, launch.steps, inSlot));
-    if (step.slot >= launch.activeSlots) return false;
-    step.tile = launch.samples.at[launch.filmSlots + quotient(step.slot, launch.replicates, replicate)];
-    uint done = launch.samples.at[step.slot];
-    step.index = done + inSlot;
-    step.end = samplesAfter(launch, replicate, done);
-    return true;
-}
-
-// Whether the step has a sample of this pixel of the tile: it is in the image, and has not got all of its samples.
-bool existsSample(Step step, uint tilePixel) {
-    uvec2 pixel = pixelInTile(step.tile, tilePixel);
+    uint slot = launchSlot(launch, quotient(step, launch.steps, inSlot));
+    if (slot >= launch.activeSlots) return false;
+    uint tilePixel = number % kTilePixels;
+    uint tile = quotient(slot, launch.replicates, replicate);
+    uvec2 pixel = pixelInTile(launch.samples.at[launch.filmSlots + tile], tilePixel);
     if (pixel.x >= constants.params.width || pixel.y >= constants.params.height) return false;
-    return step.index < pixelEnd(launch, step.slot * kTilePixels + tilePixel, step.end);
+    uint done = launch.samples.at[slot];
+    uint end = pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, replicate, done));
+    return done + inSlot < end;
 }
 
 // Number of the first sample, in the upper left pixel, of those that an invocation adds to.
@@ -59,15 +48,13 @@ float densityFrom(SharedVertex x, SharedVertex y, bool isItself, inout uint rays
 
 void sharePaths(uint invocation) {
     const uint kGroups = kTilePixels / kReuseGroup;
-    uint number = invocation / kGroups; // of the step, counted through all slots
-    Step step;
-    if (number >= launch.slotCount * launch.steps || !findStep(number, step)) return;
-    uint first = firstOfGroup(number, invocation % kGroups);
+    uint step = invocation / kGroups; // counted through all slots
+    if (step >= launch.slotCount * launch.steps) return;
+    uint first = firstOfGroup(step, invocation % kGroups);
     uint sharing = 0u; // a bit a sample
     for (uint i = 0u; i < kReuseGroup; i++) {
-        uint member = numberInGroup(first, i);
-        if (existsSample(step, member % kTilePixels) && sharesVertex(launch.sharedPaths.at[4u * member + 3u].w))
-            sharing |= 1u << i;
+        uint number = numberInGroup(first, i);
+        if (existsSample(number) && sharesVertex(launch.sharedPaths.at[4u * number + 3u].w)) sharing |= 1u << i;
     }
     vec3 received[kReuseGroup]; // at the first vertices
     [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) received[k] = vec3(0.0f);
@@ -88,8 +75,8 @@ void sharePaths(uint invocation) {
     }
     [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) {
         if ((sharing >> k & 1u) == 0u) continue;
-        uint member = numberInGroup(first, k);
-        launch.radiance.at[member] += uintBitsToFloat(launch.sharedPaths.at[4u * member + 1u].xyz) * received[k];
+        uint number = numberInGroup(first, k);
+        launch.radiance.at[number] += uintBitsToFloat(launch.sharedPaths.at[4u * number + 1u].xyz) * received[k];
     }
     if (rays != 0u) atomicAdd(launch.progress.counters[counterLine(invocation) + kCounterReuse], rays);
 }
