@@ -26,14 +26,22 @@ VkDeviceSize progressBytes(std::uint64_t invocations) {
     return kCounterBytes + invocations * sizeof(shared::UnfinishedPath);
 }
 
-// Where it is too small, without its contents; larger by a factor then, since launches grow until they are as long as
-// they may be.
+// Where it is too small, without its contents; larger by a factor then, if there is memory, since launches grow until
+// they are as long as they may be.
 void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSize bytes, VkDeviceSize most) {
     constexpr VkDeviceSize kGrowth = 4;
     if (buffer.bytes() >= bytes) return;
     buffer = {}; // its memory may be needed for the next one
-    buffer = vulkan::Buffer(context.memory(), std::max(bytes, std::min(kGrowth * bytes, most)), 0, Memory::Device,
-                            "a launch");
+    const auto make = [&](VkDeviceSize size) {
+        buffer = vulkan::Buffer(context.memory(), size, 0, Memory::Device, "a launch");
+    };
+    const VkDeviceSize ample = std::max(bytes, std::min(kGrowth * bytes, most));
+    try {
+        make(ample);
+    } catch (const RenderError&) {
+        if (ample == bytes) throw;
+        make(bytes);
+    }
 }
 
 } // namespace
