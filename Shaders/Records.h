@@ -2,8 +2,8 @@
 // of the uniform buffer and of a launch, and how the samples of a launch are divided into blocks.
 #ifndef RT_SHADERS_RECORDS_H
 #define RT_SHADERS_RECORDS_H
-#include "Common/Shared/Base/SceneArrays.h"
 #include "Common/Shared/Base/Elementary.h"
+#include "Common/Shared/Base/SceneArrays.h"
 #include "Common/Shared/Base/Types.h"
 #include "Common/Shared/Shape/TreeRecords.h"
 

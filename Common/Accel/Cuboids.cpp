@@ -29,23 +29,22 @@ bool isRight(vec3 a, vec3 b) {
     return std::abs(shared::dot(a, b)) <= kTolerance * shared::length(a) * shared::length(b);
 }
 
+bool isAmong(const std::array<vec3, 4>& vertices, vec3 v, float size) {
+    return std::any_of(vertices.begin(), vertices.end(), [&](vec3 w) { return areOneVertex(v, w, size); });
+}
+
 bool haveOneOutline(const Quad& a, const Quad& b, float size) {
     const std::array<vec3, 4> ofA = vertices(a), ofB = vertices(b);
-    return std::all_of(ofA.begin(), ofA.end(), [&](vec3 v) {
-        return std::any_of(ofB.begin(), ofB.end(), [&](vec3 w) { return areOneVertex(v, w, size); });
-    });
+    return std::all_of(ofA.begin(), ofA.end(), [&](vec3 v) { return isAmong(ofB, v, size); });
 }
 
 // The edge of `side` that stands on a corner of `base`, if it does so along one of base's edges and at right angles.
 std::optional<vec3> heightFrom(const Quad& base, const Quad& side) {
     const float size = shared::length(base.edgeU) + shared::length(base.edgeV);
     const std::array<vec3, 4> ofBase = vertices(base), ofSide = vertices(side);
-    const auto isOfBase = [&](vec3 v) {
-        return std::any_of(ofBase.begin(), ofBase.end(), [&](vec3 w) { return areOneVertex(v, w, size); });
-    };
     for (std::size_t i = 0; i < 4; ++i) {
         const vec3 a = ofSide[i], b = ofSide[(i + 1) % 4];
-        if (!isOfBase(a) || !isOfBase(b)) continue;
+        if (!isAmong(ofBase, a, size) || !isAmong(ofBase, b, size)) continue;
         const vec3 height = ofSide[(i + 3) % 4] - a;
         if (isRight(height, base.edgeU) && isRight(height, base.edgeV)) return height;
     }

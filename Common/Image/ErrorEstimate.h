@@ -33,8 +33,8 @@ struct RelMseEstimate {
 //
 //   own^2    = max(mean^2 - variance, variance): free of the variance's bias; a mean that is all noise, as that of a
 //              single event, is one of many that are as likely, from almost 0 on;
-//   around^2 = (mean of the pixels around that do not depend on it)^2 + variance / n^2: a single event among n pixels says no less of their mean
-//              than an n-th of it.
+//   around^2 = (mean of the pixels around that do not depend on it)^2 + variance / n^2: a single event among n pixels
+//              says no less of their mean than an n-th of it.
 RelMseEstimate estimateRelMse(const ImageRows& mean, const ImageRows& variance, std::uint32_t dependentSide);
 
 } // namespace rt::image
