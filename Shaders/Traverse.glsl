@@ -212,34 +212,35 @@ Hit traceLinear(Ray ray, bool anyHit, float tMax) {
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
 
-// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in:
-// Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
-const float kSlabMargin = 1.0f + 16.0f * kEpsilon;
+// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in,
+// after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. What is lost near a box's sides, its extent has: kSlabError.
+const float kSlabMargin = 1.0f + 20.0f * kEpsilon;
 
 vec3 slabInverse(vec3 d) {
     return vec3(slabInverse(d.x), slabInverse(d.y), slabInverse(d.z));
 }
 
-// Where the ray is between lower and upper bound, of both children.
+// Where the ray is within the slab, of both children.
 void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout vec2 leave) {
-    vec4 t = (slab - origin) * inverse;
-    entry = max(entry, min(t.xz, t.yw));
-    leave = min(leave, max(t.xz, t.yw));
+    vec2 middle = (slab.xz - origin) * inverse;
+    vec2 reach = slab.yw * abs(inverse);
+    entry = max(entry, middle - reach);
+    leave = min(leave, middle + reach);
 }
 
-// Where the ray is between lower and upper bounds, of each of four children.
-void clipSlabs(vec4 lower, vec4 upper, float origin, float inverse, inout vec4 entry, inout vec4 leave) {
-    vec4 a = (lower - origin) * inverse;
-    vec4 b = (upper - origin) * inverse;
-    entry = max(entry, min(a, b));
-    leave = min(leave, max(a, b));
+// Of each of four children.
+void clipSlabs(vec4 middles, vec4 halves, float origin, float inverse, inout vec4 entry, inout vec4 leave) {
+    vec4 middle = (middles - origin) * inverse;
+    vec4 reach = halves * abs(inverse);
+    entry = max(entry, middle - reach);
+    leave = min(leave, middle + reach);
 }
 
 // Orders the children of a wide node: where the ray enters, and in the last two bits which of the four it is.
 const uint kMissed = 0xffffffffu;
 
-uint childKey(float entry, float leave, uint child, uint place) {
-    return entry <= leave && child != kTreeNothing ? (floatBitsToUint(entry) & ~3u) | place : kMissed;
+uint childKey(float entry, float leave, uint place) {
+    return entry <= leave ? (floatBitsToUint(entry) & ~3u) | place : kMissed;
 }
 
 uint childAt(uvec4 children, uint key) {
@@ -257,14 +258,14 @@ void sortPair(inout uint a, inout uint b) {
 uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
     vec4 entry = vec4(0.0f);
     vec4 leave = vec4(tMax);
-    clipSlabs(node.lowerX, node.upperX, origin.x, inverse.x, entry, leave);
-    clipSlabs(node.lowerY, node.upperY, origin.y, inverse.y, entry, leave);
-    clipSlabs(node.lowerZ, node.upperZ, origin.z, inverse.z, entry, leave);
+    clipSlabs(node.middleX, node.halfX, origin.x, inverse.x, entry, leave);
+    clipSlabs(node.middleY, node.halfY, origin.y, inverse.y, entry, leave);
+    clipSlabs(node.middleZ, node.halfZ, origin.z, inverse.z, entry, leave);
     leave *= kSlabMargin;
-    uint a = childKey(entry.x, leave.x, node.children.x, 0u);
-    uint b = childKey(entry.y, leave.y, node.children.y, 1u);
-    uint c = childKey(entry.z, leave.z, node.children.z, 2u);
-    uint d = childKey(entry.w, leave.w, node.children.w, 3u);
+    uint a = childKey(entry.x, leave.x, 0u);
+    uint b = childKey(entry.y, leave.y, 1u);
+    uint c = childKey(entry.z, leave.z, 2u);
+    uint d = childKey(entry.w, leave.w, 3u);
     sortPair(a, b);
     sortPair(c, d);
     sortPair(a, c);
@@ -278,7 +279,7 @@ uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
 // A lane that has found a leaf waits until the others of its group have found one or visited so many nodes: leaves are
 // then tested by more lanes at a time. Found by measuring, see docs/gpu-engine.md.
 uint nodesBetweenLeaves() {
-    if (kTreeIsWide != 0u) return 1u;
+    if (kTreeIsWide != 0u || has(kFeatures, kFeatureVolumes)) return 1u;
     return has(kFeatures, kFeatureLights) ? 4u : 3u;
 }
 
@@ -331,7 +332,7 @@ Ray toObject(uint index, Ray ray) {
 // The nearest child first; the others wait on the stack. Instances are followed one level down: what lies on the stack
 // above kTreeReturn is in their space.
 Hit traceTree(Ray ray, bool anyHit, float tMax) {
-    uint stack[kTreeDepth + 1u];
+    uint stack[kTreeDepth + 2u]; // kTreeEnd, and a place that is written but not needed
     stack[0] = kTreeEnd;
     uint size = 1u;
     uint current = constants.tree.root;
@@ -364,12 +365,11 @@ Hit traceTree(Ray ray, bool anyHit, float tMax) {
                 bool enters0 = entry.x <= leave.x;
                 bool enters1 = entry.y <= leave.y;
                 bool second = !enters0 || (enters1 && entry.y < entry.x);
-                if (enters0 && enters1) stack[size++] = second ? node.children.x : node.children.y;
-                if (enters0 || enters1) {
-                    current = second ? node.children.y : node.children.x;
-                } else {
-                    current = stack[--size];
-                }
+                // Written whether it is needed or not, which takes less time than to ask.
+                stack[size] = second ? node.children.x : node.children.y;
+                if (enters0 && enters1) size++;
+                current = second ? node.children.y : node.children.x;
+                if (!enters0 && !enters1) current = stack[--size];
             }
         }
         if (isTreeNode(current)) continue;

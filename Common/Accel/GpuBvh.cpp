@@ -193,21 +193,33 @@ std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
     return append(shared::kSphere, trees_.spheres, sphereVector);
 }
 
+// So that rays enter none of the children that are not set.
+void clearBounds(shared::TreeNode&) {} // both always are
+
+void clearBounds(shared::WideTreeNode& node) {
+    node.halfX = node.halfY = node.halfZ = vec4(-shared::kInfinity);
+}
+
+// The middle, rounded, and how far a box reaches from that, with what the shaders' test loses of it.
+void setSlab(float lower, float upper, float& middle, float& half) {
+    middle = static_cast<float>(0.5 * (double{lower} + upper));
+    const double reach = std::max(double{upper} - middle, middle - double{lower});
+    const double needed = reach * (1 + double{shared::kSlabError});
+    half = static_cast<float>(needed);
+    if (half < needed) half = std::nextafter(half, shared::kInfinity);
+}
+
 void setBounds(shared::TreeNode& node, int child, const Box& box) {
     vec4* const axes[3] = {&node.x, &node.y, &node.z};
     for (int a = 0; a < 3; ++a) {
-        (*axes[a])[2 * child] = box.lower[a];
-        (*axes[a])[2 * child + 1] = box.upper[a];
+        setSlab(box.lower[a], box.upper[a], (*axes[a])[2 * child], (*axes[a])[2 * child + 1]);
     }
 }
 
 void setBounds(shared::WideTreeNode& node, int child, const Box& box) {
-    vec4* const lower[3] = {&node.lowerX, &node.lowerY, &node.lowerZ};
-    vec4* const upper[3] = {&node.upperX, &node.upperY, &node.upperZ};
-    for (int a = 0; a < 3; ++a) {
-        (*lower[a])[child] = box.lower[a];
-        (*upper[a])[child] = box.upper[a];
-    }
+    vec4* const middle[3] = {&node.middleX, &node.middleY, &node.middleZ};
+    vec4* const half[3] = {&node.halfX, &node.halfY, &node.halfZ};
+    for (int a = 0; a < 3; ++a) setSlab(box.lower[a], box.upper[a], (*middle[a])[child], (*half[a])[child]);
 }
 
 // References that a traversal has to remember below a leaf: where it came from when it enters an instance.
@@ -245,6 +257,7 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const 
         const auto children = childrenOf(next.binary);
         Node record{};
         record.children = shared::uvec4(shared::kTreeNothing);
+        clearBounds(record);
         for (std::uint32_t i = children.count; i-- > 0;) {
             const int child = static_cast<int>(i);
             setBounds(record, child, binary[children.node[i]].box);

@@ -1,6 +1,7 @@
 // The tree of the compute engine: complete, its boxes hold what is below them, and its depth is what a traversal needs.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,16 +48,18 @@ class Walk {
         return true;
     }
     static Box childBox(const shared::TreeNode& node, int child) {
-        Box box;
-        box.lower = {node.x[2 * child], node.y[2 * child], node.z[2 * child]};
-        box.upper = {node.x[2 * child + 1], node.y[2 * child + 1], node.z[2 * child + 1]};
-        return box;
+        const shared::vec3 middle(node.x[2 * child], node.y[2 * child], node.z[2 * child]);
+        const shared::vec3 half(node.x[2 * child + 1], node.y[2 * child + 1], node.z[2 * child + 1]);
+        return {middle - half, middle + half};
     }
     static Box childBox(const shared::WideTreeNode& node, int child) {
-        Box box;
-        box.lower = {node.lowerX[child], node.lowerY[child], node.lowerZ[child]};
-        box.upper = {node.upperX[child], node.upperY[child], node.upperZ[child]};
-        return box;
+        const shared::vec3 middle(node.middleX[child], node.middleY[child], node.middleZ[child]);
+        const shared::vec3 half(node.halfX[child], node.halfY[child], node.halfZ[child]);
+        return {middle - half, middle + half};
+    }
+    // What lies in both: nodes are larger than what is below them by a few roundings of their own.
+    static Box common(const Box& a, const Box& b) {
+        return {shared::max(a.lower, b.lower), shared::min(a.upper, b.upper)};
     }
 
     // What is found in instances counts, but its boxes are of another space than the world's.
@@ -84,8 +87,7 @@ class Walk {
         while (count < 4 && children[count] != shared::kTreeNothing) ++count;
         EXPECT_GE(count, 2);
         for (int child = 0; child < count; ++child) {
-            const Box inner = childBox(nodes[index], child);
-            EXPECT_TRUE(contains(box, inner));
+            const Box inner = common(box, childBox(nodes[index], child));
             visit(children[child], inner, above + static_cast<std::uint32_t>(count) - 1, world);
         }
     }
@@ -193,6 +195,75 @@ TEST(GpuBvh, OfPrimitivesInOnePlace) {
     for (int i = 0; i < 1000; ++i) geometry.addSphere(shared::vec3(1.0f, 2.0f, 3.0f), 1.0f);
     const AccelInput input = geometry.input();
     expectComplete(input, *buildGpuBvh(input, alwaysTrees()));
+}
+
+// Where a ray enters and leaves a box, as clipSlab() of the shaders finds it: in floats, with reciprocals that are off
+// by up to 2.5 ulp, as Vulkan allows.
+bool shadersEnter(const shared::TreeNode& node, int child, const shared::Ray& ray, Random& random) {
+    const shared::vec4 slabs[3] = {node.x, node.y, node.z};
+    float entry = 0.0f, leave = 1e30f;
+    for (int a = 0; a < 3; ++a) {
+        float inverse = shared::slabInverse(ray.direction[a]);
+        inverse *= 1.0f + random.uniform(-4.0f, 4.0f) * shared::kEpsilon;
+        const float middle = (slabs[a][2 * child] - ray.origin[a]) * inverse;
+        const float reach = slabs[a][2 * child + 1] * std::abs(inverse);
+        entry = std::max(entry, middle - reach);
+        leave = std::min(leave, middle + reach);
+    }
+    return entry <= leave * (1.0f + 20.0f * shared::kEpsilon);
+}
+
+// The same in double, with the box itself.
+bool enters(const Box& box, const shared::Ray& ray) {
+    double entry = 0, leave = 1e30;
+    for (int a = 0; a < 3; ++a) {
+        const double inverse = 1 / double{ray.direction[a]};
+        const double lower = (double{box.lower[a]} - ray.origin[a]) * inverse;
+        const double upper = (double{box.upper[a]} - ray.origin[a]) * inverse;
+        entry = std::max(entry, std::min(lower, upper));
+        leave = std::min(leave, std::max(lower, upper));
+    }
+    return entry <= leave;
+}
+
+// A point of one of a box's edges.
+shared::vec3 onEdge(const Box& box, Random& random) {
+    shared::vec3 point;
+    const int along = static_cast<int>(random.below(3));
+    for (int a = 0; a < 3; ++a) point[a] = random.below(2) == 0 ? box.lower[a] : box.upper[a];
+    point[along] = box.lower[along] + (box.upper[along] - box.lower[along]) * random.uniform();
+    return point;
+}
+
+// Rays that graze a box's edges, from afar and from beside it, and rays that begin on its faces.
+TEST(GpuBvh, ShadersEnterEveryBoxThatARayMeets) {
+    Random random(23);
+    int met = 0, missed = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Geometry geometry;
+        const float size = std::exp2(random.uniform(-12.0f, 6.0f));
+        geometry.addSphere(random.inCube(1000.0f), size);
+        geometry.addSphere(random.inCube(1000.0f), size);
+        const AccelInput input = geometry.input();
+        GpuBvhSettings settings = alwaysTrees();
+        settings.tree.maxLeafSize = 1;
+        const GpuTrees trees = buildGpuBvh(input, settings)->trees;
+        ASSERT_EQ(trees.nodes.size(), 1u);
+        const std::uint32_t first = trees.sphereIndices[shared::treeLeafFirst(trees.nodes[0].children[0])];
+        const Box box = boxOf(geometry.spheres[first]);
+        for (int k = 0; k < 100; ++k) {
+            const float distance = size * std::exp2(random.uniform(-4.0f, 12.0f));
+            shared::Ray ray;
+            ray.origin = k % 2 == 0 ? onEdge(box, random) + random.direction() * distance : onEdge(box, random);
+            ray.direction = shared::normalize(onEdge(box, random) - ray.origin);
+            ray.time = 0.0f;
+            if (!enters(box, ray)) continue;
+            ++met;
+            if (!shadersEnter(trees.nodes[0], 0, ray, random)) ++missed;
+        }
+    }
+    EXPECT_GT(met, 100000);
+    EXPECT_EQ(missed, 0);
 }
 
 TEST(GpuBvh, SmallScenesAreLists) {

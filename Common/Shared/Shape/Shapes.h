@@ -155,6 +155,11 @@ RT_FN float slabInverse(float d) {
     return 1.0f / (abs(d) < kParallel ? (d < 0.0f ? -kParallel : kParallel) : d);
 }
 
+// Of slabs given by their middle and half of their extent: what a ray's t may be off near a side, relative to that half.
+// Three roundings: of the way to the middle, of its product and of the half's with the reciprocal. No more, so that rays
+// that leave a face of a box (extentError()) begin outside of it.
+const float kSlabError = 3.0f * kEpsilon;
+
 // Where a ray enters and leaves a cuboid.
 struct CuboidHit {
     float enter;    // t, negative: behind the origin

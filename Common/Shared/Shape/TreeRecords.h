@@ -38,7 +38,7 @@ RT_FN uint treeLeafCount(uint leaf) {
 // ---- records -------------------------------------------------------------------------------------------------------
 // Vectors of four, so that each is one load. Indices among floats are their bits.
 
-// Slabs: lower and upper bound of the first child, then of the second.
+// Slabs: the middle of the first child and half of its extent, then of the second.
 struct TreeNode {
     vec4 x;
     vec4 y;
@@ -46,15 +46,16 @@ struct TreeNode {
     uvec4 children; // two references; the rest is unused
 };
 
-// Bounds along each axis, a component for each child.
+// The same along each axis, a component for each child. Where there are fewer than four, the others' extent is negative:
+// no ray enters them.
 struct WideTreeNode {
-    vec4 lowerX;
-    vec4 upperX;
-    vec4 lowerY;
-    vec4 upperY;
-    vec4 lowerZ;
-    vec4 upperZ;
-    uvec4 children; // references; kTreeNothing where there are fewer than four
+    vec4 middleX;
+    vec4 halfX;
+    vec4 middleY;
+    vec4 halfY;
+    vec4 middleZ;
+    vec4 halfZ;
+    uvec4 children; // references
     uvec4 unused;   // so that a node is a line of most caches
 };
 
