@@ -264,7 +264,8 @@ class CpuEngine final : public app::Engine {
         std::uint64_t next = image::nextSample(film_, tiles_, goal());
         if (next == Film::kNoSample) {
             if (limit_ || !film_.isPilot()) return false;
-            std::vector<std::uint32_t> plan = image::makeSamplePlan(film_, settings_.spp, {threads_, cancel});
+            std::vector<std::uint32_t> plan =
+                image::makeSamplePlan(film_, settings_.spp, app::dependentSide(features_), {threads_, cancel});
             if (plan.empty()) return false;
             film_.setPlan(std::move(plan));
             next = image::nextSample(film_, tiles_, goal());

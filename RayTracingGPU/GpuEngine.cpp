@@ -286,7 +286,8 @@ void GpuEngine::planSamples(const std::atomic<bool>* cancel) {
     finishPaths();
     endLaunches();
     refresh();
-    std::vector<std::uint32_t> plan = image::makeSamplePlan(film_, settings_.spp, {.cancel = cancel});
+    std::vector<std::uint32_t> plan =
+        image::makeSamplePlan(film_, settings_.spp, app::dependentSide(features_), {.cancel = cancel});
     if (plan.empty()) return;
     film_.setPlan(std::move(plan));
     setFilm(std::move(film_));

@@ -61,7 +61,7 @@ class RowLoop {
     std::size_t width() const { return width_; }
 
   private:
-    static constexpr std::size_t kRows = 16;
+    static constexpr std::size_t kRows = 2 * Film::kTile; // whole squares of pixels that depend on each other
 
     std::size_t width_;
     Chunks chunks_;
@@ -164,18 +164,43 @@ Noise noiseOf(const Film& film, std::uint32_t half, const RowLoop& loop) {
     return noise;
 }
 
+// Gives each pixel of a square the mean of them.
+void averageSquares(std::vector<float>& values, std::size_t side, const RowLoop& loop) {
+    const std::size_t width = loop.width();
+    loop.forEachChunk([&](std::size_t, std::size_t firstRow, std::size_t endRow) {
+        for (std::size_t y = firstRow; y < endRow; y += side)
+            for (std::size_t x = 0; x < width; x += side) {
+                const std::size_t bottom = std::min(y + side, endRow), right = std::min(x + side, width);
+                const auto eachPixel = [&](const auto& f) {
+                    for (std::size_t row = y; row < bottom; ++row)
+                        for (std::size_t column = x; column < right; ++column) f(values[row * width + column]);
+                };
+                double sum = 0;
+                eachPixel([&](float value) { sum += double{value}; });
+                const auto mean = static_cast<float>(sum / static_cast<double>((bottom - y) * (right - x)));
+                eachPixel([&](float& value) { value = mean; });
+            }
+    });
+}
+
 // To which the samples of each pixel should be proportional.
-std::vector<float> importanceOf(const Noise& noise, const RowLoop& loop) {
+std::vector<float> importanceOf(const Noise& noise, std::uint32_t dependentSide, const RowLoop& loop) {
     const auto [absolute, relative] = noise.total;
     const std::size_t pixels = noise.absolute.size();
     if (!(absolute > 0)) return std::vector<float>(pixels, 1.0f); // nothing was seen to differ
     const double toMse = (1 - kRelative) / absolute, toRelMse = kRelative / relative;
-    std::vector<float> importance(pixels);
+    std::vector<float> importance(pixels); // at first its square
+    loop.forEachChunk([&](std::size_t, std::size_t firstRow, std::size_t endRow) {
+        for (std::size_t i = firstRow * loop.width(); i < endRow * loop.width(); ++i) {
+            const double share = toMse * double{noise.absolute[i]} + toRelMse * double{noise.relative[i]};
+            importance[i] = static_cast<float>(share);
+        }
+    });
+    if (dependentSide > 1) averageSquares(importance, dependentSide, loop);
     const Sums sums = loop.sum([&](std::size_t first, std::size_t end) {
         Sums part;
         for (std::size_t i = first; i < end; ++i) {
-            const double share = toMse * double{noise.absolute[i]} + toRelMse * double{noise.relative[i]};
-            importance[i] = static_cast<float>(std::sqrt(share));
+            importance[i] = std::sqrt(importance[i]);
             part.first += double{importance[i]};
         }
         return part;
@@ -267,14 +292,16 @@ std::uint32_t pilotSamples(std::uint32_t spp) {
     return pilot < kLeastPilot || !fits ? 0 : 2 * pilot;
 }
 
-std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, const PlanWork& work) {
+std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, std::uint32_t dependentSide,
+                                          const PlanWork& work) {
     const RowLoop loop(film.desc(), work);
     const std::uint64_t pixels = std::uint64_t{film.desc().width} * film.desc().height;
     std::vector<std::uint32_t> plan(std::size_t{film.tileCount()} * film.desc().replicates * Film::kTilePixels);
     try {
         for (std::uint32_t half = 0; half < 2; ++half) {
             const std::uint64_t samples = (spp + 1 - half) / 2; // sample s of a pixel is one of half s mod 2
-            const std::vector<float> importance = importanceOf(noiseOf(film, 1 - half, loop), loop);
+            const Noise noise = noiseOf(film, 1 - half, loop);
+            const std::vector<float> importance = importanceOf(noise, dependentSide, loop);
             putCounts(allocate(importance, pilotSamples(spp) / 2, samples * pixels, loop), half, film, loop, plan);
         }
     } catch (const Cancelled&) {

@@ -38,7 +38,11 @@ struct PlanWork {
 // would cost the other. Variances and means are those of the other half's pilot, weighed over 3x3 pixels: a few samples
 // say little of one pixel's rare events. What is added to all, and a limit, keep what a pilot has missed, or taken for
 // more than it is, from costing much.
-std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, const PlanWork& work = {});
+//
+// Pixels of a square of `dependentSide`, a divisor of Film::kTile, bring each other what their samples meet, and get as
+// many as their mean part in the error asks for. The first square begins at the first pixel.
+std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, std::uint32_t dependentSide,
+                                          const PlanWork& work = {});
 
 // To how many samples per pixel a film that is to have `spp` goes on: to those of its pilot, and from there to the most
 // that the plan gives a pixel; to `spp` if it is not adaptive.

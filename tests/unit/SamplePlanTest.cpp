@@ -62,7 +62,7 @@ class Renderer {
 
     void pilot() { upTo(pilotSamples(spp_)); }
     void finish() { upTo(goalOf(film, spp_)); }
-    void plan() { film.setPlan(makeSamplePlan(film, spp_)); }
+    void plan() { film.setPlan(makeSamplePlan(film, spp_, 1)); }
     const Film& render() {
         pilot();
         if (film.isPilot()) plan();
@@ -117,7 +117,7 @@ void planByOwnSamples(Film& film, std::uint32_t spp) {
     swapped.reserveOpenBlocks();
     for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile)
         for (std::uint32_t r = 0; r < 2; ++r) swapped.assign(tile, r, film.state(tile, 1 - r));
-    film.setPlan(makeSamplePlan(swapped, spp));
+    film.setPlan(makeSamplePlan(swapped, spp, 1));
 }
 
 constexpr std::uint32_t kSeeds = 1000, kSpp = 16;
@@ -227,22 +227,52 @@ TEST(SamplePlan, DependsOnNoNumberOfThreads) {
     for (const std::uint32_t spp : {16u, 75u}) {
         Renderer renderer(kPictures[3].radiance, 2, spp, 4, 21, 53);
         renderer.pilot();
-        const std::vector<std::uint32_t> expected = makeSamplePlan(renderer.film, spp, {.threads = 1});
+        const std::vector<std::uint32_t> expected = makeSamplePlan(renderer.film, spp, 2, {.threads = 1});
         for (const std::size_t threads : {2u, 3u, 8u})
-            EXPECT_EQ(makeSamplePlan(renderer.film, spp, {.threads = threads}), expected) << threads;
+            EXPECT_EQ(makeSamplePlan(renderer.film, spp, 2, {.threads = threads}), expected) << threads;
         renderer.film.setPlan(expected);
         renderer.finish();
         EXPECT_EQ(renderer.film.totalSamples(), std::uint64_t{spp} * 21 * 53);
     }
 }
 
+// With one sample of rounding between them, and others than their neighbours.
+TEST(SamplePlan, PixelsThatDependOnEachOtherGetAlikeMany) {
+    constexpr std::uint32_t kSide = 2, kMany = 64;
+    const Radiance noisyLeft = [](std::uint32_t x, std::uint32_t, double u) {
+        return x < 5 ? static_cast<float>(u) : 0.5f; // the edge is within a square
+    };
+    Renderer renderer(noisyLeft, 3, kMany);
+    renderer.pilot();
+    const std::vector<std::uint32_t> alone = makeSamplePlan(renderer.film, kMany, 1);
+    const std::vector<std::uint32_t> plan = makeSamplePlan(renderer.film, kMany, kSide);
+    const auto spread = [](const std::vector<std::uint32_t>& of, std::uint32_t x, std::uint32_t y) { // in one square
+        std::uint32_t least = of[y * Film::kTile + x], most = least;
+        for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
+            const std::uint32_t samples = of[(y + i / kSide) * Film::kTile + x + i % kSide];
+            least = std::min(least, samples);
+            most = std::max(most, samples);
+        }
+        return most - least;
+    };
+    std::uint32_t largest = 0, largestAlone = 0; // of the first tile
+    for (std::uint32_t y = 0; y < Film::kTile; y += kSide)
+        for (std::uint32_t x = 0; x < Film::kTile; x += kSide) {
+            largest = std::max(largest, spread(plan, x, y));
+            largestAlone = std::max(largestAlone, spread(alone, x, y));
+        }
+    EXPECT_LE(largest, 1u);
+    EXPECT_GT(largestAlone, 4u);
+    EXPECT_GT(plan[0], plan[Film::kTile - 1] + 4);
+}
+
 TEST(SamplePlan, CanBeCancelled) {
     Renderer renderer(kPictures[3].radiance, 2, 16);
     renderer.pilot();
     std::atomic<bool> cancel{true};
-    EXPECT_TRUE(makeSamplePlan(renderer.film, 16, {.cancel = &cancel}).empty());
+    EXPECT_TRUE(makeSamplePlan(renderer.film, 16, 1, {.cancel = &cancel}).empty());
     cancel = false;
-    EXPECT_EQ(makeSamplePlan(renderer.film, 16, {.cancel = &cancel}), makeSamplePlan(renderer.film, 16));
+    EXPECT_EQ(makeSamplePlan(renderer.film, 16, 1, {.cancel = &cancel}), makeSamplePlan(renderer.film, 16, 1));
 }
 
 TEST(SamplePlan, GoesOnFromACheckpointInAnyPhase) {
