@@ -212,15 +212,12 @@ Hit traceLinear(Ray ray, bool anyHit, float tMax) {
 
 // ---- nodes ---------------------------------------------------------------------------------------------------------
 
-// Rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests may only let more boxes in,
-// after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. What is lost near a box's sides, its extent has: kSlabError.
-const float kSlabMargin = 1.0f + 20.0f * kEpsilon;
-
 vec3 slabInverse(vec3 d) {
     return vec3(slabInverse(d.x), slabInverse(d.y), slabInverse(d.z));
 }
 
-// Where the ray is within the slab, of both children.
+// Where the ray is within the slab, of both children. From its middle by a difference and a sum: lower and upper bound
+// would have to be put in order, and GPUs compute fewer minima than sums at a time.
 void clipSlab(vec4 slab, float origin, float inverse, inout vec2 entry, inout vec2 leave) {
     vec2 middle = (slab.xz - origin) * inverse;
     vec2 reach = slab.yw * abs(inverse);

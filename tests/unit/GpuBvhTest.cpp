@@ -210,7 +210,7 @@ bool shadersEnter(const shared::TreeNode& node, int child, const shared::Ray& ra
         entry = std::max(entry, middle - reach);
         leave = std::min(leave, middle + reach);
     }
-    return entry <= leave * (1.0f + 20.0f * shared::kEpsilon);
+    return entry <= leave * shared::kSlabMargin;
 }
 
 // The same in double, with the box itself.

@@ -160,6 +160,11 @@ RT_FN float slabInverse(float d) {
 // that leave a face of a box (extentError()) begin outside of it.
 const float kSlabError = 3.0f * kEpsilon;
 
+// What is left of the rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests, relative
+// to where the ray leaves a box: all of it may only let more boxes in, after Ize, "Robust BVH Ray Traversal", JCGT 2(2),
+// 2013.
+const float kSlabMargin = 1.0f + 20.0f * kEpsilon;
+
 // Where a ray enters and leaves a cuboid.
 struct CuboidHit {
     float enter;    // t, negative: behind the origin
