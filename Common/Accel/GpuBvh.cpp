@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <span>
 #include <string>
 #include <utility>
@@ -193,18 +194,17 @@ std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
     return append(shared::kSphere, trees_.spheres, sphereVector);
 }
 
-// So that rays enter none of the children that are not set.
-void clearBounds(shared::TreeNode&) {} // both always are
-
-void clearBounds(shared::WideTreeNode& node) {
-    node.halfX = node.halfY = node.halfZ = vec4(-shared::kInfinity);
-}
-
-// The middle, rounded, and how far a box reaches from that, with what the shaders' test loses of it.
+// The middle, rounded, and how far a box reaches from that, with what the shaders' test loses of it. No ray enters an
+// empty box.
 void setSlab(float lower, float upper, float& middle, float& half) {
+    if (lower > upper) {
+        middle = 0.0f;
+        half = -shared::kInfinity;
+        return;
+    }
     middle = static_cast<float>(0.5 * (double{lower} + upper));
     const double reach = std::max(double{upper} - middle, middle - double{lower});
-    const double needed = reach * (1 + double{shared::kSlabError});
+    const double needed = reach * (1 + double{shared::kHalfExtentError});
     half = static_cast<float>(needed);
     if (half < needed) half = std::nextafter(half, shared::kInfinity);
 }
@@ -257,11 +257,10 @@ void Flattener::addNodes(const SceneTree& tree, std::vector<Node>& nodes, const 
         const auto children = childrenOf(next.binary);
         Node record{};
         record.children = shared::uvec4(shared::kTreeNothing);
-        clearBounds(record);
-        for (std::uint32_t i = children.count; i-- > 0;) {
+        for (std::size_t i = std::size(children.node); i-- > 0;) {
             const int child = static_cast<int>(i);
-            setBounds(record, child, binary[children.node[i]].box);
-            open.push_back({children.node[i], index, child, next.above + children.count - 1});
+            setBounds(record, child, i < children.count ? binary[children.node[i]].box : Box{});
+            if (i < children.count) open.push_back({children.node[i], index, child, next.above + children.count - 1});
         }
         nodes.push_back(record);
     }

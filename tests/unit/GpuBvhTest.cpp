@@ -197,8 +197,8 @@ TEST(GpuBvh, OfPrimitivesInOnePlace) {
     expectComplete(input, *buildGpuBvh(input, alwaysTrees()));
 }
 
-// Where a ray enters and leaves a box, as clipSlab() of the shaders finds it: in floats, with reciprocals that are off
-// by up to 2.5 ulp, as Vulkan allows.
+// Whether a ray enters a child's box, as the shaders find by clipSlab(): in floats, with reciprocals that are off by up
+// to 2.5 ulp, as Vulkan allows.
 bool shadersEnter(const shared::TreeNode& node, int child, const shared::Ray& ray, Random& random) {
     const shared::vec4 slabs[3] = {node.x, node.y, node.z};
     float entry = 0.0f, leave = 1e30f;
@@ -213,7 +213,7 @@ bool shadersEnter(const shared::TreeNode& node, int child, const shared::Ray& ra
     return entry <= leave * shared::kSlabMargin;
 }
 
-// The same in double, with the box itself.
+// Whether a ray meets a box, in double: then shadersEnter() must be true.
 bool enters(const Box& box, const shared::Ray& ray) {
     double entry = 0, leave = 1e30;
     for (int a = 0; a < 3; ++a) {

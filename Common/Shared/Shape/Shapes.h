@@ -155,14 +155,14 @@ RT_FN float slabInverse(float d) {
     return 1.0f / (abs(d) < kParallel ? (d < 0.0f ? -kParallel : kParallel) : d);
 }
 
-// Of slabs given by their middle and half of their extent: what a ray's t may be off near a side, relative to that half.
-// Three roundings: of the way to the middle, of its product and of the half's with the reciprocal. No more, so that rays
-// that leave a face of a box (extentError()) begin outside of it.
-const float kSlabError = 3.0f * kEpsilon;
+// Of slabs given by their middle and half of their extent: what a ray's t may be off near a side, relative to that
+// half. Three roundings: of the way to the middle, of its product and of the half's with the reciprocal. No more, so
+// that rays that leave a face of a box (extentError()) begin outside of it.
+const float kHalfExtentError = 3.0f * kEpsilon;
 
 // What is left of the rounding of the slab test, of the reciprocal (2.5 ulp) and of the primitives' own tests, relative
-// to where the ray leaves a box: all of it may only let more boxes in, after Ize, "Robust BVH Ray Traversal", JCGT 2(2),
-// 2013.
+// to where the ray leaves a box: all of it may only let more boxes in, after Ize, "Robust BVH Ray Traversal", JCGT
+// 2(2), 2013.
 const float kSlabMargin = 1.0f + 20.0f * kEpsilon;
 
 // Where a ray enters and leaves a cuboid.

@@ -46,8 +46,8 @@ struct TreeNode {
     uvec4 children; // two references; the rest is unused
 };
 
-// The same along each axis, a component for each child. Where there are fewer than four, the others' extent is negative:
-// no ray enters them.
+// Middles and half extents along each axis, a component for each child. Where there are fewer than four, the others'
+// extents are negative, so that no ray enters them.
 struct WideTreeNode {
     vec4 middleX;
     vec4 halfX;
@@ -55,7 +55,7 @@ struct WideTreeNode {
     vec4 halfY;
     vec4 middleZ;
     vec4 halfZ;
-    uvec4 children; // references
+    uvec4 children; // references; kTreeNothing where there are fewer than four
     uvec4 unused;   // so that a node is a line of most caches
 };
 
