@@ -259,9 +259,9 @@ TEST(Lights, OfAQuadThePartAboveTheHorizonIsSampled) {
     }
 }
 
-// On a diffuse surface: of a sphere wholly above the horizon nothing is left, of a near rectangle a fifth of what
-// uniform solid angle leaves, whether the horizon cuts it or not; overhead, where the cosine is the same at all
-// corners, not more.
+// On a diffuse surface: of a sphere wholly above the horizon nothing is left, of one that it cuts a tenth of what
+// uniform solid angle leaves, of a near rectangle a fifth, whether it is cut or not; overhead, where the cosine is the
+// same at all corners, not more.
 TEST(Lights, AutomaticSamplingKnowsTheCosine) {
     const auto variance = [](const Light& light, uint method) {
         return irradianceEstimates(light, method, 21, 1 << 14).relativeVariance();
@@ -270,6 +270,8 @@ TEST(Lights, AutomaticSamplingKnowsTheCosine) {
         EXPECT_LT(variance(light, kShapeAuto), 1e-10);
         EXPECT_GT(variance(light, kShapeSolidAngle), 1e-3);
     }
+    for (const Light& light : {sphere({2, 0, 0.2}, 0.9), sphere({1, 1, -0.1}, 0.5), sphere({0, 3, -0.4}, 0.6)})
+        EXPECT_LT(10 * variance(light, kShapeAuto), variance(light, kShapeSolidAngle));
     for (const Light& light :
          {quad({0.5, -1, 0.2}, {0, 2, 0}, {0.3, 0, 1.5}), quad({1, -1, -0.6}, {0, 1.6, 0}, {0.2, 0, 2})})
         EXPECT_LT(4.5 * variance(light, kShapeAuto), variance(light, kShapeSolidAngle));

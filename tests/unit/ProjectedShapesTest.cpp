@@ -69,7 +69,7 @@ TEST(ProjectedCap, WeightedCountsAreTheMeasure) {
         constexpr int kCells = 6;
         std::vector<double> exact(kCells * kCells);
         const auto cellOf = [&](const dvec3& w) {
-            const double z = glm::dot(w, dvec3(c.normal)), y = glm::dot(w, dvec3(cap.side));
+            const double z = glm::dot(w, dvec3(c.normal)), y = glm::dot(w, dvec3(cap.view.side));
             const int i = std::clamp(static_cast<int>(z / 0.95 * kCells), 0, kCells - 1);
             return i * kCells + std::clamp(static_cast<int>((y / 0.4 * 0.5 + 0.5) * kCells), 0, kCells - 1);
         };
@@ -90,6 +90,33 @@ TEST(ProjectedCap, WeightedCountsAreTheMeasure) {
                 ++counts[static_cast<std::size_t>(cellOf(dvec3(d.place.direction)))];
         }
         EXPECT_GT(chiSquareP(counts, exact), kSignificance) << rise;
+    }
+}
+
+// Slices as an ellipse has them: no variance above the horizon, little where it cuts.
+TEST(VisibleCap, MeanIsTheProjectedSolidAngleAndVarianceIsLittle) {
+    Uniforms uniform(3);
+    for (const double s : {0.04, 0.2, 0.5, 0.9, 0.99, 0.999}) {
+        for (const double rise : {-0.99, -0.9, -0.5, -0.1, 0.0, 0.1, 0.5, 0.9, 0.999, 1.0, 1.001, 1.5, 5.0, 1e9}) {
+            if (s * rise > 1 && rise < 1e9) continue;
+            const Cap c = capAt(uniform, s, rise == 1e9 ? 1 / s : rise);
+            const SphereCone cone = makeSphereCone(c.toCenter, c.radius);
+            Mean mean;
+            for (int i = 0; i < 1 << 13; ++i) {
+                const VisibleCapSample d = sampleVisibleCap(cone, c.radius, c.normal, uniform.pair());
+                ASSERT_TRUE(isFinite(d.place.direction) && isFinite(d.pdf) && d.pdf > 0) << s << " " << rise;
+                const double cosine = std::max(double(dot(d.place.direction, c.normal)), 0.0);
+                mean.add(cosine / double(d.pdf));
+                const double off = glm::length(dvec3(d.place.direction) * double(d.place.distance) - dvec3(c.toCenter));
+                ASSERT_NEAR(off / double(c.radius), 1, 1e-6 / s);
+                ASSERT_NEAR(visibleCapPdf(cone, c.normal, d.place.direction) / d.pdf, 1, 0.1) << s << " " << rise;
+            }
+            const double exact = test::sphereIrradiance(dvec3(c.toCenter), c.radius, dvec3(c.normal));
+            // A height known to 1e-7 is a fraction of it of the cap; deeper, more of what is left.
+            const double rounding = 3e-5 + 4e-7 / s / std::min(1.0, (1 + std::max(rise, -0.999)) * (1 + rise));
+            EXPECT_TRUE(agrees(mean, exact, rounding)) << s << " " << rise;
+            EXPECT_LE(mean.relativeVariance(), rise >= 1.001 ? 1e-6 : 0.2) << s << " " << rise;
+        }
     }
 }
 

@@ -45,7 +45,7 @@ inline constexpr Named<LightSelection> kLightSelections[] = {
     {"power", LightSelection::Power, "By power", "in proportion to what each emits"},
     {"uniform", LightSelection::Uniform, "Uniform", "all alike"}};
 inline constexpr Named<ShapeSampling> kSphereLights[] = {
-    {"auto", ShapeSampling::Auto, "Auto", "projected above the horizon, else cone"},
+    {"auto", ShapeSampling::Auto, "Auto", "nearly as projected, but faster; cone when far"},
     {"cone", ShapeSampling::SolidAngle, "Cone", "in the cone of directions that it is seen in"},
     {"projected", ShapeSampling::Projected, "Projected cap", "in that cone, weighed by the cosine at the surface"},
     {"area", ShapeSampling::Area, "Area", "on its area"}};

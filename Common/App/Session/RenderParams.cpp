@@ -193,7 +193,7 @@ std::string describeLightShapes(const RenderSettings& settings, std::uint32_t fe
     };
     if (settings.lightSampling == LightSampling::Bsdf) return "none";
     describe(shared::kFeatureSphereLights, settings.sphereLight, "sphere", "cone",
-             "auto (projected above the horizon, else cone)");
+             "auto (nearly projected, cone when far)");
     describe(shared::kFeatureQuadLights, settings.quadLight, "quad", "solid-angle",
              "auto (area when far, strip when thin, else solid-angle by the cosine)");
     describe(shared::kFeatureTriangleLights, settings.triangleLight, "triangle", "solid-angle",

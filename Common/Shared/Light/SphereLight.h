@@ -15,9 +15,8 @@ RT_FN uint sphereLightStrategy(uint features, uint method, RT_IN(Light) light, v
     float r2 = light.radius * light.radius;
     uint strategy = method == kShapeArea ? kStrategyArea : kStrategySolidAngle;
     if (method == kShapeAuto) {
-        uint above =
-            dot(normal, toCenter) >= light.radius ? kStrategyVisibleCap : kStrategySolidAngle; // a medium's normal is 0
-        strategy = r2 >= kLeastCapSine2 * d2 ? above : kStrategySolidAngle;
+        uint near = isSurface(normal) ? kStrategyVisibleCap : kStrategySolidAngle;
+        strategy = r2 >= kLeastCapSine2 * d2 ? near : kStrategySolidAngle;
     }
     if (wantsProjected(features, method, normal)) {
         strategy = r2 >= kTinyExtent * kTinyExtent * d2 ? kStrategyProjected : kStrategySolidAngle;
@@ -55,8 +54,9 @@ RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, 
     ConeSample c;
     float pdf;
     if (isCap) {
-        c = sampleVisibleCap(cone, light.radius, normal, u);
-        pdf = visibleCapPdf(cone, normal, c.direction);
+        VisibleCapSample visible = sampleVisibleCap(cone, light.radius, normal, u);
+        c = visible.place;
+        pdf = visible.pdf;
     } else {
         c = sampleSphereCone(cone, light.radius, u);
         pdf = sphereConePdf(cone);

@@ -5,7 +5,7 @@
 // sin(psi), with widths that need no difference of nearly equal numbers.
 #ifndef RT_SHARED_PROJECTED_CAP_H
 #define RT_SHARED_PROJECTED_CAP_H
-#include "Common/Shared/Shape/SphericalShapes.h"
+#include "Common/Shared/Light/Projected/VisibleCap.h"
 
 RT_SHARED_BEGIN
 
@@ -18,71 +18,32 @@ const uint kCapHidden = 3u; // wholly below
 
 struct ProjectedCap {
     SphereCone cone;
+    CapView view;
     uint kind;
     vec3 up;                        // unit, across cone.axis towards the normal
-    vec3 side;                      // unit, across cone.axis and the normal
-    float rise;                     // cosine between axis and normal
-    float lean;                     // sine
-    float cut;                      // y beyond which the ellipse is wholly above the horizon (kCapHigh)
     float end;                      // psi of the last slice
     float total;                    // integral of the fit over psi, half of the projected solid angle
     float mass[kCapIntervals + 1u]; // of slices, per psi
 };
 
-// A slice: x from right - width to right; at its right end the height above the tangent plane is `height`.
-struct CapSlice {
-    float width;
-    float right;
-    float height;
-};
-
-RT_FN CapSlice capSlice(RT_IN(ProjectedCap) cap, float sinPsi, float cosPsi) {
-    float s = cap.cone.sine;
-    float c = cap.cone.cosine;
-    float a = abs(cap.rise);
-    float y = s * sinPsi;
-    float circle = sqrt(max((1.0f - y) * (1.0f + y), 0.0f));
-    CapSlice slice;
-    slice.right = circle;
-    slice.height = 0.0f;
-    if (cap.kind == kCapLow) {
-        float z = max(s * cap.lean * cosPsi - a * c, 0.0f);
-        slice.width = z * z / max(circle + (c * cap.lean + s * a * cosPsi), 1.0e-37f);
-    } else if (cap.kind == kCapHigh && y <= cap.cut) {
-        float z = c * cap.rise + s * cap.lean * cosPsi;
-        slice.width = z * z / max(circle + (c * cap.lean - s * a * cosPsi), 1.0e-37f);
-    } else {
-        slice.width = 2.0f * s * a * cosPsi;
-        slice.right = c * cap.lean + s * a * cosPsi;
-        slice.height = max(c * cap.rise - s * cap.lean * cosPsi, 0.0f);
-    }
-    return slice;
-}
-
 // `normal` is the receiver's, unit.
 RT_FN ProjectedCap makeProjectedCap(RT_IN(SphereCone) cone, vec3 normal) {
     ProjectedCap cap;
     cap.cone = cone;
-    vec3 across = cross(normal, cone.axis);
-    cap.lean = length(across);
-    cap.rise = dot(normal, cone.axis);
-    // Straight overhead any direction serves.
-    cap.side = cap.lean > 1.0e-4f ? across * (1.0f / cap.lean) : makeFrame(cone.axis).bitangent;
-    cap.up = cross(cone.axis, cap.side);
+    cap.view = viewCap(cone, normal);
+    cap.up = cross(cone.axis, cap.view.side);
     float s = cone.sine;
-    cap.kind = cap.rise >= s ? kCapWhole : cap.rise > 0.0f ? kCapHigh : cap.rise > -s ? kCapLow : kCapHidden;
-    cap.cut = 0.0f;
+    float rise = cap.view.rise;
+    cap.kind = rise >= s ? kCapWhole : rise > 0.0f ? kCapHigh : rise > -s ? kCapLow : kCapHidden;
     cap.end = 0.5f * kPi;
     cap.total = 0.0f;
     if (cap.kind == kCapWhole || cap.kind == kCapHidden) return cap;
-    float g = sqrt((s - cap.rise) * (s + cap.rise));
-    cap.cut = g / cap.lean;
-    if (cap.kind == kCapLow) cap.end = arcTan(g, -cap.rise * cone.cosine);
+    if (cap.kind == kCapLow) cap.end = arcTan(sqrt((s - rise) * (s + rise)), -rise * cone.cosine);
     float stepSize = cap.end / float(kCapIntervals);
     for (uint i = 0u; i <= kCapIntervals; i++) {
         vec2 sc = sinCos2Pi(float(i) * stepSize * (0.5f * kInvPi));
         float cosPsi = max(sc.y, 0.0f);
-        cap.mass[i] = capSlice(cap, sc.x, cosPsi).width * s * cosPsi;
+        cap.mass[i] = capSlice(cone, cap.view, sc.x, cosPsi).width * s * cosPsi;
         if (i > 0u) cap.total += 0.5f * stepSize * (cap.mass[i - 1u] + cap.mass[i]);
     }
     return cap;
@@ -124,13 +85,14 @@ RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radiu
         // Uniform in the ellipse. Height above that of its middle, c * rise, without cancellation for small caps.
         vec2 e = sampleDisk(u);
         float cosPsi = sqrt(max(0.0f, (1.0f - e.y) * (1.0f + e.y)));
-        float a = cap.rise;
-        float low = max(c * a - s * cap.lean * cosPsi, 0.0f);
-        float x = c * cap.lean + s * a * e.x;
-        float z = sqrt(low * low + s * a * max(cosPsi - e.x, 0.0f) * (c * cap.lean + s * a * cosPsi + x));
-        float above = s * (-2.0f * c * a * cap.lean * e.x + s * (cosPsi * cosPsi - a * a * e.x * e.x)) / (z + c * a);
+        float a = cap.view.rise;
+        float low = max(c * a - s * cap.view.lean * cosPsi, 0.0f);
+        float x = c * cap.view.lean + s * a * e.x;
+        float z = sqrt(low * low + s * a * max(cosPsi - e.x, 0.0f) * (c * cap.view.lean + s * a * cosPsi + x));
+        float above =
+            s * (-2.0f * c * a * cap.view.lean * e.x + s * (cosPsi * cosPsi - a * a * e.x * e.x)) / (z + c * a);
         y = s * e.y;
-        lift = cap.lean * above - s * a * a * e.x;
+        lift = cap.view.lean * above - s * a * a * e.x;
         result.density = kInvPi / (s * s * a);
     } else {
         float t = abs(2.0f * u.y - 1.0f);
@@ -146,29 +108,29 @@ RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radiu
         float psi = (float(i) + invertLinear(cap.mass[i], cap.mass[i + 1u], rest / stepSize)) * stepSize;
         vec2 sc = sinCos2Pi(min(psi, cap.end) * (0.5f * kInvPi));
         float cosPsi = max(sc.y, 0.0f);
-        CapSlice slice = capSlice(cap, sc.x, cosPsi);
+        CapSlice slice = capSlice(cap.cone, cap.view, sc.x, cosPsi);
         float inward = (1.0f - u.x) * slice.width;
         float x = slice.right - inward;
-        float z = sqrt(slice.height * slice.height + inward * (slice.right + x));
+        float z = sliceHeight(slice, inward);
         y = s * sc.x * signOf(u.y - 0.5f);
-        lift = cap.lean * z - cap.rise * x;
+        lift = cap.view.lean * z - cap.view.rise * x;
         result.density = capDensity(cap, psi, slice, cosPsi);
     }
     // Rounding must not lead out of the cone.
     float sine2 = lift * lift + y * y;
     float shrink = sine2 > s * s ? s / sqrt(sine2) : 1.0f;
     result.place =
-        placeOnSphere(cap.cone, radius, cap.up * (lift * shrink) + cap.side * (y * shrink), min(sine2, s * s));
+        placeOnSphere(cap.cone, radius, cap.up * (lift * shrink) + cap.view.side * (y * shrink), min(sine2, s * s));
     return result;
 }
 
 // Density on the unit disk at a direction that meets the sphere.
 RT_FN float projectedCapDensity(RT_IN(ProjectedCap) cap, vec3 wi) {
-    if (cap.kind == kCapWhole) return kInvPi / (cap.cone.sine * cap.cone.sine * cap.rise);
+    if (cap.kind == kCapWhole) return kInvPi / (cap.cone.sine * cap.cone.sine * cap.view.rise);
     if (cap.kind == kCapHidden) return 0.0f;
-    float sinPsi = min(abs(dot(cap.side, wi)) / cap.cone.sine, 1.0f);
+    float sinPsi = min(abs(dot(cap.view.side, wi)) / cap.cone.sine, 1.0f);
     float cosPsi = sqrt((1.0f - sinPsi) * (1.0f + sinPsi));
-    return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap, sinPsi, cosPsi), cosPsi);
+    return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap.cone, cap.view, sinPsi, cosPsi), cosPsi);
 }
 
 RT_SHARED_END
