@@ -37,7 +37,7 @@ const uint kStrategyArea = 1u;       // uniform in area
 const uint kStrategyStrip = 2u;      // a thin quad as a line light: by solid angle along the long edge, uniform across
 const uint kStrategyInside = 3u;     // the point is inside a sphere or an ellipsoid, which fills all directions
 const uint kStrategyProjected = 4u;  // a sphere: uniform in projected solid angle; flat lights: isFlatProjected()
-const uint kStrategyVisibleCap = 5u; // a sphere wholly above the horizon: uniform in projected solid angle
+const uint kStrategyVisibleCap = 5u; // what of a sphere is above the horizon, nearly uniform in projected solid angle
 
 // Below it a float direction cannot resolve a light; a point uniform in area can.
 const float kTinySolidAngle = 1.0e-8f;

@@ -47,8 +47,8 @@ RT_FN float sphereProjectedPdf(RT_IN(Light) light, vec3 toCenter, vec3 normal, v
     return projectedSphereDensity(toCenter, light.radius, normal, wi) * max(dot(normal, wi), 0.0f);
 }
 
-// A sphere from outside: in its cone of directions, or in the ellipse that the cone is as seen along the normal
-// (isCap), for kStrategyVisibleCap. Without a branch that keeps loops over lights from becoming vectors.
+// A sphere from outside: in its cone of directions, or in what of that is above the horizon (isCap), for
+// kStrategyVisibleCap. Without a branch that keeps loops over lights from becoming vectors.
 RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, vec3 position, vec3 normal, vec2 u) {
     SphereCone cone = makeSphereCone(center - position, light.radius);
     ConeSample c;

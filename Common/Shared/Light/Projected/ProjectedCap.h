@@ -1,8 +1,5 @@
-// Spheres by projected solid angle. What is below the receiver's horizon is cut off. Seen from the tangent plane the
-// cap of directions to a sphere is an ellipse (all of it above the horizon), an ellipse and a lune between it and the
-// unit circle (its middle above), or a lune alone (its middle below). Urena & Georgiev, "Stratified Sampling of
-// Projected Spherical Caps", 2018, cut them into slices parallel to the symmetry axis; so do we, at y = sine *
-// sin(psi), with widths that need no difference of nearly equal numbers.
+// Spheres by projected solid angle, whatever the horizon cuts off: the slices of VisibleCap.h, drawn by a fit to their
+// widths, and whole caps in a form for small ones too.
 #ifndef RT_SHARED_PROJECTED_CAP_H
 #define RT_SHARED_PROJECTED_CAP_H
 #include "Common/Shared/Light/Projected/VisibleCap.h"
