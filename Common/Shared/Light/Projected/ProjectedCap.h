@@ -81,7 +81,7 @@ RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radiu
     if (cap.kind == kCapWhole) {
         // Uniform in the ellipse. Height above that of its middle, c * rise, without cancellation for small caps.
         vec2 e = sampleDisk(u);
-        float cosPsi = sqrt(max(0.0f, (1.0f - e.y) * (1.0f + e.y)));
+        float cosPsi = cosineOf(e.y);
         float a = cap.view.rise;
         float low = max(c * a - s * cap.view.lean * cosPsi, 0.0f);
         float x = c * cap.view.lean + s * a * e.x;
@@ -90,7 +90,7 @@ RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radiu
             s * (-2.0f * c * a * cap.view.lean * e.x + s * (cosPsi * cosPsi - a * a * e.x * e.x)) / (z + c * a);
         y = s * e.y;
         lift = cap.view.lean * above - s * a * a * e.x;
-        result.density = kInvPi / (s * s * a);
+        result.density = wholeCapDensity(cap.cone, a);
     } else {
         float t = abs(2.0f * u.y - 1.0f);
         float rest = t * cap.total;
@@ -123,10 +123,10 @@ RT_FN ProjectedDirection sampleProjectedCap(RT_IN(ProjectedCap) cap, float radiu
 
 // Density on the unit disk at a direction that meets the sphere.
 RT_FN float projectedCapDensity(RT_IN(ProjectedCap) cap, vec3 wi) {
-    if (cap.kind == kCapWhole) return kInvPi / (cap.cone.sine * cap.cone.sine * cap.view.rise);
+    if (cap.kind == kCapWhole) return wholeCapDensity(cap.cone, cap.view.rise);
     if (cap.kind == kCapHidden) return 0.0f;
     float sinPsi = min(abs(dot(cap.view.side, wi)) / cap.cone.sine, 1.0f);
-    float cosPsi = sqrt((1.0f - sinPsi) * (1.0f + sinPsi));
+    float cosPsi = cosineOf(sinPsi);
     return capDensity(cap, arcTan(sinPsi, cosPsi), capSlice(cap.cone, cap.view, sinPsi, cosPsi), cosPsi);
 }
 

@@ -17,6 +17,11 @@ RT_SHARED_BEGIN
 // digits.
 const float kLeastCapSine2 = 1.0e-3f;
 
+// The cosine of an angle of this sine, up to rounding beyond 1.
+RT_FN float cosineOf(float sine) {
+    return sqrt(max((1.0f - sine) * (1.0f + sine), 0.0f));
+}
+
 // A cap of directions as seen along the normal of a surface.
 struct CapView {
     vec3 forward; // unit, across the normal, towards the axis
@@ -65,7 +70,7 @@ RT_FN CapSlice capSlice(RT_IN(SphereCone) cone, RT_IN(CapView) view, float sinPs
     float s = cone.sine;
     float c = cone.cosine;
     float y = s * sinPsi;
-    float circle = sqrt(max((1.0f - y) * (1.0f + y), 0.0f));
+    float circle = cosineOf(y);
     float top = max(c * view.rise + s * view.lean * cosPsi, 0.0f);
     float beyond = circle + (c * view.lean - s * view.rise * cosPsi);
     float cutWidth = top * top / max(beyond, 1.0e-37f);
@@ -84,6 +89,11 @@ RT_FN float sliceHeight(RT_IN(CapSlice) slice, float inward) {
     return sqrt(slice.height * slice.height + inward * (2.0f * slice.right - inward));
 }
 
+// Density on the unit disk of the tangent plane of places that are uniform in the ellipse of a whole cap.
+RT_FN float wholeCapDensity(RT_IN(SphereCone) cone, float rise) {
+    return kInvPi / (cone.sine * cone.sine * rise);
+}
+
 // Density on the unit disk of the tangent plane, given the slice at y; `ellipse` is sqrt(1 - (y / end)^2). 0: nothing
 // is visible.
 RT_FN float visibleCapDensity(RT_IN(SphereCone) cone, RT_IN(CapView) view, RT_IN(CapSlice) slice, float y,
@@ -94,16 +104,11 @@ RT_FN float visibleCapDensity(RT_IN(SphereCone) cone, RT_IN(CapView) view, RT_IN
     return area > 0.0f ? drawn / area : 0.0f;
 }
 
-// The cosine of an angle of this sine, up to rounding beyond 1.
-RT_FN float cosineOf(float sine) {
-    return sqrt(max((1.0f - sine) * (1.0f + sine), 0.0f));
-}
-
 // Density per steradian of wi, a direction to the sphere.
 RT_FN float visibleCapPdf(RT_IN(SphereCone) cone, vec3 normal, vec3 wi) {
     float cosine = max(dot(normal, wi), 0.0f);
     float rise = dot(normal, cone.axis);
-    if (rise >= cone.sine) return cosine * kInvPi / (cone.sine * cone.sine * rise);
+    if (rise >= cone.sine) return cosine * wholeCapDensity(cone, rise);
     CapView view = viewCap(cone, normal);
     float y = min(abs(dot(view.side, wi)), view.end);
     float sinPsi = min(y / cone.sine, 1.0f);
