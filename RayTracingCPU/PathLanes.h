@@ -100,6 +100,8 @@ struct PathLanes {
     Vec3Lanes diffuse; // directions of sampleLambertian(), and their densities
     FloatLanes diffusePdf;
     RecordLanes<BsdfSample> principled; // samples of principled materials
+    FloatLanes aimedShare;              // of first vertices that are shared; 0: of others
+    RecordLanes<BsdfSample> aimed;      // their samples
 };
 
 // The vertex in a lane, with all of its bsdf.
@@ -109,6 +111,15 @@ RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
     if (has(kFeatures, kFeaturePrincipled)) read(lanes.lobes, i, v.bsdf.lobes);
     if (has(kFeatures, kFeatureCoatNormal)) v.bsdf.lobes.coatNormal = get(lanes.coatNormals, i);
     return v;
+}
+
+// What sampleLambertian() has sampled.
+RT_FN BsdfSample diffuseSample(const PathLanes& lanes, uint i) {
+    BsdfSample b = absorbed();
+    b.wi = get(lanes.diffuse, i);
+    b.weight = get(lanesOf<&Bsdf::albedo>(lanesOf<&Vertex::bsdf>(lanes.vertices)), i);
+    b.pdf = lanes.diffusePdf.at[i];
+    return b;
 }
 
 // A vertex as arrive() leaves it.

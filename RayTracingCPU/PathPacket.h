@@ -3,6 +3,7 @@
 // for all of them: what is arithmetic in the lanes of vectors, what is fetched or traced slot by slot. Included by one
 // translation unit per instruction set; all it defines has internal linkage.
 #pragma once
+#include "RayTracingCPU/AimedLanes.h"
 #include "RayTracingCPU/ConnectionLanes.h"
 #include "RayTracingCPU/EdgeLanes.h"
 #include "RayTracingCPU/LightLanes.h"
@@ -26,6 +27,7 @@ struct ActiveSlots {
     uint lit = 0u;        // of these, where a light is chosen
     uint principled = 0u; // where the material is
     uint layered = 0u;    // of these, where there is more than diffuse and specular reflection
+    uint aimed = 0u;      // where scattering may be aimed at a sphere
 };
 
 // Where all vertices would scatter if they were Lambertian.
@@ -131,11 +133,7 @@ RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& 
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
     if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return get(lanes.principled, i);
     if (inMedium || !isLambertian(kFeatures, v.bsdf)) return sampleScattering(kFeatures, v, get(lanes.u, i).bsdf);
-    BsdfSample b = absorbed();
-    b.wi = get(lanes.diffuse, i);
-    b.weight = v.bsdf.albedo;
-    b.pdf = lanes.diffusePdf.at[i];
-    return b;
+    return diffuseSample(lanes, i);
 }
 
 template <uint kFeatures>
@@ -166,6 +164,7 @@ class PathPacket {
             if (active.lit != 0u) sampleLights(active.lit);
             if constexpr (kConnects) connectLights(active.lit);
             if (active.principled != active.arrived) sampleDiffuse(lanes_);
+            if (aimsPaths(kFeatures, params_)) active.aimed = aimScatterings();
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
             eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
@@ -253,6 +252,16 @@ class PathPacket {
         if (samplesLights(kFeatures, params_)) sampleDirectLights<kFeatures>(scene_, params_, lit, lanes_);
     }
 
+    // Aims what the first vertices of paths that are shared scatter; the paths of which a share is aimed.
+    uint aimScatterings() {
+        uint first = 0u;
+        for (uint i = 0u; i < kLanes; ++i)
+            first |= uint(slots_[i].sample != kNone && slots_[i].path.reuse == kReuseFirst) << i;
+        if (first == 0u || !findAimedShares(scene_.globals.aimed, first, lanes_)) return 0u;
+        aimScattering(scene_.globals.aimed, lanes_);
+        return first;
+    }
+
     // Attempts connections of the paths `lit`.
     void connectLights(uint lit) {
         if (lit == 0u || params_.connectedSpheres == 0u) return;
@@ -288,6 +297,10 @@ class PathPacket {
         if (isLit && usesMixture(kFeatures, params_, scene_.globals, v)) {
             const LightChoice choice = get(lanes_.choices, i);
             b = sampleMixture(kFeatures, scene_, params_, choice, v, u, b, path.ray.time, path.last);
+        }
+        if (aimsPaths(kFeatures, params_) && (active.aimed >> i & 1u) != 0u) {
+            shared_.aimed(slot.sample, lanes_.aimedShare.at[i]);
+            b = get(lanes_.aimed, i);
         }
         if (has(kFeatures, kFeatureConnections)) goOnChain(v, b, path);
         if (goOn(kFeatures, params_, v, b, u.roulette.x, path)) {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "Common/Image/Film.h"
-#include "Common/Shared/Path/PathReuse.h"
+#include "Common/Shared/Path/AimedScattering.h"
 #include "RayTracingCPU/SceneAccess.h"
 
 namespace rt::cpu {
@@ -17,6 +17,7 @@ using namespace rt::shared;
 struct SharedPath {
     vec3 first; // its first vertex, where rays start
     vec3 firstNormal;
+    float aimed;     // SharedPart::aimed there
     vec3 throughput; // of the path behind it
     vec3 second;     // its second vertex, likewise
     vec3 secondNormal;
@@ -35,7 +36,9 @@ template <uint kFeatures>
 class SharedPaths {
   public:
     explicit SharedPaths(const KernelContext& context)
-        : scene_(*context.scene), isUsed_(reusesPaths(kFeatures, context.params)) {}
+        : scene_(*context.scene),
+          isUsed_(reusesPaths(kFeatures, context.params)),
+          aims_(aimsPaths(kFeatures, context.params)) {}
 
     // After the path of a sample, whose PathState::reuse was `before`, has arrived at v. What it had brought before its
     // second vertex goes to the sample's radiance.
@@ -45,6 +48,7 @@ class SharedPaths {
         if (path.reuse == kReuseFirst) {
             shared.first = v.origin;
             shared.firstNormal = v.normal;
+            shared.aimed = 0.0f;
             shared.throughput = path.throughput * v.bsdf.albedo;
         } else if (path.reuse == kReuseSuffix) {
             shared.second = v.origin;
@@ -52,6 +56,9 @@ class SharedPaths {
             radiance = prefix;
         }
     }
+
+    // At the first vertex of a sample's path this share of directions is aimed.
+    void aimed(uint sample, float share) { paths_[sample].aimed = share; }
 
     // The path of a sample has ended.
     void ended(uint sample, const PathState& path, vec3& radiance) {
@@ -115,11 +122,12 @@ class SharedPaths {
         for (uint j = 0u; j < group.count; ++j) {
             const SharedPath& suffix = paths_[group.samples[j]];
             if (suffix.reuse != kReuseSuffix || !(maxComponent(suffix.radiance) > 0.0f)) continue;
-            float densities[kReuseGroup];
-            float sum = 0.0f;
+            float densities[kReuseGroup]; // of scattering alone
+            float sum = 0.0f;             // of those with which the second vertex was drawn
             for (uint k = 0u; k < group.count; ++k) {
-                densities[k] = density(paths_[group.samples[k]], suffix, k == j, counters);
-                sum += densities[k];
+                const SharedPath& path = paths_[group.samples[k]];
+                densities[k] = density(path, suffix, k == j, counters);
+                sum += densities[k] * ratio(path, suffix.second);
             }
             for (uint k = 0u; k < group.count; ++k) received[k] += suffix.radiance * (densities[k] / sum);
         }
@@ -138,8 +146,17 @@ class SharedPaths {
         return isOccluded(scene_, ray, tMax) ? 0.0f : density;
     }
 
+    // Of the density with which a path's first vertex draws y to that of scattering alone.
+    float ratio(const SharedPath& path, const vec3& y) const {
+        if (!aims_ || !(path.aimed > 0.0f)) return 1.0f;
+        const SphereCone cone = aimedCone(scene_.globals.aimed, path.first);
+        const vec3 wi = normalize(y - path.first);
+        return aimedRatio(cone, path.firstNormal, path.aimed, wi, dot(wi, cone.axis));
+    }
+
     const CpuScene& scene_;
     bool isUsed_;
+    bool aims_;
     SharedPath paths_[kBatchSamples];
 };
 

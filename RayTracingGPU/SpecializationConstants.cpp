@@ -22,6 +22,7 @@ constexpr std::array kEntries{
     entry(shared::kTriangleLightId, offsetof(SpecializationConstants, triangleLight)),
     entry(shared::kSamplerKindId, offsetof(SpecializationConstants, samplerKind)),
     entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
+    entry(shared::kPathReuseId, offsetof(SpecializationConstants, pathReuse)),
     entry(shared::kLightCountId, offsetof(SpecializationConstants, lightCount)),
     entry(shared::kHasEdgesId, offsetof(SpecializationConstants, hasEdges)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
@@ -70,17 +71,9 @@ SpecializationConstants makeSpecializationConstants(std::uint32_t features, cons
                                                     const TraversalShape& traversal) {
     const bool usesLights = params.lightSampling == shared::kSampleMixture || shared::samplesLights(features, params);
     const bool isWeighed = usesLights && lights <= shared::kContributionLights;
-    return {features,
-            params.lightSampling,
-            params.lightSelection,
-            params.sphereLight,
-            params.quadLight,
-            params.triangleLight,
-            params.samplerKind,
-            params.russianRoulette,
-            isWeighed ? lights : 0,
-            hasEdges ? 1u : 0u,
-            traversal};
+    return {features,         params.lightSampling,   params.lightSelection, params.sphereLight,
+            params.quadLight, params.triangleLight,   params.samplerKind,    params.russianRoulette,
+            params.pathReuse, isWeighed ? lights : 0, hasEdges ? 1u : 0u,    traversal};
 }
 
 VkSpecializationInfo specializationInfo(const SpecializationConstants& constants) {

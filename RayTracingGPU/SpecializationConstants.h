@@ -38,6 +38,7 @@ struct SpecializationConstants {
     std::uint32_t triangleLight = 0;
     std::uint32_t samplerKind = 0;
     std::uint32_t russianRoulette = 0;
+    std::uint32_t pathReuse = 0;
     std::uint32_t lightCount = 0; // of a table that is weighed light by light, otherwise 0, if any is used
     std::uint32_t hasEdges = 0;   // 1: camera rays may be split at edges of lights
     TraversalShape traversal;     // of the compute engine

@@ -24,8 +24,8 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool i
         if (checking) {
             endChecked(scene, hit, path, direct, passage);
         } else {
-            vec3 unusedPrefix;
-            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, unusedPrefix, direct, passage);
+            SharedPart unusedPart;
+            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, unusedPart, direct, passage);
         }
     }
     return rays;

@@ -128,12 +128,15 @@ SharedPathArray sharedPathsOf(Work work) {
 }
 
 // The path has stepped to the first or the second vertex that is shared.
-void keepVertex(Work work, PathState path, vec3 prefix) {
+void keepVertex(Work work, PathState path, SharedPart part) {
     SharedPathArray paths = sharedPathsOf(work);
-    if (path.reuse == kReuseFirst) keepFirst(paths, work.number, path.last.position, path.last.normal, path.throughput);
+    if (path.reuse == kReuseFirst) {
+        vec3 throughput = aimsPaths(kFeatures, renderParams()) ? part.throughput : path.throughput;
+        keepFirst(paths, work.number, path.last.position, path.last.normal, throughput, part.aimed);
+    }
     if (path.reuse == kReuseSuffix) {
         keepSecond(paths, work.number, path.last.position, path.last.normal);
-        radiancesOf(work).at[work.number] = prefix;
+        radiancesOf(work).at[work.number] = part.prefix;
     }
 }
 
@@ -164,9 +167,10 @@ void tellSamplesAreSpent() {
 bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
                inout Passage passage) {
     uint before = path.reuse;
-    vec3 prefix;
-    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, prefix, direct, passage);
-    if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, prefix);
+    SharedPart part;
+    part.aimed = 0.0f;
+    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, part, direct, passage);
+    if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, part);
     return goesOn;
 }
 

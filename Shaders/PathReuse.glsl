@@ -46,6 +46,16 @@ float densityFrom(SharedVertex x, SharedVertex y, bool isItself, inout uint rays
     return traceRay(ray, true, tMax).t < 0.0f ? density : 0.0f;
 }
 
+// Of the density with which the first vertex x of the sample of this number draws y to that of scattering alone.
+float aimedRatioFrom(uint number, SharedVertex x, vec3 y) {
+    if (!aimsPaths(kFeatures, renderParams())) return 1.0f;
+    float aimed = uintBitsToFloat(launch.sharedPaths.at[4u * number + 1u].w);
+    if (!(aimed > 0.0f)) return 1.0f;
+    SphereCone cone = aimedCone(constants.globals.aimed, x.position);
+    vec3 wi = normalize(y - x.position);
+    return aimedRatio(cone, x.normal, aimed, wi, dot(wi, cone.axis));
+}
+
 void sharePaths(uint invocation) {
     const uint kGroups = kTilePixels / kReuseGroup;
     uint step = invocation / kGroups; // counted through all slots
@@ -64,13 +74,15 @@ void sharePaths(uint invocation) {
         vec3 radiance = uintBitsToFloat(end.xyz);
         if ((sharing >> j & 1u) == 0u || end.w != kReuseSuffix || !(maxComponent(radiance) > 0.0f)) continue;
         SharedVertex y = secondVertex(launch.sharedPaths, numberInGroup(first, j));
-        vec4 densities = vec4(0.0f);
+        vec4 densities = vec4(0.0f); // of scattering alone
+        float sum = 0.0f;            // of those with which y was drawn
         for (uint k = 0u; k < kReuseGroup; k++) {
             if ((sharing >> k & 1u) == 0u) continue;
-            SharedVertex x = firstVertex(launch.sharedPaths, numberInGroup(first, k));
+            uint number = numberInGroup(first, k);
+            SharedVertex x = firstVertex(launch.sharedPaths, number);
             densities[k] = densityFrom(x, y, k == j, rays);
+            sum += densities[k] * aimedRatioFrom(number, x, y.position);
         }
-        float sum = densities.x + densities.y + densities.z + densities.w;
         [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) received[k] += radiance * (densities[k] / sum);
     }
     [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) {

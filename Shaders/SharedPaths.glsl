@@ -1,6 +1,6 @@
 // What the paths of a launch's samples share, as they are kept: four vectors a sample, each written at once.
-//   first vertex, its normal | throughput behind it | second vertex, its normal | radiance, PathState::reuse
-#include "Common/Shared/Path/PathReuse.h"
+//   first vertex, its normal | throughput behind it, SharedPart::aimed | second vertex, its normal | radiance, PathState::reuse
+#include "Common/Shared/Path/AimedScattering.h"
 
 // On the octahedron around the origin, 16 bits a coordinate; within 3e-5.
 uint packNormal(vec3 n) {
@@ -17,9 +17,9 @@ vec3 unpackNormal(uint packed) {
     return normalize(n);
 }
 
-void keepFirst(SharedPathArray paths, uint number, vec3 position, vec3 normal, vec3 throughput) {
+void keepFirst(SharedPathArray paths, uint number, vec3 position, vec3 normal, vec3 throughput, float aimed) {
     paths.at[4u * number] = uvec4(floatBitsToUint(position), packNormal(normal));
-    paths.at[4u * number + 1u] = uvec4(floatBitsToUint(throughput), 0u);
+    paths.at[4u * number + 1u] = floatBitsToUint(vec4(throughput, aimed));
 }
 
 void keepSecond(SharedPathArray paths, uint number, vec3 position, vec3 normal) {

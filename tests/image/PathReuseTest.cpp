@@ -8,6 +8,7 @@
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ImageTest.h"
 #include "Common/Image/Statistics.h"
+#include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
@@ -20,6 +21,17 @@ using app::PathReuse;
 
 std::shared_ptr<const CompiledScene> compiledScene(const char* id) {
     return app::compile(app::loadScene(id), true);
+}
+
+// Of the images' mean, summed over their values.
+double varianceOf(const std::vector<image::Image>& images) {
+    double sum = 0;
+    for (std::size_t i = 0; i < images[0].data.size(); ++i) {
+        std::vector<double> values;
+        for (const image::Image& picture : images) values.push_back(static_cast<double>(picture.data[i]));
+        sum += rt::image::estimate(values).varianceOfMean;
+    }
+    return sum;
 }
 
 // A bright box: every vertex receives from every other.
@@ -86,15 +98,58 @@ TEST(PathReuse, LeavesLessNoise) {
         std::vector<image::Image> images;
         for (settings.seed = 1; settings.seed <= 8; ++settings.seed)
             images.push_back(renderImage(*engine, *scene, settings));
-        double sum = 0;
-        for (std::size_t i = 0; i < images[0].data.size(); ++i) {
-            std::vector<double> values;
-            for (const image::Image& picture : images) values.push_back(static_cast<double>(picture.data[i]));
-            sum += rt::image::estimate(values).varianceOfMean;
-        }
-        return sum;
+        return varianceOf(images);
     };
     EXPECT_GT(variance(PathReuse::Off), 2 * variance(PathReuse::On));
+}
+
+// On the floor of a grey box, where a ball of glass in the air focuses a lamp that is too wide for connections.
+SceneDesc ballInBox() {
+    SceneDesc desc = emptyScene({1.3, -1.9, 1.3}, {0, -3, 0}, 50);
+    desc.id = "ball";
+    desc.materials["grey"] = lambertian(0.6);
+    desc.materials["glass"] = scene::glass(1.5);
+    desc.materials["lamp"] = lambertian(0, 10);
+    desc.objects = {{BoxDesc{glm::dvec3(-3), glm::dvec3(3), "grey"}},
+                    {QuadDesc{{-0.9, 2.99, -0.9}, {1.8, 0, 0}, {0, 0, 1.8}, "lamp"}},
+                    {SphereDesc{{0, -1, 0}, 0.7, {}, "glass"}}};
+    return desc;
+}
+
+// Paths that are shared aim at the ball.
+TEST(PathReuse, AimsAtGlass) {
+    const auto scene = compileScene(ballInBox());
+    const auto engine = cpu::makeCpuEngine({});
+    engine->setScene(scene, nullptr);
+    app::RenderSettings settings;
+    settings.width = settings.height = 32;
+    settings.spp = 64;
+    const auto images = [&](bool aims, std::uint32_t firstSeed) {
+        settings.specularConnections = aims;
+        EXPECT_EQ(app::makeRenderParams(*scene, settings).pathReuse,
+                  aims ? shared::kReuseAimed : shared::kReuseScattered);
+        return independentImages(*engine, *scene, settings, firstSeed);
+    };
+    const auto aimed = images(true, 100), scattered = images(false, 1000);
+    const auto result = image::testImages(aimed, scattered);
+    EXPECT_GT(result.globalP, 1e-4) << result.summary();
+    EXPECT_EQ(result.tileDiscoveries, 0u) << result.summary();
+    EXPECT_GT(varianceOf(scattered), 1.5 * varianceOf(aimed));
+}
+
+// Where the light at vertices is known, to compare what comes by way of the ball with.
+TEST(PathReuse, AimsWhereItKnowsTheLight) {
+    const auto reuse = [](const char* id, app::RenderSettings settings) {
+        return app::makeRenderParams(*compiledScene(id), settings).pathReuse;
+    };
+    app::RenderSettings settings = smallSettings(16, 16);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseAimed);
+    EXPECT_EQ(reuse("rest-of-life-cornell-box", settings), shared::kReuseScattered);
+    settings.lightSelection = app::LightSelection::Power;
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseScattered);
+    settings = smallSettings(16, 16);
+    settings.lightSampling = app::LightSampling::Bsdf;
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseScattered);
 }
 
 // Where indirect light makes the noise. What moves, is in a medium or drawn by Shirley's mixture is never shared.
@@ -108,9 +163,10 @@ TEST(PathReuse, IsChosenWhereItGains) {
         EXPECT_EQ(shared::has(app::renderFeatures(*scene, scene->camera, settings), shared::kFeatureReuse), isShared);
         return isShared;
     };
-    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box", "next-week-simple-light"})
+    for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box", "rest-of-life-cornell-box-glass",
+                           "cornell-box-lucy", "next-week-simple-light"})
         EXPECT_TRUE(shares(id, PathReuse::Auto)) << id;
-    for (const char* id : {"one-weekend-final", "veach-mis", "many-lights:200", "rest-of-life-cornell-box-glass"}) {
+    for (const char* id : {"one-weekend-final", "veach-mis", "many-lights:200"}) {
         EXPECT_FALSE(shares(id, PathReuse::Auto)) << id;
         EXPECT_TRUE(shares(id, PathReuse::On)) << id;
     }

@@ -56,8 +56,8 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
         DirectLight direct = noDirectLight();
         Passage passage = noPassage();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-        vec3 unusedPrefix;
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPrefix, direct, passage);
+        SharedPart unusedPart;
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPart, direct, passage);
         while (passage.segments != 0u) {
             ++counters.shadow;
             float tMax;

@@ -82,7 +82,8 @@ inline constexpr Named<bool> kAdaptive[] = {
     {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};
 inline constexpr Named<bool> kSpecularConnections[] = {
     {"off", false, "By chance", "scattering alone finds it"},
-    {"on", true, "Connected", "connections to where it comes from, where chance is noisy; unbiased"}};
+    {"on", true, "Connected",
+     "by connections to where it comes from, or paths aimed at glass, where chance is noisy; unbiased"}};
 inline constexpr Named<bool> kEdgeRays[] = {
     {"off", false, "One ray a sample", "the path's own ray finds or misses the light"},
     {"on", true, "Split rays", "several rays a sample where a light's edge crosses a pixel; unbiased"}};

@@ -63,11 +63,13 @@ constexpr std::uint32_t kLightSampling =
     shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
     shared::kFeatureMixture | shared::kFeatureProjected;
 
+bool usesMis(const RenderSettings& settings) {
+    return settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;
+}
+
 // Whether lights are connected to by way of smooth spheres. What layers of partial opacity let through is not traced.
 bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    const bool usesMis =
-        settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;
-    return settings.specularConnections && usesMis && !scene.smoothSpheres.empty() &&
+    return settings.specularConnections && usesMis(settings) && !scene.smoothSpheres.empty() &&
            !shared::has(scene.features, shared::kFeatureOpacity) && scattersWidely(scene);
 }
 
@@ -81,16 +83,27 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
 }
 
 // Whether that gains more than it costs, by error times time (docs/light-sampling.md): where indirect light makes the
-// noise, and not a sky, many lamps, the edges of a mesh's light, blurred mirrors or light by way of glass.
+// noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
 bool gainsByReuse(const scene::CompiledScene& scene) {
     constexpr std::uint32_t kOtherNoise = shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureFuzz;
     return !shared::has(scene.features, kOtherNoise) && scene.globals.lightCount <= kFewLamps &&
-           scene.globals.lightCount > 0 && scene.smoothSpheres.empty();
+           scene.globals.lightCount > 0;
 }
 
 bool reusesPaths(const scene::CompiledScene& scene, const RenderSettings& settings) {
     if (settings.pathReuse == PathReuse::Off || !mayReusePaths(scene, settings)) return false;
     return settings.pathReuse == PathReuse::On || gainsByReuse(scene);
+}
+
+// Whether paths that are shared aim at a sphere of glass: where the light of vertices is known to compare with.
+bool aimsPaths(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    return settings.specularConnections && usesMis(settings) &&
+           settings.lightSelection == LightSelection::Contribution && scene.globals.aimed.gain > 0;
+}
+
+shared::uint pathReuse(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    if (!reusesPaths(scene, settings)) return shared::kReuseOff;
+    return aimsPaths(scene, settings) ? shared::kReuseAimed : shared::kReuseScattered;
 }
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
@@ -120,7 +133,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
         params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
-    params.pathReuse = reusesPaths(scene, settings) ? 1u : 0u;
+    params.pathReuse = pathReuse(scene, settings);
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
 }

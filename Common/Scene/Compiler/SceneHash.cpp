@@ -1,5 +1,6 @@
 #include "Common/Scene/Compiler/SceneHash.h"
 
+#include <cstddef>
 #include <cstring>
 #include <type_traits>
 
@@ -42,7 +43,7 @@ class Hasher {
 std::uint64_t sceneHash(const CompiledScene& scene) {
     Hasher hash;
     shared::forEachSourceArray([&hash](const char*, const auto& records) { hash.array(records); }, scene);
-    hash.bytes(&scene.globals, sizeof scene.globals);
+    hash.bytes(&scene.globals, offsetof(shared::SceneGlobals, aimed)); // which follows from the rest
     return hash.result();
 }
 

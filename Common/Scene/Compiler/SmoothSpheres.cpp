@@ -85,7 +85,8 @@ struct Candidate {
     double flux; // that goes on from it
 };
 
-// The candidates that most light goes on from, those first; of equal ones the first that came.
+// The candidates that most light goes on from, those first, and that which most is refracted by of those that are worth
+// aiming at; of equal ones the first that came.
 class Brightest {
   public:
     Brightest(const CompiledScene& scene, double leastVariance) : scene_(scene), leastVariance_(leastVariance) {}
@@ -95,13 +96,17 @@ class Brightest {
         consider(smoothSphere(scene_, index, at, true));
     }
 
-    // Adds them to the scene, unless they are too small a part of all, and the patches of the sky.
+    // Adds them to the scene, with the patches of the sky, or else the one to aim at, unless they are too small a part
+    // of all.
     void addTo(CompiledScene& out) const {
         double flux = 0;
         for (const Candidate& candidate : spheres_) flux += candidate.flux;
-        if (spheres_.empty() || flux < kLeastShare * flux_) return;
-        for (const Candidate& candidate : spheres_) addSmoothSphere(candidate.sphere, *sky_, out);
-        for (const BrightPatch& patch : sky_->patches) out.skyPatches.push_back(patch.texels);
+        if (!spheres_.empty() && flux >= kLeastShare * flux_) {
+            for (const Candidate& candidate : spheres_) addSmoothSphere(candidate.sphere, *sky_, out);
+            for (const BrightPatch& patch : sky_->patches) out.skyPatches.push_back(patch.texels);
+        } else if (aimed_.flux > 0 && aimed_.flux >= kLeastShare * aimedFlux_) {
+            out.globals.aimed = aimedSphere(aimed_.sphere, *sky_, out);
+        }
     }
 
   private:
@@ -117,8 +122,14 @@ class Brightest {
         const double radius = static_cast<double>(sphere.radius);
         const double part = sphere.reflects != 0 ? meanReflectance(static_cast<double>(sphere.inverseEta)) : 1;
         const double flux = mean * radius * radius * part;
+        if (!(flux > 0)) return;
+        const double variance = (std::numbers::pi * second / (mean * mean) - 1) * part;
         const double least = sphere.inverseEta == 0.0f ? leastVariance_ * kMirrorWorth : leastVariance_;
-        if (flux > 0 && (std::numbers::pi * second / (mean * mean) - 1) * part >= least) add({sphere, flux});
+        if (variance >= least) add({sphere, flux});
+        if (variance >= kWorthAiming && sphere.reflects == 0) {
+            aimedFlux_ += flux;
+            if (flux > aimed_.flux) aimed_ = {sphere, flux};
+        }
     }
 
     void add(const Candidate& candidate) {
@@ -133,6 +144,8 @@ class Brightest {
     std::optional<BrightSky> sky_; // found when the first sphere asks for it
     std::vector<Candidate> spheres_;
     double flux_ = 0; // of all candidates
+    Candidate aimed_{};
+    double aimedFlux_ = 0; // of all that are worth aiming at
 };
 
 // The spheres of a geometry whose own material is smooth, whatever that of an instance is.
@@ -182,6 +195,7 @@ class InstancedSpheres {
 void findSmoothSpheres(CompiledScene& out, double leastVariance) {
     out.smoothSpheres.clear();
     out.sphereReaches.clear();
+    out.globals.aimed = {};
     out.skyPatches.clear();
     if (out.globals.lightCount == 0) return;
     const std::size_t most = kMostPairs / std::max(out.globals.lightCount, shared::kReachedLights);

@@ -11,9 +11,12 @@ namespace rt::scene {
 // takes the noise to everything around it, and no other comes from it: a quarter is enough.
 constexpr double kWorthConnecting = 25;
 
+// Likewise for the sphere of glass that paths aim at where no sphere is worth connections: that takes less time.
+constexpr double kWorthAiming = 5;
+
 // The smooth spheres by way of which lights are connected to, those that most light goes on from first, and how they
-// see the lights, which are complete: those with the most noise, and bright patches of the sky image. Replaces what
-// the scene has of them.
+// see the lights, which are complete: those with the most noise, and bright patches of the sky image; or the sphere
+// that paths aim at. Replaces what the scene has of them.
 void findSmoothSpheres(CompiledScene& out, double leastVariance = kWorthConnecting);
 
 } // namespace rt::scene

@@ -33,4 +33,7 @@ double meanReflectance(double inverseEta);
 // Adds the sphere to those of the scene, with its reaches. Some light that is connected to falls on it.
 void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out);
 
+// The sphere, which refracts, as one to aim at. Some light that could be connected to falls on it.
+shared::AimedSphere aimedSphere(shared::SmoothSphere sphere, const BrightSky& sky, const CompiledScene& scene);
+
 } // namespace rt::scene

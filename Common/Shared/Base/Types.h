@@ -289,6 +289,15 @@ const uint kSkyConstant = 1u; // skyTop
 const uint kSkyGradient = 2u; // mix(skyBottom, skyTop, 0.5 (unit direction.y + 1))
 const uint kSkyImage = 3u;    // latitude-longitude image, skyTop is a factor
 
+// The sphere of glass that paths aim at, see AimedScattering.h.
+struct AimedSphere {
+    vec3 center;
+    float radius;
+    vec3 axis;   // unit, from the centre away from the lights
+    float gain;  // irradiance that it brings over the square of radius over distance; 0: there is no such sphere
+    float limit; // cosine of how far from the axis it brings any
+};
+
 struct SceneGlobals {
     vec3 origin; // authored camera position, subtracted from every coordinate; solid textures add it back
     uint skyKind;
@@ -302,6 +311,7 @@ struct SceneGlobals {
     uint mediumCount;
     uint instanceCount;
     float sceneRadius; // half the diagonal of the bounds
+    AimedSphere aimed;
 };
 
 struct Camera {
@@ -333,6 +343,10 @@ const uint kSamplerStratified = 1u;
 const uint kSamplerSobol = 2u;
 const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
 
+const uint kReuseOff = 0u;
+const uint kReuseScattered = 1u; // what the bsdf alone has drawn
+const uint kReuseAimed = 2u;     // also what is aimed at a sphere of glass, see AimedScattering.h
+
 struct RenderParams {
     uint width; // pixels
     uint height;
@@ -350,7 +364,7 @@ struct RenderParams {
     uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
     uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
-    uint pathReuse;        // 1: pixels share what their paths bring, see PathReuse.h
+    uint pathReuse;        // kReuse...: whether pixels share what their paths bring, see PathReuse.h
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
@@ -410,6 +424,13 @@ const uint kReuseFirst = 1u;  // it has scattered at its first vertex
 const uint kReuseSuffix = 2u; // it is behind its second, whose light it finds
 const uint kReuseEnded = 3u;  // its first vertex is shared, but there was no second one
 const uint kReuseNone = 4u;   // nothing is
+
+// What a step settles of a path that is shared.
+struct SharedPart {
+    vec3 prefix;     // at its second vertex: the radiance that it had brought before
+    vec3 throughput; // at its first, where scattering is aimed (AimedScattering.h): behind it, had it not been,
+    float aimed;     // and the share of directions that are drawn towards a sphere
+};
 
 // A path between two steps of PathStep.h.
 struct PathState {

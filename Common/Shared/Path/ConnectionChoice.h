@@ -4,6 +4,7 @@
 #ifndef RT_SHARED_CONNECTION_CHOICE_H
 #define RT_SHARED_CONNECTION_CHOICE_H
 #include "Common/Shared/Path/Vertex.h"
+#include "Common/Shared/Shape/SphericalShapes.h"
 
 RT_SHARED_BEGIN
 
@@ -17,9 +18,6 @@ struct SphereView {
     vec2 reach; // of SmoothSphere
     bool isNear;
 };
-
-// Beyond it a point lies on the sphere, or within.
-const float kNearestToSphere = 0.999f;
 
 // All but the reach.
 RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {

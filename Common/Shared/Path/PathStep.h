@@ -5,7 +5,7 @@
 //   choose a light         mis, mixture: chooseLight() by lightSelectionSample()
 //   sample and weigh it    mis: sampleDirectLight(), which leaves a shadow ray
 //   connect                mis, with smooth spheres: connectLight(), which leaves two or three segments
-//   scatter                the bsdf's sample, or the mixture's in its place
+//   scatter                the bsdf's sample, or in its place the mixture's, or one that is aimed at glass
 //   go on                  throughput, next ray, roulette
 //
 //        ray            vertex
@@ -19,6 +19,7 @@
 #ifndef RT_SHARED_PATH_STEP_H
 #define RT_SHARED_PATH_STEP_H
 #include "Common/Shared/Camera.h"
+#include "Common/Shared/Path/AimedScattering.h"
 #include "Common/Shared/Path/ConnectionChain.h"
 #include "Common/Shared/Path/Mixture.h"
 #include "Common/Shared/Path/PathReuse.h"
@@ -157,8 +158,10 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
     s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
-    // What is shared was drawn with the bsdf's density, and no other.
+    // What is shared was drawn with the density of scattering, and no other.
     bool mayEnd = v.index > 0u && !(reusesPaths(features, params) && s.reuse == kReuseFirst);
+    // What is aimed at glass weighs little, but the light is just behind it.
+    if (aimsPaths(features, params) && s.reuse == kReuseEnded && b.delta != 0u) mayEnd = false;
     if (params.russianRoulette != 0u && mayEnd) {
         float survivors = float(params.russianRoulette) * strongest;
         if (reusesPaths(features, params) && s.reuse == kReuseSuffix) survivors *= kReuseSurvival;
@@ -172,10 +175,10 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
 // All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
 // `passage` and `direct`, which the caller sets to noPassage() and noDirectLight(), have been added if they arrive.
 RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
-                    RT_INOUT(PathState) s, RT_INOUT(vec3) prefix, RT_INOUT(DirectLight) direct,
+                    RT_INOUT(PathState) s, RT_INOUT(SharedPart) part, RT_INOUT(DirectLight) direct,
                     RT_INOUT(Passage) passage) {
     Vertex v;
-    if (!arrive(features, scene, params, smp, hit, s, prefix, v)) return false;
+    if (!arrive(features, scene, params, smp, hit, s, part.prefix, v)) return false;
     completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
@@ -195,6 +198,11 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
 #endif
     BsdfSample b = sampleScattering(features, v, u.bsdf);
     if (mixture) b = sampleMixture(features, scene, params, choice, v, u, b, s.ray.time, s.last);
+    if (aimsPaths(features, params) && s.reuse == kReuseFirst) {
+        part.throughput = s.throughput * b.weight;
+        part.aimed = aimedShare(globals.aimed, v.origin, s.last.total);
+        if (part.aimed > 0.0f) b = aimScattering(globals.aimed, v, u.bsdf, u.roulette.y, part.aimed, b);
+    }
 #ifdef RT_FULL
     if (has(features, kFeatureConnections)) goOnChain(v, b, s);
 #endif

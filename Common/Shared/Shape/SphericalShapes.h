@@ -9,6 +9,9 @@ RT_SHARED_BEGIN
 
 // ---- sphere --------------------------------------------------------------------------------------------------------
 
+// Radius over distance of the centre, beyond which a point counts as on the sphere, or within.
+const float kNearestToSphere = 0.999f;
+
 // A sphere seen from outside.
 struct SphereCone {
     vec3 axis;            // unit, towards the centre

@@ -104,16 +104,22 @@ RT_FN float visibleCapDensity(RT_IN(SphereCone) cone, RT_IN(CapView) view, RT_IN
     return area > 0.0f ? drawn / area : 0.0f;
 }
 
-// Density per steradian of wi, a direction to the sphere.
-RT_FN float visibleCapPdf(RT_IN(SphereCone) cone, vec3 normal, vec3 wi) {
-    float cosine = max(dot(normal, wi), 0.0f);
-    float rise = dot(normal, cone.axis);
-    if (rise >= cone.sine) return cosine * wholeCapDensity(cone, rise);
+// Density on the unit disk of the tangent plane of wi, a direction to the sphere. Without a branch, for loops over
+// lanes.
+RT_FN float capDensityAlong(RT_IN(SphereCone) cone, vec3 normal, vec3 wi) {
     CapView view = viewCap(cone, normal);
     float y = min(abs(dot(view.side, wi)), view.end);
     float sinPsi = min(y / cone.sine, 1.0f);
     CapSlice slice = capSlice(cone, view, sinPsi, cosineOf(sinPsi));
-    return cosine * visibleCapDensity(cone, view, slice, y, cosineOf(y / max(view.end, 1.0e-37f)));
+    return visibleCapDensity(cone, view, slice, y, cosineOf(y / max(view.end, 1.0e-37f)));
+}
+
+// Per steradian.
+RT_FN float visibleCapPdf(RT_IN(SphereCone) cone, vec3 normal, vec3 wi) {
+    float cosine = max(dot(normal, wi), 0.0f);
+    float rise = dot(normal, cone.axis);
+    if (rise >= cone.sine) return cosine * wholeCapDensity(cone, rise);
+    return cosine * capDensityAlong(cone, normal, wi);
 }
 
 // A direction with its density per steradian, 0 if nothing is visible. Without a branch, for loops over lights.
