@@ -1,6 +1,7 @@
 #include "Common/Core/RunMain.h"
 
 #include <csignal>
+#include <cstddef>
 #include <iostream>
 #include <new>
 #include <string>
@@ -13,6 +14,18 @@
 namespace rt {
 
 namespace {
+
+// More than all functions keep on the main thread's stack at a time, most of which are a kernel's packets of paths.
+constexpr std::size_t kStackBytes = 256 << 10;
+constexpr std::size_t kPageBytes = 4096;
+
+// Uses as much of the stack once. A stack grows when it is first used, and where there is no memory left by then the
+// program ends without a word.
+void growStack() {
+    char bytes[kStackBytes];
+    volatile char* at = bytes;
+    for (std::size_t i = 0; i < kStackBytes; i += kPageBytes) at[i] = 0;
+}
 
 // Even when there is no memory for the message itself.
 int report(const char* program, const std::exception& error, ExitCode code) noexcept {
@@ -28,6 +41,8 @@ int report(const char* program, const std::exception& error, ExitCode code) noex
 } // namespace
 
 int runMain(const char* program, const std::function<int()>& body) {
+    void (*volatile grow)() = growStack; // not inlined: the stack is to be free again
+    grow();
     keepMemoryReserve();
     openStandardStreams();
 #ifdef SIGPIPE
