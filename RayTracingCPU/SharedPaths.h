@@ -148,10 +148,8 @@ class SharedPaths {
 
     // Of the density with which a path's first vertex draws y to that of scattering alone.
     float ratio(const SharedPath& path, const vec3& y) const {
-        if (!aims_ || !(path.aimed > 0.0f)) return 1.0f;
-        const SphereCone cone = aimedCone(scene_.globals.aimed, path.first);
-        const vec3 wi = normalize(y - path.first);
-        return aimedRatio(cone, path.firstNormal, path.aimed, wi, dot(wi, cone.axis));
+        if (!aims_) return 1.0f;
+        return aimedRatioTowards(scene_.globals.aimed, path.first, path.firstNormal, path.aimed, y);
     }
 
     const CpuScene& scene_;

@@ -17,7 +17,7 @@ layout(constant_id = kQuadLightId) const uint kQuadLight = kShapeAuto;
 layout(constant_id = kTriangleLightId) const uint kTriangleLight = kShapeAuto;
 layout(constant_id = kSamplerKindId) const uint kSamplerKind = kSamplerSobol;
 layout(constant_id = kRussianRouletteId) const uint kRussianRoulette = 1u;
-layout(constant_id = kPathReuseId) const uint kPathReuse = kReuseOff;
+layout(constant_id = kPathReuseId) const uint kPathReuse = kPathReuseOff;
 layout(constant_id = kLightCountId) const uint kLightCount = 0u; // 0: as the scene says
 layout(constant_id = kHasEdgesId) const uint kHasEdges = 0u;     // 1: there may be edges of lights in sight
 

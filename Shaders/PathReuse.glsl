@@ -50,10 +50,7 @@ float densityFrom(SharedVertex x, SharedVertex y, bool isItself, inout uint rays
 float aimedRatioFrom(uint number, SharedVertex x, vec3 y) {
     if (!aimsPaths(kFeatures, renderParams())) return 1.0f;
     float aimed = uintBitsToFloat(launch.sharedPaths.at[4u * number + 1u].w);
-    if (!(aimed > 0.0f)) return 1.0f;
-    SphereCone cone = aimedCone(constants.globals.aimed, x.position);
-    vec3 wi = normalize(y - x.position);
-    return aimedRatio(cone, x.normal, aimed, wi, dot(wi, cone.axis));
+    return aimedRatioTowards(constants.globals.aimed, x.position, x.normal, aimed, y);
 }
 
 void sharePaths(uint invocation) {

@@ -127,7 +127,7 @@ TEST(PathReuse, AimsAtGlass) {
     const auto images = [&](bool aims, std::uint32_t firstSeed) {
         settings.specularConnections = aims;
         EXPECT_EQ(app::makeRenderParams(*scene, settings).pathReuse,
-                  aims ? shared::kReuseAimed : shared::kReuseScattered);
+                  aims ? shared::kPathReuseAimed : shared::kPathReuseScattered);
         return independentImages(*engine, *scene, settings, firstSeed);
     };
     const auto aimed = images(true, 100), scattered = images(false, 1000);
@@ -143,13 +143,13 @@ TEST(PathReuse, AimsWhereItKnowsTheLight) {
         return app::makeRenderParams(*compiledScene(id), settings).pathReuse;
     };
     app::RenderSettings settings = smallSettings(16, 16);
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseAimed);
-    EXPECT_EQ(reuse("rest-of-life-cornell-box", settings), shared::kReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseAimed);
+    EXPECT_EQ(reuse("rest-of-life-cornell-box", settings), shared::kPathReuseScattered);
     settings.lightSelection = app::LightSelection::Power;
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseScattered);
     settings = smallSettings(16, 16);
     settings.lightSampling = app::LightSampling::Bsdf;
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseScattered);
 }
 
 // Where indirect light makes the noise. What moves, is in a medium or drawn by Shirley's mixture is never shared.

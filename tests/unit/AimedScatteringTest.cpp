@@ -19,7 +19,8 @@ using test::Uniforms;
 
 const vec3 kAlbedo(0.8f, 0.5f, 0.2f);
 
-// A diffuse vertex, and a sphere of sine s = radius / distance whose centre is at the height rise * s above its horizon.
+// A diffuse vertex, and a sphere of sine s = radius / distance, whose centre is at the height rise * s above its
+// horizon.
 struct Constellation {
     AimedSphere sphere{};
     Vertex v{};

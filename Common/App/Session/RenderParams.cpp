@@ -102,8 +102,8 @@ bool aimsPaths(const scene::CompiledScene& scene, const RenderSettings& settings
 }
 
 shared::uint pathReuse(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    if (!reusesPaths(scene, settings)) return shared::kReuseOff;
-    return aimsPaths(scene, settings) ? shared::kReuseAimed : shared::kReuseScattered;
+    if (!reusesPaths(scene, settings)) return shared::kPathReuseOff;
+    return aimsPaths(scene, settings) ? shared::kPathReuseAimed : shared::kPathReuseScattered;
 }
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.

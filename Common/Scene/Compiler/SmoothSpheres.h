@@ -11,7 +11,8 @@ namespace rt::scene {
 // takes the noise to everything around it, and no other comes from it: a quarter is enough.
 constexpr double kWorthConnecting = 25;
 
-// Likewise for the sphere of glass that paths aim at where no sphere is worth connections: that takes less time.
+// Least such variance for the sphere of glass that paths aim at where no sphere is worth connections: aiming takes less
+// time.
 constexpr double kWorthAiming = 5;
 
 // The smooth spheres by way of which lights are connected to, those that most light goes on from first, and how they

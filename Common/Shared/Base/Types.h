@@ -343,9 +343,9 @@ const uint kSamplerStratified = 1u;
 const uint kSamplerSobol = 2u;
 const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
 
-const uint kReuseOff = 0u;
-const uint kReuseScattered = 1u; // what the bsdf alone has drawn
-const uint kReuseAimed = 2u;     // also what is aimed at a sphere of glass, see AimedScattering.h
+const uint kPathReuseOff = 0u;
+const uint kPathReuseScattered = 1u; // what the bsdf alone has drawn
+const uint kPathReuseAimed = 2u;     // also what is aimed at a sphere of glass, see AimedScattering.h
 
 struct RenderParams {
     uint width; // pixels
@@ -364,7 +364,7 @@ struct RenderParams {
     uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
     uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
-    uint pathReuse;        // kReuse...: whether pixels share what their paths bring, see PathReuse.h
+    uint pathReuse;        // kPathReuse...: whether pixels share what their paths bring, see PathReuse.h
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ RT_SHARED_BEGIN
 const float kMostAimed = 0.7f;
 
 RT_FN bool aimsPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse == kReuseAimed;
+    return has(features, kFeatureReuse) && params.pathReuse == kPathReuseAimed;
 }
 
 // Share of the directions from x that are drawn towards the sphere; `direct` is LightContext::total there.
@@ -33,11 +33,19 @@ RT_FN SphereCone aimedCone(RT_IN(AimedSphere) sphere, vec3 x) {
     return makeSphereCone(sphere.center - x, sphere.radius);
 }
 
-// What mixing makes of the density with which a diffuse surface scatters to wi: a factor. `cosine` is that of wi and the
-// cone's axis, or 2 where wi has been drawn towards the sphere.
+// What mixing makes of the density with which a diffuse surface scatters to wi: a factor. `cosine` is that of wi and
+// the cone's axis, or 2 where wi has been drawn towards the sphere.
 RT_FN float aimedRatio(RT_IN(SphereCone) cone, vec3 normal, float share, vec3 wi, float cosine) {
     float density = min(kPi * capDensityAlong(cone, normal, wi), 1.0e30f); // the surface's own is 1
     return (1.0f - share) + (cosine > cone.cosine ? share : 0.0f) * density;
+}
+
+// The factor for y as seen from the vertex at x, of which this share is aimed.
+RT_FN float aimedRatioTowards(RT_IN(AimedSphere) sphere, vec3 x, vec3 normal, float share, vec3 y) {
+    if (!(share > 0.0f)) return 1.0f;
+    SphereCone cone = aimedCone(sphere, x);
+    vec3 wi = normalize(y - x);
+    return aimedRatio(cone, normal, share, wi, dot(wi, cone.axis));
 }
 
 // Replaces b, what the diffuse surface at v has sampled, by a sample of the mixture; `u` decides which of its parts

@@ -26,7 +26,7 @@ const float kReuseSurvival = 0.6f;
 const float kLeastReuseDensity = 1.0e-37f;
 
 RT_FN bool reusesPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse != kReuseOff;
+    return has(features, kFeatureReuse) && params.pathReuse != kPathReuseOff;
 }
 
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and
