@@ -143,6 +143,20 @@ TEST(TilePool, ARankThatNeverAnswersIsDoneWithout) {
     }
 }
 
+// With a lease that it has not begun, and a copy of what another one that has stopped was to do.
+TEST(TilePool, RanksThatWereFastAndStopAreDoneWithout) {
+    for (const double first : {0.0, 0.2, 0.5, 0.9}) {
+        for (const double second : {0.1, 0.4, 0.8, 1.2, 1.6, 2.0, 3.0, 5.0}) {
+            Simulation simulation(3, 64, false, [=](std::size_t rank, double now) {
+                if (rank == 0) return 1e6;
+                return now < (rank == 1 ? first : second) ? 3e6 : 0.0;
+            });
+            EXPECT_LT(simulation.run(), kNever) << first << " " << second;
+            EXPECT_EQ(simulation.film().minSamples(), 64u);
+        }
+    }
+}
+
 TEST(TilePool, RoundsKeepTheImageEven) {
     Simulation simulation(3, 1008, true,
                           [](std::size_t rank, double) { return 1e7 * (1.0 + static_cast<double>(rank)); });

@@ -1,6 +1,7 @@
 #include "Common/App/Ranks/TilePool.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -169,7 +170,13 @@ double TilePool::expectedSeconds(const Rank& rank, const Lease& lease) const {
     return static_cast<double>(image::missingSamples(film_, lease.tiles, lease.spp)) / rank.rate;
 }
 
+bool TilePool::isOverdue(const Rank& rank, double now) const {
+    return !rank.leases.empty() && now - rank.since > rank.leases.front().seconds;
+}
+
 // Of the rank that would begin it last, if `rank`, which has nothing to do, is expected to be done with it before.
+// What has taken longer than expected is expected to take as long again, so that a rank that has stopped, however fast
+// it was, keeps nothing.
 std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
     std::optional<Lease> taken;
     double latest = 0; // seconds from now
@@ -177,7 +184,7 @@ std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
         const Rank& holder = ranks_[from];
         if (holder.leases.size() < 2 || holder.leases.back().tiles.empty()) continue;
         const Lease& last = holder.leases.back();
-        const double begin = std::max(0.0, holder.since + expectedAtFirst(holder.leases.front()) - now);
+        const double begin = std::abs(holder.since + expectedAtFirst(holder.leases.front()) - now);
         const bool isFaster = expectedSeconds(ranks_[rank], last) < begin + expectedSeconds(holder, last);
         if (!isFaster || begin < latest) continue;
         latest = begin;
@@ -192,16 +199,25 @@ std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
     return taken;
 }
 
-// Of the rank that is most overdue, the tiles that nobody else holds. A copy that comes back unfinished is made anew.
+// Of the rank that is most overdue, the tiles that only such ranks hold. A copy that comes back unfinished is made
+// anew.
 std::optional<Lease> TilePool::copyOverdue(double now) const {
+    const auto isLate = [&](const Rank& rank) { return isOverdue(rank, now); };
+    if (std::none_of(ranks_.begin(), ranks_.end(), isLate)) return std::nullopt;
+    std::vector<bool> isExpected(holders_.size(), false); // of a rank that is not overdue
+    for (const Rank& rank : ranks_) {
+        if (isLate(rank)) continue;
+        for (const Lease& lease : rank.leases)
+            for (const std::uint32_t tile : lease.tiles) isExpected[tile] = true;
+    }
     std::optional<Lease> copy;
     double most = 0;
     for (const Rank& rank : ranks_) {
-        const double late = rank.leases.empty() ? 0 : now - rank.since - rank.leases.front().seconds;
+        const double late = isLate(rank) ? now - rank.since - rank.leases.front().seconds : 0;
         if (late <= most) continue;
         Lease lease = rank.leases.front();
         std::erase_if(lease.tiles, [&](std::uint32_t tile) {
-            return holders_[tile] > 1 || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
+            return isExpected[tile] || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
         });
         if (lease.tiles.empty()) continue;
         most = late;
