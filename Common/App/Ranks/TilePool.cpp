@@ -170,8 +170,9 @@ double TilePool::expectedSeconds(const Rank& rank, const Lease& lease) const {
     return static_cast<double>(image::missingSamples(film_, lease.tiles, lease.spp)) / rank.rate;
 }
 
-bool TilePool::isOverdue(const Rank& rank, double now) const {
-    return !rank.leases.empty() && now - rank.since > rank.leases.front().seconds;
+// Seconds that the rank takes longer for what it works at than it may.
+double TilePool::overdue(const Rank& rank, double now) const {
+    return rank.leases.empty() ? 0 : std::max(0.0, now - rank.since - rank.leases.front().seconds);
 }
 
 // Of the rank that would begin it last, if `rank`, which has nothing to do, is expected to be done with it before.
@@ -202,18 +203,18 @@ std::optional<Lease> TilePool::takeUnbegun(std::size_t rank, double now) {
 // Of the rank that is most overdue, the tiles that only such ranks hold. A copy that comes back unfinished is made
 // anew.
 std::optional<Lease> TilePool::copyOverdue(double now) const {
-    const auto isLate = [&](const Rank& rank) { return isOverdue(rank, now); };
-    if (std::none_of(ranks_.begin(), ranks_.end(), isLate)) return std::nullopt;
+    std::optional<Lease> copy;
+    const auto isOverdue = [&](const Rank& rank) { return overdue(rank, now) > 0; };
+    if (std::none_of(ranks_.begin(), ranks_.end(), isOverdue)) return copy;
     std::vector<bool> isExpected(holders_.size(), false); // of a rank that is not overdue
     for (const Rank& rank : ranks_) {
-        if (isLate(rank)) continue;
+        if (isOverdue(rank)) continue;
         for (const Lease& lease : rank.leases)
             for (const std::uint32_t tile : lease.tiles) isExpected[tile] = true;
     }
-    std::optional<Lease> copy;
     double most = 0;
     for (const Rank& rank : ranks_) {
-        const double late = isLate(rank) ? now - rank.since - rank.leases.front().seconds : 0;
+        const double late = overdue(rank, now);
         if (late <= most) continue;
         Lease lease = rank.leases.front();
         std::erase_if(lease.tiles, [&](std::uint32_t tile) {

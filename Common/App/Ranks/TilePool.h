@@ -71,7 +71,7 @@ class TilePool {
     void enqueue(std::uint32_t tile, End end);
     std::uint32_t lengthOf(const image::TileList& tiles) const;
     void updateDone();
-    bool isOverdue(const Rank& rank, double now) const;
+    double overdue(const Rank& rank, double now) const;
     std::optional<Lease> takeUnbegun(std::size_t rank, double now);
     std::optional<Lease> copyOverdue(double now) const;
     double expectedSeconds(const Rank& rank, const Lease& lease) const;
