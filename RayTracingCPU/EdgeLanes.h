@@ -22,16 +22,17 @@ class EdgeRays {
             set(samplers_, waiting_, edgeSampler(context_.params, smp, i));
             pixels_[waiting_] = pixel;
             entryOf_[waiting_] = count_;
-            if (++waiting_ == kLanes) trace();
+            if (++waiting_ == kLanes) traceWaiting();
         }
         ++count_;
     }
 
     // Adds what they bring to the radiances of the samples.
     void finish(vec3* radiances, KernelCounters& counters) {
-        if (waiting_ > 0u) trace();
+        if (waiting_ > 0u) traceWaiting();
         for (uint i = 0u; i < count_; ++i) radiances[entries_[i].sample] += entries_[i].radiance;
         counters.edge += std::uint64_t{count_} * context_.params.edgeRays;
+        counters.scattered += scattered_;
     }
 
   private:
@@ -40,7 +41,7 @@ class EdgeRays {
         vec3 radiance;
     };
 
-    void trace() {
+    void traceWaiting() {
         const RenderParams params = context_.params; // of this function, so that no lane could overlap them
         const Camera camera = context_.camera;
         for (uint i = waiting_; i < kLanes; ++i) set(samplers_, i, get(samplers_, 0u));
@@ -48,20 +49,31 @@ class EdgeRays {
         drawCameraSamples<kFeatures>(samplers_, u);
         for (uint i = 0u; i < waiting_; ++i) {
             const Ray ray = cameraRay(kFeatures, params, camera, pixels_[i], get(u, i));
-            PathState path = startEdgeRay(params, ray, vec3(0.0f));
-            const Sampler smp = get(samplers_, i);
-            const Hit hit = traceRay<kFeatures>(*context_.scene, smp, 2u * path.vertex, ray);
-            vec3 unusedPrefix;
-            Vertex unused;
-            arrive(kFeatures, *context_.scene, params, smp, hit, path, unusedPrefix, unused);
-            entries_[entryOf_[i]].radiance += path.radiance;
+            entries_[entryOf_[i]].radiance += trace(get(samplers_, i), startEdgeRay(params, ray, vec3(0.0f)));
         }
         waiting_ = 0u;
+    }
+
+    // What the path of an edge ray brings.
+    vec3 trace(const Sampler& smp, PathState path) {
+        const CpuScene& scene = *context_.scene;
+        const RenderParams& params = context_.params;
+        for (;;) {
+            const Hit hit = traceRay<kFeatures>(scene, smp, 2u * path.vertex, path.ray);
+            vec3 unusedPrefix;
+            Vertex v;
+            if (!arrive(kFeatures, scene, params, smp, hit, path, unusedPrefix, v)) break;
+            const VertexSamples u = vertexSamples(kFeatures, smp, v.index);
+            if (!goOn(kFeatures, params, v, sampleScattering(kFeatures, v, u.bsdf), u.roulette.x, path)) break;
+        }
+        scattered_ += path.vertex - 1u;
+        return path.radiance;
     }
 
     const KernelContext& context_;
     uint count_ = 0u;   // samples
     uint waiting_ = 0u; // rays
+    std::uint64_t scattered_ = 0u;
     RecordLanes<Sampler> samplers_;
     uvec2 pixels_[kLanes];
     uint entryOf_[kLanes];

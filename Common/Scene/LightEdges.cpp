@@ -14,6 +14,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "Common/Scene/LightsInSpheres.h"
+
 namespace rt::scene {
 namespace {
 
@@ -61,10 +63,7 @@ class EdgeImage {
         drawLine(glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin);
     }
 
-    LightEdges take() {
-        if (edges_.count == 0) edges_.bits.clear();
-        return std::move(edges_);
-    }
+    LightEdges take() { return std::move(edges_); }
 
   private:
     // Of the distance of a line's far end: what is nearer to the camera's own plane is cut off.
@@ -240,7 +239,10 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
             appendEdges(light, isFront, grid, ofTriangles);
     }
     drawBorders(ofTriangles, image);
-    return image.take();
+    LightEdges edges = image.take();
+    addLightsInSpheres(scene, camera, width, height, edges);
+    if (edges.count == 0) edges.bits.clear();
+    return edges;
 }
 
 } // namespace rt::scene

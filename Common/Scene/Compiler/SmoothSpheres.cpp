@@ -148,6 +148,8 @@ class Brightest {
     double aimedFlux_ = 0; // of all that are worth aiming at
 };
 
+using Visit = std::function<void(std::uint32_t sphere, const Standing& at)>;
+
 // The spheres of a geometry whose own material is smooth, whatever that of an instance is.
 std::vector<std::uint32_t> smoothSpheresOf(const CompiledScene& scene, const shared::Geometry& geometry) {
     std::vector<std::uint32_t> spheres;
@@ -166,11 +168,11 @@ class InstancedSpheres {
 
     std::size_t count() const { return count_; }
 
-    void consider(Brightest& brightest) const {
+    void each(const Visit& visit) const {
         for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
             const std::size_t count = countIn(scene_.instances[i]);
             const std::optional<Standing> at = count > 0 ? standing(scene_, i) : std::nullopt;
-            for (std::size_t k = 0; at && k < count; ++k) brightest.consider(sphereIn(scene_.instances[i], k), *at);
+            for (std::size_t k = 0; at && k < count; ++k) visit(sphereIn(scene_.instances[i], k), *at);
         }
     }
 
@@ -190,6 +192,15 @@ class InstancedSpheres {
     std::size_t count_ = 0;
 };
 
+// Those of the world, and those of instances; of either none if they are more than `most`.
+void eachSmoothSphere(const CompiledScene& scene, std::size_t most, const Visit& visit) {
+    const std::vector<std::uint32_t> world = smoothSpheresOf(scene, scene.geometries.front());
+    if (world.size() <= most)
+        for (const std::uint32_t sphere : world) visit(sphere, {});
+    const InstancedSpheres instanced(scene);
+    if (instanced.count() <= most) instanced.each(visit);
+}
+
 } // namespace
 
 void findSmoothSpheres(CompiledScene& out, double leastVariance) {
@@ -200,12 +211,16 @@ void findSmoothSpheres(CompiledScene& out, double leastVariance) {
     if (out.globals.lightCount == 0) return;
     const std::size_t most = kMostPairs / std::max(out.globals.lightCount, shared::kReachedLights);
     Brightest brightest(out, leastVariance);
-    const std::vector<std::uint32_t> world = smoothSpheresOf(out, out.geometries.front());
-    if (world.size() <= most)
-        for (const std::uint32_t sphere : world) brightest.consider(sphere, {});
-    const InstancedSpheres instanced(out);
-    if (instanced.count() <= most) instanced.consider(brightest);
+    eachSmoothSphere(out, most, [&](std::uint32_t sphere, const Standing& at) { brightest.consider(sphere, at); });
     brightest.addTo(out);
+}
+
+std::vector<shared::SmoothSphere> allSmoothSpheres(const CompiledScene& scene, std::size_t most) {
+    std::vector<shared::SmoothSphere> spheres;
+    eachSmoothSphere(scene, most, [&](std::uint32_t index, const Standing& at) {
+        spheres.push_back(smoothSphere(scene, index, at, isMirror(materialAt(scene, index, at))));
+    });
+    return spheres;
 }
 
 } // namespace rt::scene

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstddef>
+#include <vector>
+
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::scene {
@@ -19,5 +22,9 @@ constexpr double kWorthAiming = 5;
 // see the lights, which are complete: those with the most noise, and bright patches of the sky image; or the sphere
 // that paths aim at. Replaces what the scene has of them.
 void findSmoothSpheres(CompiledScene& out, double leastVariance = kWorthConnecting);
+
+// All smooth spheres, worth connections or not: mirrors as they reflect, balls of glass as they refract, without how
+// they see lights. None of the world, or of instances, if those are more than `most`.
+std::vector<shared::SmoothSphere> allSmoothSpheres(const CompiledScene& scene, std::size_t most);
 
 } // namespace rt::scene

@@ -19,12 +19,13 @@ RT_FN Sampler edgeSampler(RT_IN(RenderParams) params, RT_IN(Sampler) s, uint i) 
     return r;
 }
 
-// The path of an edge ray, which ends at its first vertex. `radiance` is what the sample has brought before.
+// The path of an edge ray, which ends at its first vertex that is no mirror and no glass. `radiance` is what the sample
+// has brought before.
 RT_FN PathState startEdgeRay(RT_IN(RenderParams) params, RT_IN(Ray) ray, vec3 radiance) {
     PathState s = startPath(ray);
     s.throughput = vec3(1.0f / float(params.edgeRays));
     s.radiance = radiance;
-    s.vertex = params.maxDepth - 1u;
+    s.pdf = kEdgeRay;
     s.reuse = kReuseNone;
     return s;
 }

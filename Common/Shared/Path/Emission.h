@@ -9,11 +9,17 @@
 
 RT_SHARED_BEGIN
 
-// The density of a camera ray whose first emission is counted apart, see EdgeRays.h.
+// In place of densities, up to the first vertex that is no mirror and no glass, see EdgeRays.h: of a path whose
+// emission is counted apart, and of the rays that count it.
 const float kCountedApart = -1.0f;
+const float kEdgeRay = -2.0f;
 
 RT_FN bool isCountedApart(uint features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && s.pdf == kCountedApart;
+}
+
+RT_FN bool isEdgeRay(uint features, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && s.pdf == kEdgeRay;
 }
 
 RT_FN bool usesMis(RT_IN(RenderParams) params) {

@@ -121,7 +121,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
     s.vertex++;
     if (has(features, kFeatureVolumes) && medium != kNone) {
-        if (s.vertex >= params.maxDepth) return false;
+        if (s.vertex >= params.maxDepth || isEdgeRay(features, s)) return false;
         placeInMedium(features, scene, s, t, medium, v);
     } else {
         if (hit.t < 0.0f) {
@@ -135,6 +135,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
+        if (isEdgeRay(features, s) && !isDelta(features, v.bsdf)) return false;
         if (reusesPaths(features, params)) followReuse(features, surface, v, s, prefix);
     }
     s.last = lightContext(params, v);
@@ -157,13 +158,15 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
     }
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
-    s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
+    bool staysApart = has(features, kFeatureLights) && s.pdf < 0.0f && v.inMedium == 0u && isDelta(features, v.bsdf);
+    if (!staysApart) s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
     // What is shared was drawn with the density of scattering, and no other.
     bool mayEnd = v.index > 0u && !(reusesPaths(features, params) && s.reuse == kReuseFirst);
     // What is aimed at glass weighs little, but the light is just behind it.
     if (aimsPaths(features, params) && s.reuse == kReuseEnded && b.delta != 0u) mayEnd = false;
     if (params.russianRoulette != 0u && mayEnd) {
         float survivors = float(params.russianRoulette) * strongest;
+        if (isEdgeRay(features, s)) survivors *= float(params.edgeRays);
         if (reusesPaths(features, params) && s.reuse == kReuseSuffix) survivors *= kReuseSurvival;
         float probability = clamp(survivors, kLeastSurvival, 1.0f);
         if (survival >= probability) return false;

@@ -1,0 +1,16 @@
+// Where spheres of glass and mirrors show lights in an image.
+#pragma once
+#include <cstdint>
+
+#include "Common/Scene/LightEdges.h"
+
+namespace rt::scene {
+
+// Adds the pixels that are noisy because a ray through them that a smooth sphere refracts or reflects, by chance, may
+// meet a light or miss it. Found by rays on a grid, of two for the side of a pixel, fewer where spheres are large in
+// the image: what is finer may be missed. None of many lights or spheres. The camera is that of an image of this size,
+// its lens a point.
+void addLightsInSpheres(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
+                        std::uint32_t height, LightEdges& edges);
+
+} // namespace rt::scene
