@@ -16,8 +16,8 @@ struct LightEdges {
 
 // What hides a light is not looked at, nor are edges in mirrors and behind glass other than spheres
 // (LightsInSpheres.h), nor those of textures; triangles of a mesh have no edges where they meet others that face the
-// same way. Of more than kMostLightsWithEdges lights none has
-// any, so that a window can ask with every move of the camera. The camera is that of an image of this size.
+// same way. Of more than kMostLightsWithEdges lights none has any, so that a window can ask with every move of the
+// camera. The camera is that of an image of this size.
 LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
                           std::uint32_t height);
 // Whether any camera could find some.

@@ -131,7 +131,7 @@ class Search {
     }
 
   private:
-    // That which holds the sphere's outline, seen from the camera; all of the image where it begins behind it.
+    // That which holds the sphere's outline, seen from the camera; all of the image where a part of it is behind.
     Window windowOf() const {
         constexpr int kCorners = 64;
         constexpr double kMargin = 1.5; // pixels, and chords are shorter than arcs
@@ -145,13 +145,19 @@ class Search {
         const glm::dvec3 x = glm::normalize(glm::cross(along, other)), y = glm::cross(along, x);
         const double reach = sine / std::sqrt(1 - sine * sine) / std::cos(std::numbers::pi / kCorners);
         glm::dvec2 low = size, high(0.0);
+        int behind = 0;
         for (int i = 0; i < kCorners; ++i) {
             const double angle = 2 * std::numbers::pi * i / kCorners;
             const glm::dvec3 p = toView * (along + reach * (std::cos(angle) * x + std::sin(angle) * y));
-            if (!(p.z > 0)) return {0, 0, size.x, size.y};
+            if (!(p.z > 0)) {
+                ++behind;
+                continue;
+            }
             low = glm::min(low, glm::dvec2(p) / p.z * size);
             high = glm::max(high, glm::dvec2(p) / p.z * size);
         }
+        if (behind == kCorners) return {};
+        if (behind > 0) return {0, 0, size.x, size.y};
         low = glm::clamp(low - kMargin, glm::dvec2(0.0), size);
         high = glm::clamp(high + kMargin, glm::dvec2(0.0), size);
         return {std::floor(low.x), std::floor(low.y), high.x, high.y};

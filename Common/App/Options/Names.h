@@ -86,7 +86,8 @@ inline constexpr Named<bool> kSpecularConnections[] = {
      "by connections to where it comes from, or paths aimed at glass, where chance is noisy; unbiased"}};
 inline constexpr Named<bool> kEdgeRays[] = {
     {"off", false, "One ray a sample", "the path's own ray finds or misses the light"},
-    {"on", true, "Split rays", "several rays a sample where a light's edge crosses a pixel; unbiased"}};
+    {"on", true, "Split rays",
+     "several rays a sample where a light's edge crosses a pixel, or a ball shows lights; unbiased"}};
 inline constexpr Named<PathReuse> kPathReuse[] = {
     {"auto", PathReuse::Auto, "Where it wins", "in rooms of few lamps, where indirect light makes the noise"},
     {"off", PathReuse::Off, "Own paths", "each pixel has the light of its own paths alone"},
