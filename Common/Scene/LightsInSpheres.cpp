@@ -81,7 +81,7 @@ class Lamp {
     glm::mat3 toUnit_{1.0f};
 };
 
-// What a ray from the camera sees of lights by way of a sphere: reflected, refracted or reflected inside, by chance.
+// What a ray from the camera sees of lights by way of a sphere, reflected or refracted by chance.
 struct View {
     double second = 0; // moment of the radiance: mean over the chances, sum over the channels
     vec3 mean{0.0f};
@@ -207,19 +207,13 @@ class Search {
         const vec3 tint = sphere_.reflects != 0 ? sphere_.tint : vec3(1.0f);
         look(point, normal, ray.direction + 2.0f * cosine * normal, reflected, tint, view);
         if (eta == 0.0f) return view;
-        // In, across the ball, and out by the same angles: at once, or when reflected inside.
+        // In, across the ball, and out by the same angles.
         const float inside = std::sqrt(1.0f - eta * eta * (1.0f - cosine * cosine));
-        vec3 across = eta * ray.direction + (eta * cosine - inside) * normal;
-        vec3 end = point;
-        float probability = 1.0f - reflected;
-        for (int i = 0; i < 2; ++i) {
-            end += across * (2.0f * inside * sphere_.radius);
-            const vec3 outwards = (end - center_) / sphere_.radius;
-            const vec3 out = (across - inside * outwards) / eta + cosine * outwards;
-            look(end, outwards, out, probability * (1.0f - reflected), sphere_.tint, view);
-            across -= 2.0f * inside * outwards;
-            probability *= reflected;
-        }
+        const vec3 across = eta * ray.direction + (eta * cosine - inside) * normal;
+        const vec3 end = point + across * (2.0f * inside * sphere_.radius);
+        const vec3 outwards = (end - center_) / sphere_.radius;
+        const vec3 out = (across - inside * outwards) / eta + cosine * outwards;
+        look(end, outwards, out, (1.0f - reflected) * (1.0f - reflected), sphere_.tint, view);
         return view;
     }
 

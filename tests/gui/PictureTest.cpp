@@ -1,8 +1,10 @@
 // What there is to see in the picture's part of both windows.
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -33,6 +35,17 @@ class PictureTest : public WindowTest {
         fs::create_directories(folder_ / "config" / "ray-tracing");
         store({{"saw_first_steps", true}});
     }
+
+    // Toggles something until the condition holds. It is waited for longer every time: where frames are slow, what
+    // toggles again would undo what is about to be seen.
+    static bool eventuallyToggled(const std::function<void()>& toggle, const std::function<bool()>& condition) {
+        std::chrono::seconds patience(1);
+        return eventually([&] {
+            toggle();
+            patience *= 2;
+            return eventually(condition, patience);
+        });
+    }
 };
 INSTANTIATE_TEST_SUITE_P(, PictureTest, kFirstProgram, nameOfProgram);
 INSTANTIATE_TEST_SUITE_P(Nightly, PictureTest, kSecondProgram, nameOfProgram);
@@ -50,12 +63,12 @@ TEST_P(PictureTest, TheLegendCoversNothingOfIt) {
     };
     EXPECT_TRUE(eventually([&] { return screenshot().at(826, 400) != kBorder && isBorder(829); }));
     EXPECT_FALSE(isBorder(815)); // the picture reaches as far down as it can
-    EXPECT_TRUE(eventually([&] { // again where the machine was too busy to see it
-        click(652, 16);          // Heat map
-        act("mousemove 375 40");
-        pause(1500);
-        return isBorder(757);
-    }));
+    EXPECT_TRUE(eventuallyToggled(
+        [&] {
+            click(652, 16); // Heat map
+            act("mousemove 375 40");
+        },
+        [&] { return isBorder(757); }));
     const Screenshot shot = screenshot();
     EXPECT_TRUE(isNear(shot.at(1050, 800), kWindowColor, 4)); // the legend, through which the border shines a little
     EXPECT_NE(shot.at(826, 745), kBorder);                    // the picture
@@ -82,11 +95,8 @@ TEST_P(PictureTest, BothSidesOfAComparisonAreLabelled) {
         return shot.at(x, 500) == 0xffffff && shot.at(x, 600) == 0xffffff;
     };
     const auto areLabelled = [&](int line) { return isLabel(line - 12) && isLabel(line + 12); };
-    EXPECT_TRUE(eventually([&] {
-        key("b"); // too early where there is no picture yet
-        pause(1500);
-        return isSplitAt(826);
-    })) << log();
+    // Too early where there is no picture yet.
+    EXPECT_TRUE(eventuallyToggled([&] { key("b"); }, [&] { return isSplitAt(826); })) << log();
     EXPECT_TRUE(eventually([&] { return areLabelled(826); }));
     act("mousemove 826 600 sleep 0.3 mousedown 1 sleep 0.3 mousemove 1000 600 sleep 0.5 mouseup 1 mousemove 375 40");
     EXPECT_TRUE(eventually([&] { return isSplitAt(1000); }));
