@@ -32,16 +32,16 @@ bool isFlat(const Light& light) {
 // The image, on which lines in space are drawn.
 class EdgeImage {
   public:
-    EdgeImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height)
+    EdgeImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
         : eye_(camera.origin),
           size_(width, height),
           toView_(glm::inverse(glm::dmat3(camera.across, camera.down, camera.corner))),
-          width_(width) {
+          width_(width),
+          edges_(edges) {
         const glm::dvec3 u = toView_ * glm::dvec3(camera.lensU), v = toView_ * glm::dvec3(camera.lensV);
         lens_ = size_ * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
         const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
         scale_ = focus * size_.x / glm::length(glm::dvec3(camera.across));
-        edges_.bits.resize((std::uint64_t{width} * height + 31) / 32);
     }
 
     const glm::dvec3& eye() const { return eye_; }
@@ -63,8 +63,6 @@ class EdgeImage {
         drawLine(glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin);
     }
 
-    LightEdges take() { return std::move(edges_); }
-
   private:
     // Of the distance of a line's far end: what is nearer to the camera's own plane is cut off.
     static constexpr double kNearest = 1e-3;
@@ -82,18 +80,9 @@ class EdgeImage {
             if (row + 1.0 + reach.y < b.y) leave = a.x + slope * (row + 1.0 + reach.y - a.y);
             const double left = std::max(std::floor(std::min(enter, leave) - reach.x), 0.0);
             const double right = std::min(std::floor(std::max(enter, leave) + reach.x), size_.x - 1.0);
-            if (left <= right) fill(static_cast<std::uint64_t>(row), left, right);
-        }
-    }
-
-    void fill(std::uint64_t row, double left, double right) {
-        const std::uint64_t first = row * width_ + static_cast<std::uint64_t>(left);
-        const std::uint64_t last = row * width_ + static_cast<std::uint64_t>(right);
-        for (std::uint64_t word = first / 32; word <= last / 32; ++word) {
-            const std::uint64_t from = word == first / 32 ? first % 32 : 0, to = word == last / 32 ? last % 32 : 31;
-            const std::uint32_t mask = ~0u >> (31 - (to - from)) << from;
-            edges_.count += static_cast<std::uint64_t>(std::popcount(mask & ~edges_.bits[word]));
-            edges_.bits[word] |= mask;
+            if (left > right) continue;
+            const std::uint64_t begin = static_cast<std::uint64_t>(row) * width_;
+            edges_.add(begin + static_cast<std::uint64_t>(left), begin + static_cast<std::uint64_t>(right));
         }
     }
 
@@ -103,7 +92,7 @@ class EdgeImage {
     glm::dvec2 lens_;   // half axes of the blur of what is infinitely far away, in pixels
     double scale_ = 0;  // pixels of a length as large as its distance
     std::uint64_t width_;
-    LightEdges edges_;
+    LightEdges& edges_;
 };
 
 // ---- round lights --------------------------------------------------------------------------------------------------
@@ -214,6 +203,15 @@ double largestCoordinate(const std::vector<Light>& lights) {
 
 } // namespace
 
+void LightEdges::add(std::uint64_t first, std::uint64_t last) {
+    for (std::uint64_t word = first / 32; word <= last / 32; ++word) {
+        const std::uint64_t from = word == first / 32 ? first % 32 : 0, to = word == last / 32 ? last % 32 : 31;
+        const std::uint32_t mask = ~0u >> (31 - (to - from)) << from;
+        count += static_cast<std::uint64_t>(std::popcount(mask & ~bits[word]));
+        bits[word] |= mask;
+    }
+}
+
 bool mayHaveLightEdges(const CompiledScene& scene) {
     const auto hasShape = [](const Light& light) { return isRound(light) || isFlat(light); };
     return scene.globals.lightCount <= kMostLightsWithEdges &&
@@ -224,7 +222,9 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
                           std::uint32_t height) {
     if (!mayHaveLightEdges(scene)) return {};
     constexpr double kGrid = 1e-5; // of the largest coordinate
-    EdgeImage image(camera, width, height);
+    LightEdges edges;
+    edges.bits.resize((std::uint64_t{width} * height + 31) / 32);
+    EdgeImage image(camera, width, height, edges);
     const double grid = kGrid * std::max(largestCoordinate(scene.lights), 1e-30);
     std::vector<TriangleEdge> ofTriangles;
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
@@ -239,7 +239,6 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
             appendEdges(light, isFront, grid, ofTriangles);
     }
     drawBorders(ofTriangles, image);
-    LightEdges edges = image.take();
     addLightsInSpheres(scene, camera, width, height, edges);
     if (edges.count == 0) edges.bits.clear();
     return edges;

@@ -12,6 +12,9 @@ namespace rt::scene {
 struct LightEdges {
     std::vector<std::uint32_t> bits; // a bit a pixel, row by row, of each word from the lowest; empty: there are none
     std::uint64_t count = 0;         // of the bits that are set
+
+    // Sets pixels `first` to `last`, of one row, in bits that are there for the whole image.
+    void add(std::uint64_t first, std::uint64_t last);
 };
 
 // What hides a light is not looked at, nor are edges in mirrors and behind glass other than spheres

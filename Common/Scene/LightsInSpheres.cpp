@@ -16,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Material/Dielectric.h"
 #include "Common/Shared/Shape/Shapes.h"
 
@@ -141,8 +142,8 @@ class Search {
         if (!(sine < 1.0)) return {}; // the camera is inside
         const glm::dmat3 toView = glm::inverse(glm::dmat3(camera_.across, camera_.down, camera_.corner));
         const glm::dvec3 along = towards / distance;
-        const glm::dvec3 other = std::abs(along.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-        const glm::dvec3 x = glm::normalize(glm::cross(along, other)), y = glm::cross(along, x);
+        const shared::Frame around = shared::makeFrame(vec3(along));
+        const glm::dvec3 x(around.tangent), y(around.bitangent);
         const double reach = sine / std::sqrt(1 - sine * sine) / std::cos(std::numbers::pi / kCorners);
         glm::dvec2 low = size, high(0.0);
         int behind = 0;
@@ -182,14 +183,9 @@ class Search {
     }
 
     void add(std::uint32_t left, std::uint32_t top, std::uint32_t side) {
-        for (std::uint32_t y = top; y < std::min(top + side, height_); ++y) {
-            for (std::uint32_t x = left; x < std::min(left + side, width_); ++x) {
-                const std::uint64_t pixel = std::uint64_t{y} * width_ + x;
-                const std::uint32_t bit = 1u << pixel % 32;
-                edges_.count += (edges_.bits[pixel / 32] & bit) == 0 ? 1 : 0;
-                edges_.bits[pixel / 32] |= bit;
-            }
-        }
+        const std::uint64_t right = std::min(left + side, width_) - 1;
+        for (std::uint64_t y = top; y < std::min(top + side, height_); ++y)
+            edges_.add(y * width_ + left, y * width_ + right);
     }
 
     View viewAlong(const vec3& direction) const {
@@ -202,13 +198,15 @@ class Search {
         const vec3 point = ray.origin + ray.direction * t;
         const vec3 normal = (point - center_) / sphere_.radius;
         const float cosine = std::clamp(-glm::dot(ray.direction, normal), 0.0f, 1.0f);
+        if (sphere_.reflects != 0) {
+            look(point, normal, glm::reflect(ray.direction, normal), 1.0f, sphere_.tint, view);
+            return view;
+        }
         const float eta = sphere_.inverseEta;
-        const float reflected = eta == 0.0f ? 1.0f : shared::fresnel(std::max(cosine, 1e-6f), eta).x;
-        const vec3 tint = sphere_.reflects != 0 ? sphere_.tint : vec3(1.0f);
-        look(point, normal, ray.direction + 2.0f * cosine * normal, reflected, tint, view);
-        if (eta == 0.0f) return view;
+        const shared::vec2 f = shared::fresnel(std::max(cosine, 1e-6f), eta);
+        const float reflected = f.x, inside = f.y; // the cosine of the refracted ray
+        look(point, normal, glm::reflect(ray.direction, normal), reflected, vec3(1.0f), view);
         // In, across the ball, and out by the same angles.
-        const float inside = std::sqrt(1.0f - eta * eta * (1.0f - cosine * cosine));
         const vec3 across = eta * ray.direction + (eta * cosine - inside) * normal;
         const vec3 end = point + across * (2.0f * inside * sphere_.radius);
         const vec3 outwards = (end - center_) / sphere_.radius;
@@ -258,7 +256,6 @@ void addLightsInSpheres(const CompiledScene& scene, const shared::Camera& camera
     };
     std::ranges::stable_sort(spheres, {}, distance);
     spheres.resize(std::min(spheres.size(), kSpheresSeen));
-    edges.bits.resize((std::uint64_t{width} * height + 31) / 32);
     Search search(scene, camera, width, height, edges);
     const double cells = kMostCells / static_cast<double>(spheres.size());
     for (const shared::SmoothSphere& sphere : spheres) search.lookAt(sphere, cells);

@@ -200,6 +200,7 @@ TEST(EdgeRays, SpheresShowLights) {
         const shared::Camera camera = makeCamera(scene->camera, kLampSide, kLampSide, scene->origin);
         const LightEdges edges = findLightEdges(*scene, camera, kLampSide, kLampSide);
         LightEdges inSphere;
+        inSphere.bits.resize(kLampSide * kLampSide / 32);
         addLightsInSpheres(*scene, camera, kLampSide, kLampSide, inSphere);
         ASSERT_GT(inSphere.count, 0u);
         const std::vector<double> before = variancesOf(false), after = variancesOf(true);

@@ -192,7 +192,7 @@ class InstancedSpheres {
     std::size_t count_ = 0;
 };
 
-// Those of the world, and those of instances; of either none if they are more than `most`.
+// Visits the smooth spheres of the world and those of instances; none of either if they are more than `most`.
 void eachSmoothSphere(const CompiledScene& scene, std::size_t most, const Visit& visit) {
     const std::vector<std::uint32_t> world = smoothSpheresOf(scene, scene.geometries.front());
     if (world.size() <= most)

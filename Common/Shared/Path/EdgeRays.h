@@ -1,7 +1,8 @@
 // Camera rays that are split where the edge of a light crosses a pixel (LightEdges.h). In sight a light adds all of its
 // radiance to a sample or nothing, and against that noise only camera rays help, a small part of what a path costs. So
-// there RenderParams::edgeRays rays of the sample's own tell what is emitted at the first vertex, by their mean, and
-// the path counts what comes after it. Splitting: Arvo & Kirk, "Particle Transport and Image Synthesis", 1990.
+// there RenderParams::edgeRays rays of the sample's own tell what is emitted at the first vertex and behind mirrors and
+// glass, by their mean, and the path counts what comes after it. Splitting: Arvo & Kirk, "Particle Transport and Image
+// Synthesis", 1990.
 #ifndef RT_SHARED_EDGE_RAYS_H
 #define RT_SHARED_EDGE_RAYS_H
 #include "Common/Shared/Path/PathStep.h"

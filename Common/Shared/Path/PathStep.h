@@ -158,6 +158,7 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
     }
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
+    // What edge rays count, they count behind mirrors and glass, too.
     bool staysApart = has(features, kFeatureLights) && s.pdf < 0.0f && v.inMedium == 0u && isDelta(features, v.bsdf);
     if (!staysApart) s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
     // What is shared was drawn with the density of scattering, and no other.
