@@ -8,8 +8,9 @@
 RT_SHARED_BEGIN
 
 template <>
-struct FieldsOf<RefractionPair> : Fields<FieldList<&RefractionPair::inverseEta, &RefractionPair::nearX,
-                                                   &RefractionPair::nearY, &RefractionPair::bend>> {};
+struct FieldsOf<RefractionPair>
+    : Fields<FieldList<&RefractionPair::inverseEta, &RefractionPair::crossings, &RefractionPair::nearX,
+                       &RefractionPair::nearY, &RefractionPair::bend>> {};
 
 template <>
 struct FieldsOf<RefractionRoots> : Fields<FieldList<&RefractionRoots::count, &RefractionRoots::opposite,
@@ -17,16 +18,17 @@ struct FieldsOf<RefractionRoots> : Fields<FieldList<&RefractionRoots::count, &Re
 
 template <>
 struct FieldsOf<ConnectionPair>
-    : Fields<FieldList<&ConnectionPair::angles, &ConnectionPair::along, &ConnectionPair::aside, &ConnectionPair::axis,
-                       &ConnectionPair::inverseEta, &ConnectionPair::reflects>> {};
+    : Fields<
+          FieldList<&ConnectionPair::angles, &ConnectionPair::along, &ConnectionPair::aside, &ConnectionPair::axis>> {};
 
 template <>
 struct FieldsOf<LightEnd> : Fields<FieldList<&LightEnd::point, &LightEnd::error, &LightEnd::normal, &LightEnd::radiance,
                                              &LightEnd::density, &LightEnd::twoSided>> {};
 
 template <>
-struct FieldsOf<SpherePath> : Fields<FieldList<&SpherePath::atX, &SpherePath::entry, &SpherePath::leave,
-                                               &SpherePath::fraction, &SpherePath::spread, &SpherePath::share>> {};
+struct FieldsOf<SpherePath>
+    : Fields<FieldList<&SpherePath::atX, &SpherePath::entry, &SpherePath::bounce, &SpherePath::leave,
+                       &SpherePath::fraction, &SpherePath::spread, &SpherePath::share>> {};
 
 RT_SHARED_END
 
@@ -145,13 +147,14 @@ template <uint kFeatures>
 RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, FloatLanes& totals,
                           FloatLanes& chances, FloatLanes& rates) {
     addWeights(scene, params, lanes, totals);
+    const float typical = scene.globals.litSpheres;
     UintLanes attempts;
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = get(lanes.vertices, i);
         const float total = totals.at[i];
-        const bool isPossible = total > 0.0f && connects(kFeatures, params, v);
+        const bool isPossible = total > 0.0f && connects(kFeatures, v);
         const vec3 throughput = get(lanes.throughput, i) * v.bsdf.albedo;
-        chances.at[i] = isPossible ? connectionChance(total, lanes.total.at[i], throughput) : 0.0f;
+        chances.at[i] = isPossible ? connectionChance(total, lanes.total.at[i], typical, throughput) : 0.0f;
         rates.at[i] = isPossible ? chances.at[i] / total : 0.0f;
         attempts.at[i] = get(lanes.u, i).roulette.y < chances.at[i] ? 1u : 0u;
     }
@@ -170,6 +173,7 @@ RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, co
     const ConnectionChoice choice = chooseConnection(scene, params, v.origin, time, target);
     if (!(choice.weight > 0.0f)) return false;
     const SmoothSphere& sphere = scene.smoothSpheres[choice.sphere];
+    if (!isInTime(params, sphere, v)) return false;
     const SphereView view = viewSphere(sphere, v.origin, time);
     const LightEnd end = sampleEnd(kFeatures, scene, params, choice, view.center, time, rate,
                                    connectionSample(get(lanes.samplers, i), v));

@@ -198,7 +198,7 @@ class Search {
         const vec3 point = ray.origin + ray.direction * t;
         const vec3 normal = (point - center_) / sphere_.radius;
         const float cosine = std::clamp(-glm::dot(ray.direction, normal), 0.0f, 1.0f);
-        if (sphere_.reflects != 0) {
+        if (sphere_.crossings == shared::kReflectedOutside) {
             look(point, normal, glm::reflect(ray.direction, normal), 1.0f, sphere_.tint, view);
             return view;
         }

@@ -112,8 +112,9 @@ class Scattered {
     // Light that arrives by way of the sphere and is scattered: by directions in the sphere's cone.
     double trace(Uniforms& u, bool weighed) const {
         const dvec3 direction = test::coneDirection(c_, u);
-        return traced(test::traceThrough(c_.x, direction, c_.eta), kChainBeyond, u, weighed) +
-               traced(test::traceOff(c_.x, direction, c_.eta), kChainReflected, u, weighed);
+        return traced(test::traceThrough(c_.x, direction, c_.eta), kRefracted, u, weighed) +
+               traced(test::traceOff(c_.x, direction, c_.eta), kReflectedOutside, u, weighed) +
+               traced(test::traceBack(c_.x, direction, c_.eta), kReflectedInside, u, weighed);
     }
 
     // One sample of that light by connections.
@@ -124,7 +125,7 @@ class Scattered {
     }
 
   private:
-    double traced(const Traced& ray, uint state, Uniforms& u, bool weighed) const {
+    double traced(const Traced& ray, uint crossings, Uniforms& u, bool weighed) const {
         dvec3 y;
         const double light = lit_.along(ray, y) * kPhaseDensity * coneSolidAngle(c_);
         if (!weighed || light == 0) return light;
@@ -133,7 +134,7 @@ class Scattered {
         s.chain.from = vec3(c_.x);
         s.chain.pdf = float(kPhaseDensity);
         s.chain.met = 0;
-        s.chain.state = state;
+        s.chain.state = kChainBeyond + crossings;
         s.ray.origin = vec3(ray.origin);
         s.ray.direction = vec3(ray.direction);
         if (!(s.chain.rate > 0)) return light;
@@ -181,7 +182,7 @@ Worth expectLightOfTracedRays(const std::array<Constellation, kCount>& constella
         const Lit lit = light(c);
         for (const std::uint32_t heuristic : {kSampleMis, kSampleMisBalance}) {
             const Scattered scattered(c, lit, heuristic);
-            EXPECT_EQ(scattered.scene().smoothSpheres.size(), c.eta == test::kMirror ? 1u : 2u);
+            EXPECT_EQ(scattered.scene().smoothSpheres.size(), c.eta == test::kMirror ? 1u : 3u);
             Uniforms u(seed++);
             Mean traced, weighed, connected;
             for (int k = 0; k < tracings; ++k) traced.add(scattered.trace(u, false));

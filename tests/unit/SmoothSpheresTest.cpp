@@ -1,5 +1,7 @@
 // Which smooth spheres the scene compiler finds for connections to lights.
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -61,15 +63,17 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
     const auto instanced = test::connectedThroughAll(*compileScene(instances));
     const auto copied = test::connectedThroughAll(*compileScene(copies));
     ASSERT_EQ(instanced->instances.size(), 3u);
-    ASSERT_EQ(instanced->smoothSpheres.size(), 4u);
-    ASSERT_EQ(copied->smoothSpheres.size(), 4u);
-    ASSERT_EQ(instanced->sphereReaches.size(), 4u);
-    std::uint32_t reflecting = 0;
-    for (std::size_t i = 0; i < 4; ++i) {
+    constexpr std::size_t kListed = 6; // two balls, three ways
+    ASSERT_EQ(instanced->smoothSpheres.size(), kListed);
+    ASSERT_EQ(copied->smoothSpheres.size(), kListed);
+    ASSERT_EQ(instanced->sphereReaches.size(), kListed);
+    std::array<int, 3> ways{};
+    for (std::size_t i = 0; i < kListed; ++i) {
         const shared::SmoothSphere& a = instanced->smoothSpheres[i];
         const shared::SmoothSphere& b = copied->smoothSpheres[i];
-        reflecting += a.reflects;
-        EXPECT_EQ(a.reflects, b.reflects);
+        ASSERT_LE(a.crossings, shared::kReflectedInside);
+        ++ways[a.crossings];
+        EXPECT_EQ(a.crossings, b.crossings);
         EXPECT_EQ(a.instance, a.radius > 0.5f ? 0u : 1u);
         EXPECT_EQ(b.instance, shared::kNone);
         EXPECT_EQ(a.primitive, instanced->geometries[1].firstSphere);
@@ -85,7 +89,7 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
         }
         EXPECT_NEAR(instanced->sphereReaches[i].weight / copied->sphereReaches[i].weight, 1, 1e-5);
     }
-    EXPECT_EQ(reflecting, 2u);
+    for (const int balls : ways) EXPECT_EQ(balls, 2);
 }
 
 // An instance's material replaces those of its surfaces: by glass, by another glass, by what is none.
@@ -104,7 +108,7 @@ TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
     for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
         radii.push_back(smooth.radius);
         EXPECT_FLOAT_EQ(smooth.inverseEta, 1 / 1.8f);
-        EXPECT_FLOAT_EQ(smooth.tint.x, smooth.reflects != 0 ? 0.9f : 0.81f);
+        EXPECT_FLOAT_EQ(smooth.tint.x, std::pow(0.9f, float(smooth.crossings + 1)));
         EXPECT_TRUE(smooth.instance == 0 || smooth.instance == 2) << smooth.instance;
     }
     EXPECT_FLOAT_EQ(radii[0], 0.42f);
@@ -128,10 +132,11 @@ TEST(SmoothSpheres, OfManyInstancesAreFew) {
     ASSERT_EQ(few.size(), shared::kConnectedSpheres);
     EXPECT_EQ(few[0].instance, shared::kNone);
     EXPECT_EQ(few[1].instance, shared::kNone);
-    EXPECT_EQ(few[2].instance, 0u); // below the lamp, of which it sees most
+    EXPECT_EQ(few[2].instance, shared::kNone);
+    EXPECT_EQ(few[3].instance, 0u); // below the lamp, of which it sees most
     EXPECT_EQ(listed("equal", 1000).size(), 0u);
     const std::vector<shared::SmoothSphere> many = listed("many", 1000);
-    ASSERT_EQ(many.size(), 2u); // it refracts and reflects
+    ASSERT_EQ(many.size(), 3u); // it refracts, and reflects outside and inside
     for (const shared::SmoothSphere& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
 }
 
@@ -158,7 +163,7 @@ TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
     for (std::size_t i = 0; i < shared::kReachedLights; ++i) expected.push_back(noise[i].second);
     std::ranges::sort(expected);
     const auto compiled = test::connectedThroughAll(*compileScene(scene));
-    ASSERT_EQ(compiled->smoothSpheres.size(), 2u);
+    ASSERT_EQ(compiled->smoothSpheres.size(), 3u);
     for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
         ASSERT_EQ(smooth.reachCount, shared::kReachedLights);
         for (std::uint32_t i = 0; i < shared::kReachedLights; ++i) {
@@ -180,7 +185,7 @@ TEST(SmoothSpheres, OfManyEqualLightsAreNone) {
         add(scene, lamps);
         return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
     };
-    EXPECT_EQ(listed(2 * shared::kReachedLights - 1), 2u);
+    EXPECT_EQ(listed(2 * shared::kReachedLights - 1), 3u);
     EXPECT_EQ(listed(2 * shared::kReachedLights + 1), 0u);
 }
 

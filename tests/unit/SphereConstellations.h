@@ -50,6 +50,21 @@ inline Traced traceThrough(const dvec3& x, const dvec3& direction, double eta) {
     return {leave, glm::normalize(eta * inside - leave * (eta * t - c)), kept * kept};
 }
 
+// Refracted, reflected inside once, and refracted again.
+inline Traced traceBack(const dvec3& x, const dvec3& direction, double eta) {
+    dvec3 entry;
+    if (eta == kMirror || !meetSphere(x, direction, entry)) return {};
+    const double c = -glm::dot(direction, entry);
+    const double t = std::sqrt(1 - (1 - c * c) / (eta * eta));
+    const dvec3 inside = direction / eta + entry * (c / eta - t);
+    const dvec3 bounce = entry - 2 * glm::dot(inside, entry) * inside;
+    const dvec3 back = inside - 2 * glm::dot(inside, bounce) * bounce;
+    const dvec3 leave = bounce - 2 * glm::dot(back, bounce) * back;
+    const double reflected = reflectance(c, t, eta);
+    const double left = (1 - reflected) * (1 - reflected) * reflected;
+    return {leave, glm::normalize(eta * back - leave * (eta * t - c)), left};
+}
+
 inline Traced traceOff(const dvec3& x, const dvec3& direction, double eta) {
     dvec3 entry;
     if (!meetSphere(x, direction, entry)) return {};

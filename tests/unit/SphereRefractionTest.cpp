@@ -1,8 +1,9 @@
-// Paths that a sphere of glass refracts twice, against Snell's law and rays traced in double precision.
+// Paths that a sphere of glass refracts twice, and reflects inside in between or not, against Snell's law and rays traced in double precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 
 #include <glm/geometric.hpp>
 
@@ -21,32 +22,47 @@ using test::coneSolidAngle;
 using test::Constellation;
 using test::LightQuad;
 using test::Mean;
+using test::traceBack;
 using test::Traced;
 using test::traceThrough;
 using test::Uniforms;
 
 constexpr double kPiD = test::kPiD;
 
-double turn(double i, double eta, double nearX, double nearY) {
+double turn(double i, uint crossings, double eta, double nearX, double nearY) {
     const double s = std::sin(i);
-    return 2 * (i - std::asin(s / eta)) - std::asin(s * nearX) - std::asin(s * nearY);
+    return 2 * (i - crossings * std::asin(s / eta)) - std::asin(s * nearX) - std::asin(s * nearY);
 }
 
-RefractionPair pairOf(double eta, double nearX, double nearY, double bend) {
+RefractionPair pairOf(uint crossings, double eta, double nearX, double nearY, double bend) {
     RefractionPair p;
     p.inverseEta = float(1 / eta);
+    p.crossings = crossings;
     p.nearX = float(nearX);
     p.nearY = float(nearY);
     p.bend = vec2(float(std::cos(bend)), float(std::sin(bend)));
     return p;
 }
 
+// Every other one is reflected inside: of an index of 1.3 or more, and ends not both near, see kNearestInside.
 struct RandomPair {
     explicit RandomPair(Uniforms& u)
-        : eta(u.between(1.05, 2.6)), nearX(u.between(0, 0.999)), nearY(u.between(0, 0.999)), bend(u.between(0, kPiD)) {}
-    RefractionPair pair() const { return pairOf(eta, nearX, nearY, bend); }
+        : crossings(u() < 0.5f ? kRefracted : kReflectedInside),
+          eta(u.between(isBack() ? 1.3 : 1.05, 2.6)),
+          nearX(u.between(0, 0.999)),
+          nearY(u.between(0, isBack() ? std::min(1.8 - nearX, 0.999) : 0.999)),
+          bend(u.between(0, kPiD)) {}
+    bool isBack() const { return crossings == kReflectedInside; }
+    double turnAt(double i) const { return turn(i, crossings, eta, nearX, nearY); }
+    RefractionPair pair() const { return pairOf(crossings, eta, nearX, nearY, bend); }
+    uint crossings;
     double eta, nearX, nearY, bend;
 };
+
+std::ostream& operator<<(std::ostream& out, const RandomPair& r) {
+    return out << r.crossings << " crossings, eta " << r.eta << ", near " << r.nearX << " and " << r.nearY << ", bend "
+               << r.bend;
+}
 
 // Paths by signs of the turn minus each target over a thousand angles; -1 where one is about to appear.
 int countByScan(const RandomPair& r) {
@@ -54,7 +70,8 @@ int countByScan(const RandomPair& r) {
     int count = 0;
     double least = 0, before = 0;
     for (int k = 1; k <= kAngles; ++k) {
-        const double now = turn(0.5 * kPiD * k / kAngles, r.eta, r.nearX, r.nearY);
+        const double now = r.turnAt(0.5 * kPiD * k / kAngles);
+        EXPECT_LT(std::abs(now), kPiD) << r;
         for (const double target : {-r.bend, r.bend}) count += (before - target) * (now - target) < 0 ? 1 : 0;
         least = std::min(least, now);
         before = now;
@@ -66,53 +83,53 @@ int countByScan(const RandomPair& r) {
 
 TEST(SphereRefraction, FindsAllPaths) {
     Uniforms u(1);
-    std::array<int, 4> seen{};
+    std::array<std::array<int, 4>, 2> seen{};
     for (int k = 0; k < 5000; ++k) {
         const RandomPair r(u);
         const int expected = countByScan(r);
         if (expected < 0) continue;
         ASSERT_LE(expected, 3);
-        ++seen[std::size_t(expected)];
+        ++seen[r.isBack() ? 1 : 0][std::size_t(expected)];
         const RefractionPair p = r.pair();
-        ASSERT_EQ(int(refractionRoots(p, leastTurn(p)).count), expected)
-            << "eta " << r.eta << ", near " << r.nearX << " and " << r.nearY << ", bend " << r.bend;
+        ASSERT_EQ(int(refractionRoots(p, leastTurn(p)).count), expected) << r;
     }
-    for (const int count : seen) EXPECT_GT(count, 20);
+    for (const auto& counts : seen)
+        for (const int count : counts) EXPECT_GT(count, 20);
 }
 
 // Rays in the directions found meet y. Near the fold, where two paths are about to meet, the angle is known to the root
 // of the rounding.
 TEST(SphereRefraction, PathsObeySnellsLaw) {
     Uniforms u(2);
-    int found = 0;
-    for (int k = 0; k < 100000; ++k) {
+    std::array<int, 2> found{};
+    for (int k = 0; k < 200000; ++k) {
         const RandomPair r(u);
         const RefractionPair p = r.pair();
         const RefractionRoots roots = refractionRoots(p, leastTurn(p));
         for (uint kind = 0; kind < kRefractedPaths; ++kind) {
             if (!hasPath(roots, kind)) continue;
             const Refraction at = refractedPath(p, kind);
-            const RefractedPlaces places = refractedPlaces(at, kind, vec3(1, 0, 0), vec3(0, 1, 0));
+            const RefractedPlaces places = refractedPlaces(at, r.crossings, kind, vec3(1, 0, 0), vec3(0, 1, 0));
             const dvec3 x(-1 / r.nearX, 0, 0);
-            const dvec3 y = dvec3(std::cos(r.bend), std::sin(r.bend), 0) / r.nearY;
+            const double side = r.isBack() ? -1 : 1;
+            const dvec3 y = side * dvec3(std::cos(r.bend), std::sin(r.bend), 0) / r.nearY;
             if (at.incident.x < 0.02f) continue; // grazing: all is reflected
             const double tolerance = std::abs(at.slope) > 0.1f ? 2e-5 : 2e-3;
             const double expected = kind == kOppositePath ? r.bend : -r.bend;
             const double i = std::atan2(double(at.incident.y), double(at.incident.x));
-            ASSERT_NEAR(turn(i, r.eta, r.nearX, r.nearY), expected, tolerance)
-                << "kind " << kind << ", slope " << at.slope << ", eta " << r.eta << ", near " << r.nearX << " and "
-                << r.nearY << ", bend " << r.bend;
+            ASSERT_NEAR(r.turnAt(i), expected, tolerance) << "kind " << kind << ", slope " << at.slope << ", " << r;
             if (std::abs(at.slope) < 0.1f || r.nearX > 0.9) continue;
-            const Traced ray = traceThrough(x, glm::normalize(dvec3(places.atX)), r.eta);
+            const dvec3 direction = glm::normalize(dvec3(places.atX));
+            const Traced ray = r.isBack() ? traceBack(x, direction, r.eta) : traceThrough(x, direction, r.eta);
             ASSERT_GT(ray.left, 0);
             ASSERT_LT(glm::length(ray.origin - dvec3(places.leave)), 1e-3);
             const dvec3 toY = y - ray.origin;
             const double aside = glm::length(toY - ray.direction * glm::dot(toY, ray.direction));
             ASSERT_LT(aside, 3e-3 * (1 + 1 / r.nearX + 1 / r.nearY) / double(std::min(std::abs(at.slope), 1.0f)));
-            ++found;
+            ++found[r.isBack() ? 1 : 0];
         }
     }
-    EXPECT_GT(found, 10000);
+    for (const int count : found) EXPECT_GT(count, 10000);
 }
 
 // ---- irradiance through the sphere ---------------------------------------------------------------------------------
@@ -155,7 +172,7 @@ class Irradiance {
             const dvec3 toY = glm::normalize(y);
             const dvec3 across = toY - axis * glm::dot(toY, axis);
             const dvec3 aside = glm::length(across) > 0 ? glm::normalize(across) : acrossOf(axis);
-            const RefractedPlaces places = refractedPlaces(at, kind, vec3(axis), vec3(aside));
+            const RefractedPlaces places = refractedPlaces(at, kRefracted, kind, vec3(axis), vec3(aside));
             const Densities d = densities(p, at, glm::normalize(y - dvec3(places.leave)));
             const double kept = d.scattering * coneSolidAngle(c_);
             sum += kept / (d.connecting + d.scattering);
@@ -169,6 +186,7 @@ class Irradiance {
         const dvec3 axis = -glm::normalize(c_.x), toY = glm::normalize(y);
         RefractionPair p;
         p.inverseEta = float(1 / c_.eta);
+        p.crossings = kRefracted;
         p.nearX = float(1 / glm::length(c_.x));
         p.nearY = float(1 / glm::length(y));
         p.bend = vec2(float(glm::dot(axis, toY)), float(glm::length(glm::cross(axis, toY))));

@@ -14,9 +14,10 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastIor = 1.01;    // below it a sphere focuses nothing
-constexpr double kLeastShare = 0.1;   // of the light that goes on from spheres; less is not worth the time
-constexpr double kMirrorWorth = 0.25; // see kWorthConnecting
+constexpr double kLeastIor = 1.01;      // below it a sphere focuses nothing
+constexpr double kLeastIorInside = 1.3; // see kNearestInside
+constexpr double kLeastShare = 0.1;     // of the light that goes on from spheres; less is not worth the time
+constexpr double kMirrorWorth = 0.25;   // see kWorthConnecting
 // Of spheres and lights, at least kReachedLights: eight of more spheres matter less than the time to choose them.
 constexpr std::size_t kMostPairs = 1 << 23;
 
@@ -61,7 +62,8 @@ std::optional<Standing> standing(const CompiledScene& scene, std::uint32_t index
     return at;
 }
 
-shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t index, const Standing& at, bool reflects) {
+shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t index, const Standing& at,
+                                  std::uint32_t crossings) {
     const shared::Sphere& sphere = scene.spheres[index];
     const shared::Material& material = materialAt(scene, index, at);
     shared::SmoothSphere smooth{};
@@ -69,8 +71,9 @@ shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t inde
     smooth.radius = static_cast<float>(static_cast<double>(sphere.radius) * at.scale);
     if (!scene.sphereMotions.empty()) smooth.motion = shared::vec3(at.toWorld.vector(scene.sphereMotions[index]));
     smooth.inverseEta = isMirror(material) ? 0.0f : 1.0f / material.parameter[shared::kDielectricIor];
-    smooth.tint = reflects ? material.albedo : material.albedo * material.albedo;
-    smooth.reflects = reflects ? 1 : 0;
+    smooth.tint = material.albedo;
+    for (std::uint32_t i = 0; i < crossings; ++i) smooth.tint *= material.albedo;
+    smooth.crossings = crossings;
     smooth.primitive = index;
     smooth.instance = at.instance;
     if (at.instance != shared::kNone) {
@@ -92,8 +95,15 @@ class Brightest {
     Brightest(const CompiledScene& scene, double leastVariance) : scene_(scene), leastVariance_(leastVariance) {}
 
     void consider(std::uint32_t index, const Standing& at) {
-        if (!isMirror(materialAt(scene_, index, at))) consider(smoothSphere(scene_, index, at, false));
-        consider(smoothSphere(scene_, index, at, true));
+        const shared::Material& material = materialAt(scene_, index, at);
+        const auto by = [&](std::uint32_t crossings) { return smoothSphere(scene_, index, at, crossings); };
+        if (isMirror(material)) {
+            consider(by(shared::kReflectedOutside), leastVariance_ * kMirrorWorth);
+        } else if (consider(by(shared::kRefracted), leastVariance_)) {
+            consider(by(shared::kReflectedOutside), 0);
+            if (material.parameter[shared::kDielectricIor] >= kLeastIorInside)
+                consider(by(shared::kReflectedInside), 0);
+        }
     }
 
     // Adds them to the scene, with the patches of the sky, or else the one to aim at, unless they are too small a part
@@ -111,25 +121,27 @@ class Brightest {
 
   private:
     // A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
-    // sum(L_i E_i) / pi, its mean sum(E_i) / pi. Of the second moment only what is connected to counts.
-    void consider(const shared::SmoothSphere& sphere) {
+    // sum(L_i E_i) / pi, its mean sum(E_i) / pi. Of the second moment only what is connected to counts. Returns whether
+    // the sphere is worth connections.
+    bool consider(const shared::SmoothSphere& sphere, double leastVariance) {
         if (!sky_) sky_ = findBrightSky(scene_);
         const LightsOnSphere lights = lightsOn(sphere, scene_, *sky_);
-        if (lights.connected.empty()) return;
+        if (lights.connected.empty()) return false;
         const double mean = lights.irradiance;
         double second = 0;
         for (const LightOnSphere& light : lights.connected) second += light.noise();
         const double radius = static_cast<double>(sphere.radius);
-        const double part = sphere.reflects != 0 ? meanReflectance(static_cast<double>(sphere.inverseEta)) : 1;
+        const bool refracts = sphere.crossings == shared::kRefracted;
+        const double part = refracts ? 1 : meanFraction(static_cast<double>(sphere.inverseEta), sphere.crossings);
         const double flux = mean * radius * radius * part;
-        if (!(flux > 0)) return;
+        if (!(flux > 0)) return false;
         const double variance = (std::numbers::pi * second / (mean * mean) - 1) * part;
-        const double least = sphere.inverseEta == 0.0f ? leastVariance_ * kMirrorWorth : leastVariance_;
-        if (variance >= least) add({sphere, flux});
-        if (variance >= kWorthAiming && sphere.reflects == 0) {
+        if (variance >= leastVariance) add({sphere, flux});
+        if (variance >= kWorthAiming && refracts) {
             aimedFlux_ += flux;
             if (flux > aimed_.flux) aimed_ = {sphere, flux};
         }
+        return variance >= leastVariance;
     }
 
     void add(const Candidate& candidate) {
@@ -207,6 +219,7 @@ void findSmoothSpheres(CompiledScene& out, double leastVariance) {
     out.smoothSpheres.clear();
     out.sphereReaches.clear();
     out.globals.aimed = {};
+    out.globals.litSpheres = 0;
     out.skyPatches.clear();
     if (out.globals.lightCount == 0) return;
     const std::size_t most = kMostPairs / std::max(out.globals.lightCount, shared::kReachedLights);
@@ -218,7 +231,8 @@ void findSmoothSpheres(CompiledScene& out, double leastVariance) {
 std::vector<shared::SmoothSphere> allSmoothSpheres(const CompiledScene& scene, std::size_t most) {
     std::vector<shared::SmoothSphere> spheres;
     eachSmoothSphere(scene, most, [&](std::uint32_t index, const Standing& at) {
-        spheres.push_back(smoothSphere(scene, index, at, isMirror(materialAt(scene, index, at))));
+        const bool isGlass = !isMirror(materialAt(scene, index, at));
+        spheres.push_back(smoothSphere(scene, index, at, isGlass ? shared::kRefracted : shared::kReflectedOutside));
     });
     return spheres;
 }

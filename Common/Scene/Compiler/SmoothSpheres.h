@@ -10,8 +10,8 @@ namespace rt::scene {
 // times the fraction of light that the sphere refracts or reflects, so that connections by way of it are worth their
 // time. Below, the noise that they leave out costs less than they do, on a GPU much less: of the four built-in scenes
 // with spheres of glass and up to kReachedLights lights two have 48 and 54, and gain by refraction; two at most 11.
-// Reflection on glass has a tenth of that, and loses time there: as much light again is reflected inside. A mirror
-// takes the noise to everything around it, and no other comes from it: a quarter is enough.
+// What glass reflects, outside and inside, is connected to wherever refraction is: it has a tenth of the light and half
+// of the noise that is left. A mirror takes the noise to everything around it: a quarter is enough.
 constexpr double kWorthConnecting = 25;
 
 // Least such variance for the sphere of glass that paths aim at where no sphere is worth connections: aiming takes less

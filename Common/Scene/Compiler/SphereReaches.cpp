@@ -17,6 +17,7 @@ namespace {
 constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near its rim is spread widely
 // Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
 constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
+constexpr int kSteps = 64; // of means over the light that falls on a sphere
 constexpr double kMostGain = 4;
 constexpr double kLeastReached = 0.5; // of the light that could be connected to; with less, noise stays
 
@@ -68,42 +69,61 @@ shared::SphereReach reachOf(const BrightPatch& patch) {
     return reach;
 }
 
+// A sphere by which light comes from one of two points to the other, each at a distance of the radius over this.
+struct Ends {
+    double inverseEta;
+    std::uint32_t crossings;
+    double nearX, nearY;
+    // As `turn` in SphereRefraction.h, by the sine of the angle of incidence.
+    double turn(double sine) const {
+        return 2 * (std::asin(sine) - crossings * std::asin(inverseEta * sine)) - std::asin(nearX * sine) -
+               std::asin(nearY * sine);
+    }
+};
+
+// Of the light that meets a sphere of glass at an angle of incidence with this sine, what goes on after its crossings.
+double fractionAt(double sine, double inverseEta, std::uint32_t crossings) {
+    const double cosine = std::sqrt(1 - sine * sine);
+    const auto reflected =
+        static_cast<double>(shared::fresnel(static_cast<float>(cosine), static_cast<float>(inverseEta)).x);
+    const double crossed = (1 - reflected) * (1 - reflected);
+    if (crossings == shared::kRefracted) return crossed;
+    return crossings == shared::kReflectedOutside ? reflected : crossed * reflected;
+}
+
+// The sine of the angle of incidence in the middle of one of kSteps parts of the light that falls on a sphere.
+double sineOf(int part) {
+    return std::sqrt((part + 0.5) / kSteps);
+}
+
 // Greatest angle, seen from the centre, between where a point is and where it would be opposite an end of the path at
-// which `near` is at most nearY: over all paths but those near the rim that pass the centre on the other side.
-double refractionAngle(double inverseEta, double nearX, double nearY) {
-    constexpr int kSteps = 1000;
+// which `near` is at most nearY, or at that end: over all paths but those near the rim that turn the other way.
+double focusAngle(const Ends& ends) {
+    constexpr int kAngles = 1000;
     double most = 0;
-    for (int k = 1; k <= kSteps; ++k) {
-        const double incident = std::numbers::pi / 2 * k / kSteps, sine = std::sin(incident);
-        const double turn =
-            2 * (incident - std::asin(inverseEta * sine)) - std::asin(nearX * sine) - std::asin(nearY * sine);
+    for (int k = 1; k <= kAngles; ++k) {
+        const double sine = std::sin(std::numbers::pi / 2 * k / kAngles), turn = ends.turn(sine);
         most = std::max(most, sine * sine < kUsedFlux ? std::abs(turn) : -turn);
     }
     return most;
 }
 
-// Mean irradiance where light from a distance of radius / nearY falls at one of radius / nearX, over that at the
-// centre: as if it fell evenly on a disc. `spread` is 1 less the cosine of the extent of the light.
-double refractionGain(double inverseEta, double nearX, double nearY, double spread) {
-    constexpr int kSteps = 64;
+// Mean irradiance where light from one end falls at the other, over that at the centre: as if it fell evenly on a disc.
+// `spread` is 1 less the cosine of the extent of the light.
+double focusGain(const Ends& ends, double spread) {
     double flux = 0, bent = 0;
     for (int k = 0; k < kSteps; ++k) {
-        const double sine = std::sqrt((k + 0.5) / kSteps), incident = std::asin(sine);
-        const double refracted = std::asin(inverseEta * sine);
-        const double turn = 2 * (incident - refracted) - std::asin(nearX * sine) - std::asin(nearY * sine);
-        const double across = std::sin(incident - refracted) / std::sin(incident + refracted);
-        const double along = std::tan(incident - refracted) / std::tan(incident + refracted);
-        const double entered = 1 - 0.5 * (across * across + along * along);
-        flux += entered * entered / kSteps;
-        bent += entered * entered * (1 - std::cos(turn)) / kSteps;
+        const double fraction = fractionAt(sineOf(k), ends.inverseEta, ends.crossings) / kSteps;
+        flux += fraction;
+        bent += fraction * (1 - std::cos(ends.turn(sineOf(k))));
     }
-    return std::min(flux * nearX * nearX / (2 * (2 * bent / flux + spread)), kMostGain);
+    return std::min(flux * ends.nearX * ends.nearX / (2 * (2 * bent / flux + spread)), kMostGain);
 }
 
-// As refractionGain(): parallel light is reflected into all directions alike. A quarter of it: it varies so little over
-// a light that fewer connections do.
+// As focusGain(): parallel light is reflected into all directions alike. A quarter of it: it varies so little over a
+// light that fewer connections do.
 double reflectionGain(double inverseEta, double nearX) {
-    return 0.25 * meanReflectance(inverseEta) * nearX * nearX / 4;
+    return 0.25 * meanFraction(inverseEta, shared::kReflectedOutside) * nearX * nearX / 4;
 }
 
 // What the lights that a sphere sees have in common.
@@ -117,17 +137,17 @@ struct LightsSeen {
 // Fills `reach` and `nearest`.
 void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
     const double inverseEta = static_cast<double>(sphere.inverseEta);
-    const bool reflects = sphere.reflects != 0;
-    const double leastGain = reflects ? kLeastReflected : kLeastRefracted;
+    const bool reflects = sphere.crossings == shared::kReflectedOutside;
+    const double leastGain = sphere.crossings == shared::kRefracted ? kLeastRefracted : kLeastReflected;
     sphere.nearest = 1;
     for (std::uint32_t step = shared::kReachSteps; step-- > 0;) {
         const double farthest = static_cast<double>(step) / shared::kReachSteps;
         const double nearest = (step + 1.0) / shared::kReachSteps, middle = (step + 0.5) / shared::kReachSteps;
-        const double angle = std::min(
-            reflects ? std::numbers::pi - std::asin(farthest) : refractionAngle(inverseEta, nearest, lights.nearest),
-            std::numbers::pi - lights.widest);
-        const double gain = reflects ? reflectionGain(inverseEta, middle)
-                                     : refractionGain(inverseEta, middle, lights.meanNear, lights.spread);
+        const Ends outermost{inverseEta, sphere.crossings, nearest, lights.nearest};
+        const double angle = std::min(reflects ? std::numbers::pi - std::asin(farthest) : focusAngle(outermost),
+                                      std::numbers::pi - lights.widest);
+        const Ends typical{inverseEta, sphere.crossings, middle, lights.meanNear};
+        const double gain = reflects ? reflectionGain(inverseEta, middle) : focusGain(typical, lights.spread);
         sphere.reach[step] = {static_cast<float>(std::cos(angle)), static_cast<float>(gain)};
         if (angle > 0 && gain > leastGain) sphere.nearest = static_cast<float>(farthest);
     }
@@ -143,7 +163,7 @@ std::vector<shared::SphereReach> findReaches(shared::SmoothSphere& sphere, const
         const bool isSky = light.skyPatch != shared::kNone;
         const shared::LightBound& bound = scene.lightBounds[light.light];
         shared::SphereReach reach = isSky ? reachOf(sky.patches[light.skyPatch]) : reachOf(sphere, bound);
-        if (sphere.reflects != 0) reach.axis = -reach.axis;
+        if (sphere.crossings != shared::kRefracted) reach.axis = -reach.axis;
         reach.weight = static_cast<float>(light.irradiance);
         reach.light = light.light;
         reach.skyPatch = light.skyPatch;
@@ -182,13 +202,9 @@ LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene&
     return lights;
 }
 
-double meanReflectance(double inverseEta) {
-    constexpr int kSteps = 16;
+double meanFraction(double inverseEta, std::uint32_t crossings) {
     double sum = 0;
-    for (int k = 0; k < kSteps; ++k) {
-        const double cosine = std::sqrt((k + 0.5) / kSteps);
-        sum += static_cast<double>(shared::fresnel(static_cast<float>(cosine), static_cast<float>(inverseEta)).x);
-    }
+    for (int k = 0; k < kSteps; ++k) sum += fractionAt(sineOf(k), inverseEta, crossings);
     return sum / kSteps;
 }
 
@@ -198,6 +214,9 @@ void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, Compiled
     sphere.reachCount = static_cast<std::uint32_t>(reaches.size());
     out.sphereReaches.insert(out.sphereReaches.end(), reaches.begin(), reaches.end());
     out.smoothSpheres.push_back(sphere);
+    float irradiance = 0;
+    for (const shared::SphereReach& reach : reaches) irradiance += reach.weight;
+    out.globals.litSpheres = std::max(out.globals.litSpheres, irradiance);
 }
 
 shared::AimedSphere aimedSphere(shared::SmoothSphere sphere, const BrightSky& sky, const CompiledScene& scene) {

@@ -27,13 +27,13 @@ struct LightsOnSphere {
 
 LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky);
 
-// Fraction of parallel light, falling on a sphere, that its outside reflects.
-double meanReflectance(double inverseEta);
+// Fraction of parallel light, falling on a sphere, that goes on from it after so many crossings.
+double meanFraction(double inverseEta, std::uint32_t crossings);
 
 // Adds the sphere to those of the scene, with its reaches. Some light that is connected to falls on it.
 void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out);
 
-// The sphere, which refracts, as one to aim at. Some light that could be connected to falls on it.
+// The sphere, by refraction, as one to aim at. Some light that could be connected to falls on it.
 shared::AimedSphere aimedSphere(shared::SmoothSphere sphere, const BrightSky& sky, const CompiledScene& scene);
 
 } // namespace rt::scene

@@ -38,6 +38,9 @@ RT_FN float square(float x) {
 }
 
 // `first ? a : b` without a branch, for loops over lanes.
+RT_FN vec2 select(bool first, vec2 a, vec2 b) {
+    return vec2(first ? a.x : b.x, first ? a.y : b.y);
+}
 RT_FN vec3 select(bool first, vec3 a, vec3 b) {
     return vec3(first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z);
 }

@@ -207,15 +207,20 @@ struct LightPick {
 const uint kConnectedSpheres = 8u; // at most
 const uint kReachSteps = 16u;
 
-// A sphere of clear glass, through which light reaches a point by refraction where it enters and where it leaves; or a
-// sphere of glass or a mirror, from which light reaches a point by reflection on the outside. Glass may be there twice.
+// Crossings of a sphere by the light that goes on from it.
+const uint kReflectedOutside = 0u;
+const uint kRefracted = 1u;       // where it enters and where it leaves
+const uint kReflectedInside = 2u; // and in between once, after which it crosses the sphere again
+
+// A sphere of glass or a mirror, and a way by which light goes on from it to a point: one sphere of glass may be there
+// three times.
 struct SmoothSphere {
     vec3 center; // at time 0
     float radius;
     vec3 motion;             // displacement over the shutter
     float inverseEta;        // index outside over inside, < 1; 0: a mirror
-    vec3 tint;               // of light that has entered and left, or has been reflected
-    uint reflects;           // 1: light is reflected; 0: it is refracted
+    vec3 tint;               // of light that has gone this way
+    uint crossings;          // how often the light crosses the sphere: kReflectedOutside...
     uint primitive;          // into spheres
     uint instance;           // into instances; kNone: it is one of the world's own
     float error;             // what the instance's map adds to the rounding of points on the surface
@@ -230,7 +235,7 @@ const uint kReachedLights = 32u; // by way of one sphere, at most
 
 // A light, or a patch of the sky image, as one of these spheres sees it.
 struct SphereReach {
-    vec3 axis;     // unit, from the sphere to the light; from the light to a sphere that reflects
+    vec3 axis;     // unit, from the sphere to the light; from the light to the sphere where that reflects
     vec2 extent;   // cosine and sine of the angle that bounds the light
     float weight;  // irradiance at the sphere, > 0
     uint light;    // into lights
@@ -311,6 +316,7 @@ struct SceneGlobals {
     uint mediumCount;
     uint instanceCount;
     float sceneRadius; // half the diagonal of the bounds
+    float litSpheres;  // greatest irradiance of one of smoothSpheres by the lights that are connected to
     AimedSphere aimed;
 };
 
@@ -403,10 +409,10 @@ struct LightContext {
 };
 
 const uint kChainNone = 0u;
-const uint kChainScattered = 1u; // by a surface or in a medium, with a density
-const uint kChainInside = 2u;    // then refracted into a sphere
-const uint kChainBeyond = 3u;    // and out of it
-const uint kChainReflected = 4u; // or, instead of both, reflected on its outside
+const uint kChainScattered = 1u;   // by a surface or in a medium, with a density
+const uint kChainInside = 2u;      // then refracted into a sphere
+const uint kChainInsideAgain = 3u; // and reflected there
+const uint kChainBeyond = 4u;      // plus the crossings: then gone on from the sphere
 
 // How a path goes on since it scattered, for the weight against a connection from there through a sphere.
 struct SphereChain {
@@ -453,18 +459,18 @@ struct DirectLight {
     float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
 };
 
-const uint kPassageVertices = 3u; // at most, behind the one that connects: two on the sphere, and the light
-
 // Segments of a passage; the one of the lowest bit is traced first.
 const uint kSegmentBeyond = 1u; // from the sphere to the light
 const uint kSegmentBefore = 2u; // from the vertex to the sphere
-const uint kSegmentInside = 4u;
+const uint kSegmentInside = 4u; // from where it enters to where it leaves, or is reflected
+const uint kSegmentAgain = 8u;  // from there to where it leaves
 
 // What a connection by way of a sphere adds to a path unless something is in the way of one of its segments.
 struct Passage {
     vec3 radiance;
     vec3 begin;    // where the path scattered
     vec3 entry[2]; // where the light leaves the sphere's surface and arrives there: outside, inside
+    vec3 bounce;   // where it is reflected inside
     vec3 leave[2]; // on the light's side: inside, outside
     vec3 end;      // at the light
     uint segments; // kSegment... that have yet to be found free; 0: there is no connection

@@ -9,8 +9,11 @@
 // the minimum. Newton's method that begins where the function is positive stays on that side of the root, and needs no
 // bracket. Angles are kept as rotations, so that no arc function is evaluated. Without a branch, for loops over lanes.
 //
-// Reflection on the outside turns a path by (i - a) + (i - b) about C, which has to be the angle between Cx and Cy.
-// That is turn(i) for eta = infinity, where r = 0: there is one path, and it turns by the supplement of bend.
+// A path that crosses the sphere m times, and is reflected inside in between, turns by
+//     turn(i) = 2 i - 2 m r - a - b
+// more than m straight lines through C, which lead back to x where m is even: bend is the angle between Cx and Cy then,
+// and +bend the side of y. All of the above holds for m = 2, for whichever eta turn stays within (-pi, pi). For m = 0,
+// reflection on the outside, there is one path, which turns by +bend.
 #ifndef RT_SHARED_SPHERE_REFRACTION_H
 #define RT_SHARED_SPHERE_REFRACTION_H
 #include "Common/Shared/Base/Sampling.h"
@@ -33,6 +36,7 @@ RT_FN vec2 angleOfSine(float sine) {
 // What the paths from x to y depend on.
 struct RefractionPair {
     float inverseEta; // index outside over inside, < 1
+    uint crossings;   // kReflectedOutside...
     float nearX;      // R / |xC|, < 1
     float nearY;      // R / |yC|, < 1
     vec2 bend;        // cosine and sine of the angle, in [0, pi]
@@ -48,16 +52,22 @@ struct Refraction {
     float slope; // of the turn, by the angle of incidence
 };
 
+// The angle of refraction times the number of crossings.
+RT_FN vec2 crossingAngle(uint crossings, vec2 refracted) {
+    vec2 again = select(crossings == kRefracted, refracted, turnedBy(refracted, refracted));
+    return select(crossings == kReflectedOutside, vec2(1.0f, 0.0f), again);
+}
+
 RT_FN Refraction refractionAt(RT_IN(RefractionPair) p, vec2 incident) {
     Refraction r;
     r.incident = incident;
     r.refracted = angleOfSine(incident.y * p.inverseEta);
     r.atX = angleOfSine(incident.y * p.nearX);
     r.atY = angleOfSine(incident.y * p.nearY);
-    vec2 deviation = turnedBack(incident, r.refracted);
+    vec2 deviation = turnedBack(incident, crossingAngle(p.crossings, r.refracted));
     r.turn = turnedBack(turnedBy(deviation, deviation), turnedBy(r.atX, r.atY));
-    r.slope = 2.0f - incident.x * (2.0f * p.inverseEta / r.refracted.x + p.nearX / max(r.atX.x, 1.0e-6f) +
-                                   p.nearY / max(r.atY.x, 1.0e-6f));
+    r.slope = 2.0f - incident.x * (2.0f * float(p.crossings) * p.inverseEta / r.refracted.x +
+                                   p.nearX / max(r.atX.x, 1.0e-6f) + p.nearY / max(r.atY.x, 1.0e-6f));
     return r;
 }
 
@@ -100,7 +110,7 @@ RT_FN vec2 halvedLeast(RT_IN(RefractionPair) p, vec2 interval) {
 
 // Whether the turn rises from the first angle on; the interval does not matter then.
 RT_FN bool risesThroughout(RT_IN(RefractionPair) p) {
-    return 2.0f - 2.0f * p.inverseEta - p.nearX - p.nearY >= 0.0f;
+    return 2.0f - 2.0f * float(p.crossings) * p.inverseEta - p.nearX - p.nearY >= 0.0f;
 }
 
 RT_FN vec2 leastWithin(RT_IN(RefractionPair) p, vec2 interval) {
@@ -109,6 +119,7 @@ RT_FN vec2 leastWithin(RT_IN(RefractionPair) p, vec2 interval) {
 
 RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {
     vec2 interval = vec2(0.0f, 1.0f);
+    if (risesThroughout(p)) return leastWithin(p, interval);
     for (uint k = 0u; k < kLeastSteps; k++) interval = halvedLeast(p, interval);
     return leastWithin(p, interval);
 }
@@ -171,23 +182,34 @@ RT_FN Refraction refractedPath(RT_IN(RefractionPair) p, uint kind) {
     return refractionAt(p, angle);
 }
 
-// Where a path runs: its direction at x, and the outward normals where it enters and leaves. `along` is the unit
-// direction from x to C, `aside` the one across it towards y.
+// Where a path runs: its direction at x, and the outward normals where it enters, where it is reflected inside, and
+// where it leaves. `along` is the unit direction from x to C, `aside` the one across it towards y, or away from y where
+// the number of crossings is even.
 struct RefractedPlaces {
     vec3 atX;
     vec3 entry;
+    vec3 bounce;
     vec3 leave;
 };
 
-RT_FN RefractedPlaces refractedPlaces(RT_IN(Refraction) r, uint kind, vec3 along, vec3 aside) {
+// A place on the sphere by the angle about C from the direction to x.
+RT_FN vec3 placeAt(vec2 angle, vec3 along, vec3 e) {
+    return e * angle.y - along * angle.x;
+}
+
+RT_FN RefractedPlaces refractedPlaces(RT_IN(Refraction) r, uint crossings, uint kind, vec3 along, vec3 aside) {
     vec3 e = aside * (kind == kOppositePath ? -1.0f : 1.0f);
-    // Angles about C from the direction to x: i - a, and then pi - 2 r more.
+    // Angles about C from the direction to x: i - a, and then pi - 2 r more with every crossing.
+    vec2 twice = turnedBy(r.refracted, r.refracted);
     vec2 entry = turnedBack(r.incident, r.atX);
-    vec2 leave = turnedBack(vec2(-entry.x, -entry.y), turnedBy(r.refracted, r.refracted));
+    vec2 across = turnedBack(vec2(-entry.x, -entry.y), twice);
+    vec2 back = turnedBack(vec2(-across.x, -across.y), twice);
+    vec2 leave = select(crossings == kReflectedOutside, entry, select(crossings == kRefracted, across, back));
     RefractedPlaces places;
     places.atX = along * r.atX.x + e * r.atX.y;
-    places.entry = e * entry.y - along * entry.x;
-    places.leave = e * leave.y - along * leave.x;
+    places.entry = placeAt(entry, along, e);
+    places.bounce = placeAt(across, along, e);
+    places.leave = placeAt(leave, along, e);
     return places;
 }
 

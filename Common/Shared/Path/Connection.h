@@ -1,9 +1,10 @@
-// Connections: light that reaches a vertex which scatters widely by way of a smooth sphere, refracted where it enters
-// and where it leaves, or reflected on the outside. A sphere and a light are chosen (ConnectionChoice.h), a point on
-// the light sampled as the sphere's centre sees it, and one of the paths drawn that lead there (SphereRefraction.h):
-// two or three segments, which have to be free. They are weighed against scattering, which finds the same paths
-// (ConnectionChain.h). What connections do not cover counts in full where scattering finds it: other orders of
-// surfaces, lights around the sphere, and vertices that no light is thought to reach.
+// Connections: light that reaches a vertex which scatters widely by way of a smooth sphere: reflected on the outside,
+// refracted where it enters and where it leaves, or also reflected once in between. A sphere, a way and a light are
+// chosen (ConnectionChoice.h), a point on the light sampled as the sphere's centre sees it, and one of the paths drawn
+// that lead there (SphereRefraction.h): two to four segments, which have to be free. They are weighed against
+// scattering, which finds the same paths (ConnectionChain.h). What connections do not cover counts in full where
+// scattering finds it: other orders of surfaces, lights around the sphere, and vertices that no light is thought to
+// reach.
 // In GLSL only shaders that define RT_FULL have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
@@ -21,6 +22,7 @@ RT_FN Passage noPassage() {
     p.begin = vec3(0.0f);
     p.entry[0] = vec3(0.0f);
     p.entry[1] = vec3(0.0f);
+    p.bounce = vec3(0.0f);
     p.leave[0] = vec3(0.0f);
     p.leave[1] = vec3(0.0f);
     p.end = vec3(0.0f);
@@ -102,15 +104,13 @@ RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) para
 
 struct ConnectionPair {
     RefractionPair angles;
-    vec3 along;       // unit, from the vertex to the centre
-    vec3 aside;       // unit, across it, towards the light's end; away from it where the sphere reflects
-    vec3 axis;        // across both, as long as the sine of the angle between them
-    float inverseEta; // SmoothSphere::inverseEta
-    uint reflects;    // SmoothSphere::reflects
+    vec3 along; // unit, from the vertex to the centre
+    vec3 aside; // unit, across it, towards the light's end; away from it where the light goes back
+    vec3 axis;  // across both, as long as the sine of the angle between them
 };
 
-// Of a sphere that reflects the one path is kOppositePath, with an infinite index, the sides changed, and the
-// supplement to turn by; see SphereRefraction.h.
+// Where light goes back to the side that it comes from, the sides are changed, and the angle to turn by is the
+// supplement; see SphereRefraction.h.
 RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, vec3 y) {
     ConnectionPair c;
     vec3 toY = y - view.center;
@@ -119,37 +119,44 @@ RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView
     c.along = view.along;
     c.axis = cross(view.along, w);
     float sine = sqrt(dot(c.axis, c.axis));
-    bool reflects = sphere.reflects != 0u;
-    c.aside = cross(c.axis, view.along) * ((reflects ? -1.0f : 1.0f) / max(sine, 1.0e-12f));
-    c.inverseEta = sphere.inverseEta;
-    c.reflects = sphere.reflects;
-    c.angles.inverseEta = reflects ? 0.0f : sphere.inverseEta;
+    float side = sphere.crossings == kRefracted ? 1.0f : -1.0f;
+    c.aside = cross(c.axis, view.along) * (side / max(sine, 1.0e-12f));
+    c.angles.inverseEta = sphere.inverseEta;
+    c.angles.crossings = sphere.crossings;
     c.angles.nearX = view.near;
     c.angles.nearY = sphere.radius * inverse;
     float cosine = dot(view.along, w);
-    c.angles.bend = vec2(reflects ? -cosine : cosine, sine);
+    c.angles.bend = vec2(side * cosine, sine);
     return c;
 }
 
+// Sum of the radius over both ends' distances, beyond which what is reflected inside might turn by more than half a
+// circle where the index is the compiler's kLeastIorInside.
+const float kNearestInside = 1.8f;
+
 // Whether both ends lie outside the sphere.
 RT_FN bool isConnectable(RT_IN(ConnectionPair) c) {
-    return c.angles.nearX < kNearestToSphere && c.angles.nearY < kNearestToSphere;
+    float together = c.angles.crossings == kReflectedInside ? kNearestInside : 2.0f;
+    return c.angles.nearX < kNearestToSphere && c.angles.nearY < kNearestToSphere &&
+           c.angles.nearX + c.angles.nearY < together;
 }
 
 // One path between the ends.
 struct SpherePath {
     vec3 atX;       // unit direction at the vertex
-    vec3 entry;     // unit normals, outward, where it meets the sphere: on the vertex's side
+    vec3 entry;     // unit normals, outward, where it meets the sphere: on the vertex's side,
+    vec3 bounce;    // where it is reflected inside,
     vec3 leave;     // and on the light's
     float fraction; // of light that goes this way
     float spread;   // solid angle at the vertex over area of the light
     float share;    // of the choice among the paths
 };
 
-// Of the light that meets the sphere, what is reflected, or is refracted twice.
-RT_FN float lightFraction(RT_IN(ConnectionPair) c, RT_IN(Refraction) r) {
-    float reflected = fresnel(max(r.incident.x, 1.0e-12f), c.inverseEta).x;
-    return c.reflects != 0u ? reflected : square(1.0f - reflected);
+// Of the light that meets the sphere, what goes this way.
+RT_FN float lightFraction(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
+    float reflected = fresnel(max(r.incident.x, 1.0e-12f), p.inverseEta).x;
+    float crossed = p.crossings == kReflectedOutside ? 1.0f : square(1.0f - reflected);
+    return p.crossings == kRefracted ? crossed : crossed * reflected;
 }
 
 // Solid angle at the vertex over area at the light, whose normal makes an angle of this cosine with the path.
@@ -164,16 +171,17 @@ RT_FN float pathSpread(RT_IN(RefractionPair) p, RT_IN(Refraction) r, float radiu
 RT_FN SpherePath pathAt(RT_IN(ConnectionPair) c, uint kind, bool exists, vec2 angle, float radius, vec3 center,
                         RT_IN(LightEnd) end, vec3 normal) {
     Refraction r = refractionAt(c.angles, angle);
-    RefractedPlaces places = refractedPlaces(r, kind, c.along, c.aside);
+    RefractedPlaces places = refractedPlaces(r, c.angles.crossings, kind, c.along, c.aside);
     SpherePath path;
     path.atX = places.atX;
     path.entry = places.entry;
-    path.leave = select(c.reflects != 0u, places.entry, places.leave);
+    path.bounce = places.bounce;
+    path.leave = places.leave;
     vec3 toEnd = end.point - (center + path.leave * radius);
     vec3 wy = toEnd * (1.0f / sqrt(max(dot(toEnd, toEnd), 1.0e-30f)));
     float facing = -dot(end.normal, wy);
     facing = max(facing, -facing * end.twoSided);
-    path.fraction = lightFraction(c, r);
+    path.fraction = lightFraction(c.angles, r);
     path.spread = pathSpread(c.angles, r, radius, facing);
     // The irradiance that it brings, weighed against scattering by the cosine.
     float receiver = isSurface(normal) ? max(dot(normal, path.atX), 0.0f) : 1.0f;
@@ -217,15 +225,18 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius +
                       sphere.error);
     vec3 entry = center + path.entry * sphere.radius;
+    vec3 bounce = center + path.bounce * sphere.radius;
     vec3 leave = center + path.leave * sphere.radius;
     p.begin = v.origin;
     p.entry[0] = offsetOrigin(entry, error, path.entry, path.entry);
     p.entry[1] = offsetOrigin(entry, error, path.entry, -path.entry);
+    p.bounce = offsetOrigin(bounce, error, path.bounce, -path.bounce);
     p.leave[0] = offsetOrigin(leave, error, path.leave, -path.leave);
     p.leave[1] = offsetOrigin(leave, error, path.leave, path.leave);
     p.end = offsetOrigin(end.point, end.error, end.normal, leave - end.point);
     p.segments = kSegmentBeyond | kSegmentBefore;
-    if (sphere.reflects == 0u) p.segments |= kSegmentInside;
+    if (sphere.crossings != kReflectedOutside) p.segments |= kSegmentInside;
+    if (sphere.crossings == kReflectedInside) p.segments |= kSegmentAgain;
     return p;
 }
 
@@ -239,16 +250,18 @@ RT_FN vec2 connectionSample(RT_IN(Sampler) smp, RT_IN(Vertex) v) {
 RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                            RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s) {
     s.chain.rate = 0.0f;
-    if (params.connectedSpheres == 0u || !connects(features, params, v)) return noPassage();
+    if (params.connectedSpheres == 0u || !connects(features, v)) return noPassage();
     float total = totalWeight(scene, params, v.origin, s.ray.time);
     if (!(total > 0.0f)) return noPassage();
-    float chance = connectionChance(total, s.last.total, s.throughput * v.bsdf.albedo);
+    float typical = loadGlobals(scene).litSpheres;
+    float chance = connectionChance(total, s.last.total, typical, s.throughput * v.bsdf.albedo);
     s.chain.rate = chance / total;
     if (!(u.roulette.y < chance)) return noPassage();
     float target = u.roulette.y / chance * total;
     ConnectionChoice choice = chooseConnection(scene, params, v.origin, s.ray.time, target);
     if (!(choice.weight > 0.0f)) return noPassage();
     RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, choice.sphere);
+    if (!isInTime(params, sphere, v)) return noPassage();
     SphereView view = viewSphere(sphere, v.origin, s.ray.time);
     LightEnd end =
         sampleEnd(features, scene, params, choice, view.center, s.ray.time, s.chain.rate, connectionSample(smp, v));
@@ -271,8 +284,10 @@ RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) pa
 RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
     bool isBeyond = (p.segments & kSegmentBeyond) != 0u;
     bool isBefore = (p.segments & kSegmentBefore) != 0u;
-    vec3 from = isBeyond ? p.leave[1] : isBefore ? p.begin : p.entry[1];
-    vec3 to = isBeyond ? p.end : isBefore ? p.entry[0] : p.leave[0];
+    bool isInside = (p.segments & kSegmentInside) != 0u;
+    bool isBounced = (p.segments & kSegmentAgain) != 0u;
+    vec3 from = isBeyond ? p.leave[1] : isBefore ? p.begin : isInside ? p.entry[1] : p.bounce;
+    vec3 to = isBeyond ? p.end : isBefore ? p.entry[0] : isInside && isBounced ? p.bounce : p.leave[0];
     vec3 segment = to - from;
     float segmentLength = length(segment);
     Ray ray;

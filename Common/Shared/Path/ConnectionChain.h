@@ -21,7 +21,7 @@ RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit
 
 // A path arrives at a surface, or in a medium, where hit.t < 0.
 RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
-    bool isSought = s.chain.state == kChainScattered || s.chain.state == kChainInside;
+    bool isSought = s.chain.state >= kChainScattered && s.chain.state < kChainBeyond;
     s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
 }
 
@@ -34,11 +34,14 @@ RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s
         s.chain.pdf = b.pdf;
     } else if (s.chain.sphere != kNone) {
         if (s.chain.state == kChainScattered && v.front != 0u) {
-            state = b.transmitted != 0u ? kChainInside : kChainReflected;
+            state = b.transmitted != 0u ? kChainInside : kChainBeyond + kReflectedOutside;
             s.chain.met = s.chain.sphere;
-        } else if (s.chain.state == kChainInside && b.transmitted != 0u && v.front == 0u &&
-                   s.chain.met == s.chain.sphere) {
-            state = kChainBeyond;
+        } else if (s.chain.state != kChainScattered && v.front == 0u && s.chain.met == s.chain.sphere) {
+            bool isAgain = s.chain.state == kChainInsideAgain;
+            if (b.transmitted != 0u)
+                state = kChainBeyond + (isAgain ? kReflectedInside : kRefracted);
+            else if (!isAgain)
+                state = kChainInsideAgain;
         }
     }
     s.chain.state = state;
@@ -47,12 +50,11 @@ RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s
 // The element of smoothSpheres for what the path's chain has met, and how; kNone: there is none.
 RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(SphereChain) chain) {
     RT_IN(SmoothSphere) met = loadSmoothSphere(scene, chain.met);
-    uint reflects = chain.state == kChainReflected ? 1u : 0u;
+    uint crossings = chain.state - kChainBeyond;
     for (uint k = chain.met; k < params.connectedSpheres; k++) {
         RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
-        if (sphere.primitive == met.primitive && sphere.instance == met.instance && sphere.reflects == reflects) {
-            return k;
-        }
+        bool isMet = sphere.primitive == met.primitive && sphere.instance == met.instance;
+        if (isMet && sphere.crossings == crossings) return k;
     }
     return kNone;
 }
@@ -125,11 +127,13 @@ RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) p
     vec3 moment = cross(s.ray.origin - view.center, s.ray.direction);
     float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
     Refraction r = refractionAt(c.angles, angleOfSine(sine));
-    bool isOpposite = c.reflects != 0u || dot(moment, c.axis) > 0.0f;
+    // The path turns about the moment, which the axis is along where both pass the centre on the side away from y.
+    float side = c.angles.crossings == kRefracted ? 1.0f : -1.0f;
+    bool isOpposite = c.angles.crossings == kReflectedOutside || side * dot(moment, c.axis) > 0.0f;
     uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
     if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
     float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(met.normal, s.ray.direction)));
-    float scattering = s.chain.pdf * lightFraction(c, r);
+    float scattering = s.chain.pdf * lightFraction(c.angles, r);
     return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));
 }
 

@@ -68,18 +68,23 @@ RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, floa
     return sum;
 }
 
-// Connections leave from diffuse surfaces, rough ones and media, while the path may still be long enough.
-RT_FN bool connects(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
-    bool isWide = v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
-    return isWide && v.index + 1u + kPassageVertices <= params.maxDepth;
+// Connections leave from diffuse surfaces, rough ones and media.
+RT_FN bool connects(uint features, RT_IN(Vertex) v) {
+    return v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
+}
+
+// Whether a path may be long enough for a connection from v: where it enters, is reflected and leaves, and the light.
+RT_FN bool isInTime(RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, RT_IN(Vertex) v) {
+    return v.index + sphere.crossings + 3u <= params.maxDepth;
 }
 
 // Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
-// directly contribute `direct`, by a path of this throughput: as much as it can matter.
-const float kConnectionGain = 2.0f;
+// directly contribute `direct`, by a path of this throughput: as much as it can matter. Elsewhere in the picture there is
+// light of about `typical`, which noise in shadow is small beside.
+const float kConnectionGain = 4.0f;
 
-RT_FN float connectionChance(float total, float direct, vec3 throughput) {
-    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct)), 1.0f);
+RT_FN float connectionChance(float total, float direct, float typical, vec3 throughput) {
+    return min(kConnectionGain * maxComponent(throughput) * (total / (total + direct + typical)), 1.0f);
 }
 
 struct ConnectionChoice {
