@@ -23,7 +23,6 @@ bug 'a sky that turns the other way' Sky.h 's/turn\.x \* d\.x \+ turn\.y \* d\.z
 bug 'weight of multiple importance sampling' Sampling.h 's/square\(pdfB \/ pdfA\)/pdfB \/ pdfA/' image.Irradiance
 bug 'Russian roulette without its weight' PathStep.h 's/s\.throughput \/= probability;//' image.Furnace
 bug 'the side on which light reflected inside glass comes back' ConnectionChain.h 's/ \|\| side \* dot\(moment/ || dot(moment/' unit.Connection
-bug 'light through glass that is reflected inside' Connection.h 's/ \? crossed : crossed \* reflected;/ ? crossed : reflected;/' unit.Connection
 bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth\);/return transmittance(0.5f * depth);/' image.Transmittance
 
 # ---- materials, media, textures --------------------------------------------------------------------------------------
