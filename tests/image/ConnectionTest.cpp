@@ -242,8 +242,8 @@ double relativeVariance(const std::vector<image::Image>& images) {
     return sum / double(values);
 }
 
-// What a ball of glass reflects, outside or inside, is a seventh of the light that goes on from it, and a third and more
-// of the noise where refraction alone is connected to.
+// What a ball of glass reflects, outside or inside, is a seventh of the light that goes on from it, and a third and
+// more of the noise where refraction alone is connected to.
 TEST(Connection, WhatGlassReflectsIsConnectedTo) {
     const auto scene = app::compile(findBuiltinScene("rest-of-life-cornell-box-glass"), true, true);
     ASSERT_EQ(scene->smoothSpheres.size(), 3u);

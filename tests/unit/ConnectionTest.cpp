@@ -114,7 +114,7 @@ class Scattered {
         const dvec3 direction = test::coneDirection(c_, u);
         return traced(test::traceThrough(c_.x, direction, c_.eta), kRefracted, u, weighed) +
                traced(test::traceOff(c_.x, direction, c_.eta), kReflectedOutside, u, weighed) +
-               traced(test::traceBack(c_.x, direction, c_.eta), kReflectedInside, u, weighed);
+               traced(test::traceThrough(c_.x, direction, c_.eta, 1), kReflectedInside, u, weighed);
     }
 
     // One sample of that light by connections.

@@ -39,30 +39,23 @@ inline bool meetSphere(const dvec3& x, const dvec3& direction, dvec3& entry) {
     return true;
 }
 
-inline Traced traceThrough(const dvec3& x, const dvec3& direction, double eta) {
+// Refracted where it enters and where it leaves, and reflected inside so many times in between.
+inline Traced traceThrough(const dvec3& x, const dvec3& direction, double eta, int reflections = 0) {
     dvec3 entry;
     if (eta == kMirror || !meetSphere(x, direction, entry)) return {};
     const double c = -glm::dot(direction, entry);
     const double t = std::sqrt(1 - (1 - c * c) / (eta * eta));
-    const dvec3 inside = direction / eta + entry * (c / eta - t);
-    const dvec3 leave = entry - 2 * glm::dot(inside, entry) * inside;
-    const double kept = 1 - reflectance(c, t, eta);
-    return {leave, glm::normalize(eta * inside - leave * (eta * t - c)), kept * kept};
-}
-
-// Refracted, reflected inside once, and refracted again.
-inline Traced traceBack(const dvec3& x, const dvec3& direction, double eta) {
-    dvec3 entry;
-    if (eta == kMirror || !meetSphere(x, direction, entry)) return {};
-    const double c = -glm::dot(direction, entry);
-    const double t = std::sqrt(1 - (1 - c * c) / (eta * eta));
-    const dvec3 inside = direction / eta + entry * (c / eta - t);
-    const dvec3 bounce = entry - 2 * glm::dot(inside, entry) * inside;
-    const dvec3 back = inside - 2 * glm::dot(inside, bounce) * bounce;
-    const dvec3 leave = bounce - 2 * glm::dot(back, bounce) * back;
+    const auto across = [](const dvec3& from, const dvec3& along) { return from - 2 * glm::dot(along, from) * along; };
+    dvec3 inside = direction / eta + entry * (c / eta - t);
+    dvec3 leave = across(entry, inside);
     const double reflected = reflectance(c, t, eta);
-    const double left = (1 - reflected) * (1 - reflected) * reflected;
-    return {leave, glm::normalize(eta * back - leave * (eta * t - c)), left};
+    double left = (1 - reflected) * (1 - reflected);
+    for (int i = 0; i < reflections; ++i) {
+        inside -= 2 * glm::dot(inside, leave) * leave;
+        leave = across(leave, inside);
+        left *= reflected;
+    }
+    return {leave, glm::normalize(eta * inside - leave * (eta * t - c)), left};
 }
 
 inline Traced traceOff(const dvec3& x, const dvec3& direction, double eta) {

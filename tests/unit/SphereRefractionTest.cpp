@@ -1,4 +1,5 @@
-// Paths that a sphere of glass refracts twice, and reflects inside in between or not, against Snell's law and rays traced in double precision.
+// Paths that a sphere of glass refracts twice, and reflects inside in between or not, against Snell's law and rays
+// traced in double precision.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +23,6 @@ using test::coneSolidAngle;
 using test::Constellation;
 using test::LightQuad;
 using test::Mean;
-using test::traceBack;
 using test::Traced;
 using test::traceThrough;
 using test::Uniforms;
@@ -120,7 +120,7 @@ TEST(SphereRefraction, PathsObeySnellsLaw) {
             ASSERT_NEAR(r.turnAt(i), expected, tolerance) << "kind " << kind << ", slope " << at.slope << ", " << r;
             if (std::abs(at.slope) < 0.1f || r.nearX > 0.9) continue;
             const dvec3 direction = glm::normalize(dvec3(places.atX));
-            const Traced ray = r.isBack() ? traceBack(x, direction, r.eta) : traceThrough(x, direction, r.eta);
+            const Traced ray = traceThrough(x, direction, r.eta, r.isBack() ? 1 : 0);
             ASSERT_GT(ray.left, 0);
             ASSERT_LT(glm::length(ray.origin - dvec3(places.leave)), 1e-3);
             const dvec3 toY = y - ray.origin;

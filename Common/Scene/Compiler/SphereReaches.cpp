@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "Common/Shared/Light/LightContribution.h"
+#include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
 
 namespace rt::scene {
@@ -84,11 +85,8 @@ struct Ends {
 // Of the light that meets a sphere of glass at an angle of incidence with this sine, what goes on after its crossings.
 double fractionAt(double sine, double inverseEta, std::uint32_t crossings) {
     const double cosine = std::sqrt(1 - sine * sine);
-    const auto reflected =
-        static_cast<double>(shared::fresnel(static_cast<float>(cosine), static_cast<float>(inverseEta)).x);
-    const double crossed = (1 - reflected) * (1 - reflected);
-    if (crossings == shared::kRefracted) return crossed;
-    return crossings == shared::kReflectedOutside ? reflected : crossed * reflected;
+    const float reflected = shared::fresnel(static_cast<float>(cosine), static_cast<float>(inverseEta)).x;
+    return static_cast<double>(shared::fractionAfter(crossings, reflected));
 }
 
 // The sine of the angle of incidence in the middle of one of kSteps parts of the light that falls on a sphere.
@@ -163,7 +161,7 @@ std::vector<shared::SphereReach> findReaches(shared::SmoothSphere& sphere, const
         const bool isSky = light.skyPatch != shared::kNone;
         const shared::LightBound& bound = scene.lightBounds[light.light];
         shared::SphereReach reach = isSky ? reachOf(sky.patches[light.skyPatch]) : reachOf(sphere, bound);
-        if (sphere.crossings != shared::kRefracted) reach.axis = -reach.axis;
+        reach.axis *= shared::sideAfter(sphere.crossings);
         reach.weight = static_cast<float>(light.irradiance);
         reach.light = light.light;
         reach.skyPatch = light.skyPatch;

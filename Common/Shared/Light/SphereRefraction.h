@@ -33,6 +33,17 @@ RT_FN vec2 angleOfSine(float sine) {
     return vec2(sqrt(max((1.0f - sine) * (1.0f + sine), 0.0f)), sine);
 }
 
+// 1 where light goes on to the other side of the sphere, -1 where it goes back to the side that it comes from.
+RT_FN float sideAfter(uint crossings) {
+    return crossings == kRefracted ? 1.0f : -1.0f;
+}
+
+// Of the light that meets the sphere, what goes on after its crossings where this fraction is reflected.
+RT_FN float fractionAfter(uint crossings, float reflected) {
+    float crossed = crossings == kReflectedOutside ? 1.0f : square(1.0f - reflected);
+    return crossings == kRefracted ? crossed : crossed * reflected;
+}
+
 // What the paths from x to y depend on.
 struct RefractionPair {
     float inverseEta; // index outside over inside, < 1

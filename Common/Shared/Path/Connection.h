@@ -119,7 +119,7 @@ RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView
     c.along = view.along;
     c.axis = cross(view.along, w);
     float sine = sqrt(dot(c.axis, c.axis));
-    float side = sphere.crossings == kRefracted ? 1.0f : -1.0f;
+    float side = sideAfter(sphere.crossings);
     c.aside = cross(c.axis, view.along) * (side / max(sine, 1.0e-12f));
     c.angles.inverseEta = sphere.inverseEta;
     c.angles.crossings = sphere.crossings;
@@ -154,9 +154,7 @@ struct SpherePath {
 
 // Of the light that meets the sphere, what goes this way.
 RT_FN float lightFraction(RT_IN(RefractionPair) p, RT_IN(Refraction) r) {
-    float reflected = fresnel(max(r.incident.x, 1.0e-12f), p.inverseEta).x;
-    float crossed = p.crossings == kReflectedOutside ? 1.0f : square(1.0f - reflected);
-    return p.crossings == kRefracted ? crossed : crossed * reflected;
+    return fractionAfter(p.crossings, fresnel(max(r.incident.x, 1.0e-12f), p.inverseEta).x);
 }
 
 // Solid angle at the vertex over area at the light, whose normal makes an angle of this cosine with the path.

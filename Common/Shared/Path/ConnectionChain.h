@@ -128,7 +128,7 @@ RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) p
     float sine = min(sqrt(dot(moment, moment)) / sphere.radius, 1.0f);
     Refraction r = refractionAt(c.angles, angleOfSine(sine));
     // The path turns about the moment, which the axis is along where both pass the centre on the side away from y.
-    float side = c.angles.crossings == kRefracted ? 1.0f : -1.0f;
+    float side = sideAfter(c.angles.crossings);
     bool isOpposite = c.angles.crossings == kReflectedOutside || side * dot(moment, c.axis) > 0.0f;
     uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
     if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;

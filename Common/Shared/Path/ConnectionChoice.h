@@ -79,8 +79,8 @@ RT_FN bool isInTime(RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, RT_I
 }
 
 // Probability with which a connection is attempted where the lights through spheres weigh `total` and those seen
-// directly contribute `direct`, by a path of this throughput: as much as it can matter. Elsewhere in the picture there is
-// light of about `typical`, which noise in shadow is small beside.
+// directly contribute `direct`, by a path of this throughput: as much as it can matter. Elsewhere in the picture there
+// is light of about `typical`, which noise in shadow is small beside.
 const float kConnectionGain = 4.0f;
 
 RT_FN float connectionChance(float total, float direct, float typical, vec3 throughput) {
