@@ -77,4 +77,7 @@ function(rt_set_kernel_options source isa)
         set(options.x86_64_v4 -march=x86-64-v4 -mprefer-vector-width=256)
     endif()
     set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "${options};${options.${isa}}")
+    if(NOT RT_SANITIZE) # in one piece a kernel with the sanitizers' checks takes compilers a quarter of an hour
+        set_source_files_properties(${source} PROPERTIES COMPILE_DEFINITIONS RT_KERNEL)
+    endif()
 endfunction()

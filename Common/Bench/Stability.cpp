@@ -366,7 +366,6 @@ class StabilitySuite {
             double nonfinite = 0;
             for (const auto sampling : {app::LightSampling::Mis, app::LightSampling::MisBalance,
                                         app::LightSampling::Mixture, app::LightSampling::Bsdf}) {
-                if (sampling != app::LightSampling::Mis && !options_.everyEstimator) continue;
                 app::RenderSettings settings;
                 settings.lightSampling = sampling;
                 nonfinite += static_cast<double>(render(*compiled(id), 64, settings).nonfinite);

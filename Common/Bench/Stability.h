@@ -21,7 +21,6 @@ struct StabilityRow {
 struct StabilityOptions {
     bool thorough = false;                             // 10^6 samples per pixel where sums are accumulated, else 10^5
     std::function<void(const StabilityRow&)> measured; // called with each row as it is known; may be empty
-    bool everyEstimator = true; // for scenes that are hard on weights; else multiple importance sampling alone
 };
 
 // Leaves the engine with another scene and film.

@@ -207,7 +207,8 @@ TEST_P(AnalyticTest, WhiteMediaAreInvisibleInAWhiteSky) {
 
 // Every shadow ray ends at a wall that it may graze.
 TEST_P(AnalyticTest, EmittersDoNotShadowThemselves) {
-    app::RenderSettings settings = smallSettings(16, 4096);
+    // Of long paths: a sixteenth of the nightly samples at every change.
+    app::RenderSettings settings = smallSettings(16, isNightly(GetParam()) ? 4096 : 256);
     for (const char* id : {"furnace", "furnace-mixed"}) {
         const SceneDesc desc = findBuiltinScene(id);
         GpuRenders renders(desc);

@@ -40,13 +40,14 @@ class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
     }
     std::unique_ptr<app::Engine> engine_;
 };
-INSTANTIATE_TEST_SUITE_P(Engines, CostTest, kBothEngines, engineName);
+INSTANTIATE_TEST_SUITE_P(Engines, CostTest, kFirstEngine, engineName);
+INSTANTIATE_TEST_SUITE_P(Nightly, CostTest, kSecondEngine, engineName);
 INSTANTIATE_TEST_SUITE_P(Queries, CostTest, ::testing::Values(app::GpuEngineKind::Query), engineName);
 
 TEST_P(CostTest, RaysAreThoseOfTheRender) {
     app::RenderSettings s = settings();
-    // Drivers take long over the samplers by projected solid angle: one of the engines has to do.
-    if (GetParam() == app::GpuEngineKind::Compute) s.sphereLight = s.quadLight = app::ShapeSampling::Projected;
+    // Drivers take long over the samplers by projected solid angle.
+    if (isNightly(GetParam())) s.sphereLight = s.quadLight = app::ShapeSampling::Projected;
     if (!start(s)) return;
     while (!engine_->renderSome({}).finished) continue;
     const app::RayCounts rays = engine_->report().rays;

@@ -140,10 +140,8 @@ std::vector<image::Image> independentImages(app::Engine& engine, const scene::Co
     return independentImages(engine, scene, settings, firstSeed);
 }
 
-void expectStability(app::Engine& engine, bool everyEstimator) {
-    bench::StabilityOptions options;
-    options.everyEstimator = everyEstimator;
-    const auto rows = bench::measureStability(engine, options);
+void expectStability(app::Engine& engine) {
+    const auto rows = bench::measureStability(engine);
     EXPECT_GE(rows.size(), 40u);
     for (const bench::StabilityRow& row : rows)
         EXPECT_TRUE(row.pass) << row.name << ", " << row.engine << ": " << row.value << ", must be " << row.criterion;

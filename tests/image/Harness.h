@@ -44,9 +44,8 @@ Estimate render(const SceneDesc& desc, const app::RenderSettings& settings);
 // Every way of sampling lights and pixels.
 std::vector<app::RenderSettings> allEstimators(const app::RenderSettings& base);
 
-// Asserts the rows of the stability suite that ray-tracing-bench prints, by every estimator or not. What they can
-// detect is in their criteria.
-void expectStability(app::Engine& engine, bool everyEstimator = true);
+// Asserts the rows of the stability suite that ray-tracing-bench prints. What they can detect is in their criteria.
+void expectStability(app::Engine& engine);
 
 // Asserts that the depth of a pixel is the mean over the samples that hit something: of a square before the sky, whose
 // edges go through pixels; and that rows alone are those of the image.

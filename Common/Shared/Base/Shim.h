@@ -1,9 +1,9 @@
 // The one place where C++ and GLSL differ, but for SceneAccess.h. Every other header of Common/Shared is valid as C++20
 // and as GLSL 460 (scalar block layout) alike; what the common subset may not use is listed in docs/shared-code.md.
 //
-//   RT_FN            prefix of every function: internal linkage and forced inlining in C++, nothing in GLSL. Internal
-//                    linkage keeps the copies compiled for different instruction sets apart.
-//   RT_CALL          the same for a function that is worth a call: never inlined in C++.
+//   RT_FN            prefix of every function: internal linkage in C++, which keeps the copies compiled for different
+//                    instruction sets apart, and forced inlining in kernels; nothing in GLSL.
+//   RT_CALL          the same for a function that is worth a call: never inlined in kernels.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
 //   RT_FULL          not defined where the code of few scenes and settings is left out: in shaders but those variants
@@ -30,12 +30,12 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#if defined(_MSC_VER) && !defined(__clang__)
+#if !defined(RT_KERNEL) // elsewhere what is inlined by force doubles the time that compilers take
+#define RT_FN [[maybe_unused]] static inline
+#define RT_CALL [[maybe_unused]] static
+#elif defined(_MSC_VER) && !defined(__clang__)
 #define RT_FN static __forceinline
 #define RT_CALL static __declspec(noinline)
-#elif defined(RT_SANITIZED) // in one piece a kernel with the sanitizers' checks takes compilers a quarter of an hour
-#define RT_FN [[maybe_unused]] static
-#define RT_CALL [[maybe_unused]] static
 #else
 #define RT_FN [[maybe_unused, gnu::always_inline]] static inline
 #define RT_CALL [[maybe_unused, gnu::noinline]] static
