@@ -16,6 +16,7 @@ using shared::FilmSum;
 using shared::kTilePixels;
 using shared::vec3;
 
+static_assert(shared::kReuseSide == 2); // numbersBetween() looks at two rows
 static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && Film::kTilePixels == kTilePixels);
 
 constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
@@ -41,11 +42,13 @@ void appendTriples(std::span<const float> values, std::vector<vec3>& triples) {
 
 } // namespace
 
-DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles)
+DeviceFilm::DeviceFilm(vulkan::VulkanContext& context, const image::FilmDesc& desc, std::uint32_t tiles,
+                       bool sharesPaths)
     : context_(context),
       desc_(desc),
       tilesX_((desc.width + shared::kTile - 1) / shared::kTile),
-      capacity_(tiles * desc.replicates) {
+      capacity_(tiles * desc.replicates),
+      sharesPaths_(sharesPaths) {
     const VkDeviceSize pixels = VkDeviceSize{capacity_} * kTilePixels;
     const auto make = [&](VkDeviceSize bytes) {
         return vulkan::Buffer(context.memory(), bytes, 0, vulkan::Memory::Device, "the film");
@@ -70,7 +73,6 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
     samples_.assign(count * desc_.replicates, 0);
     stepSamples_ = 0;
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) stepSamples_ += pixelsInside(slot);
-    activeSlots_ = slotCount();
     if (film.hasPlan()) loadPlan(film);
     bool fresh = true;
     for (const std::uint32_t tile : tiles_) fresh = fresh && film.samples(tile) == 0;
@@ -99,7 +101,6 @@ void DeviceFilm::load(const Film& film, const image::TileList& tiles, std::size_
         open.clear();
     }
     uploadCounts();
-    leaveOutDone();
 }
 
 void DeviceFilm::uploadCounts() {
@@ -112,15 +113,14 @@ void DeviceFilm::uploadCounts() {
 void DeviceFilm::loadPlan(const Film& film) {
     squares_ = {};
     plan_.clear();
-    planEnds_.clear();
     for (std::uint32_t slot = 0; slot < slotCount(); ++slot) {
         const auto plan = film.plan(tiles_[slot / desc_.replicates], slot % desc_.replicates);
         plan_.insert(plan_.end(), plan.begin(), plan.end());
-        planEnds_.push_back(film.planEnd(tiles_[slot / desc_.replicates], slot % desc_.replicates));
     }
     if (!planBuffer_) {
         const VkDeviceSize bytes = VkDeviceSize{capacity_} * kTilePixels * sizeof(std::uint32_t);
         planBuffer_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::Device, "the film");
+        starts_ = vulkan::Buffer(context_.memory(), bytes, 0, vulkan::Memory::Device, "the film");
     }
     vulkan::upload(context_, planBuffer_, std::as_bytes(std::span(plan_)));
 }
@@ -198,13 +198,10 @@ app::TilesToPack DeviceFilm::take(ReadBackPool& readBacks) const {
 
 void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::uint32_t width) const {
     launch.samples = samplesBuffer_.address();
-    launch.sums = sums_.address();
-    launch.squares = squares_.address();
-    launch.open = open_.address();
     launch.plan = planBuffer_.address();
+    launch.starts = starts_.address();
     launch.replicates = desc_.replicates;
     launch.filmSlots = slotCount();
-    launch.activeSlots = activeSlots_;
     launch.bandSlots = bandSlots();
     launch.firstSlot = first;
     launch.bandWidth = width;
@@ -213,6 +210,11 @@ void DeviceFilm::describe(shared::FilmLaunch& launch, std::uint32_t first, std::
                    : desc_.adaptive ? shared::kKeepsSampleSquares
                    : squares_       ? shared::kKeepsBlockSquares
                                     : 0u;
+    if (sharesPaths_) launch.flags |= shared::kSharesPaths;
+}
+
+shared::ReduceLaunch DeviceFilm::reductionOf(const shared::FilmLaunch& launch) const {
+    return {.film = launch, .sums = sums_.address(), .squares = squares_.address(), .open = open_.address()};
 }
 
 bool DeviceFilm::isImage() const {
@@ -221,24 +223,7 @@ bool DeviceFilm::isImage() const {
 
 std::uint32_t DeviceFilm::bandSlots() const {
     constexpr std::uint32_t kBands = 37; // a prime, so that the bands of hardly any image begin all at one column
-    return isWhole() ? (activeSlots_ + kBands - 1) / kBands : activeSlots_;
-}
-
-void DeviceFilm::leaveOutDone() {
-    if (!hasPlan()) return;
-    std::uint32_t active = activeSlots_;
-    while (active > 1 && samples_[active - 1] >= planEnds_[active - 1]) --active;
-    active = (active + desc_.replicates - 1) / desc_.replicates * desc_.replicates; // whole tiles
-    constexpr std::uint32_t kPart = 8; // an eighth at least: paths under way have to end before the bands change
-    if (activeSlots_ - active >= activeSlots_ / kPart) activeSlots_ = active;
-}
-
-std::uint32_t DeviceFilm::stepsOfHalf() const {
-    const std::uint32_t first = activeSlots_ / desc_.replicates / 2 * desc_.replicates;
-    std::uint32_t steps = 0;
-    for (std::uint32_t slot = first; slot < activeSlots_; ++slot)
-        steps = std::max(steps, std::max(planEnds_[slot], samples_[slot]) - samples_[slot]);
-    return steps;
+    return isWhole() ? (slotCount() + kBands - 1) / kBands : slotCount();
 }
 
 std::uint32_t DeviceFilm::pixelsInside(std::uint32_t slot) const {
@@ -252,15 +237,26 @@ std::uint64_t DeviceFilm::tileSamples(std::uint32_t tile) const {
     return std::accumulate(first, first + desc_.replicates, std::uint64_t{0});
 }
 
-std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
-    std::uint64_t added = 0;
+// Of `count` of a slot, the samples that its pixels have and those that the launch takes them to.
+template <class Count>
+std::uint64_t DeviceFilm::sumOverSlots(const shared::FilmLaunch& launch, const Count& count) const {
+    std::uint64_t sum = 0;
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot >= launch.activeSlots) continue;
-        const std::uint32_t reached = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
-        added += samplesBetween(slot, samples_[slot], reached);
+        if (slot >= slotCount()) continue;
+        sum += count(slot, samples_[slot], shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]));
     }
-    return added;
+    return sum;
+}
+
+std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
+    return sumOverSlots(launch, [this](auto... slot) { return samplesBetween(slot...); });
+}
+
+std::uint32_t DeviceFilm::numbersOf(const shared::FilmLaunch& launch) const {
+    std::uint64_t numbers = std::uint64_t{launch.slotCount} * launch.steps * kTilePixels;
+    if (hasPlan()) numbers = sumOverSlots(launch, [this](auto... slot) { return numbersBetween(slot...); });
+    return static_cast<std::uint32_t>(std::min<std::uint64_t>(numbers, ~0u));
 }
 
 // Of the slot's pixels inside of the image, of the indices from `from` to `to`, that excluded.
@@ -270,6 +266,21 @@ std::uint64_t DeviceFilm::samplesBetween(std::uint32_t slot, std::uint32_t from,
     const auto first = plan_.begin() + std::ptrdiff_t{slot} * kTilePixels;
     std::for_each(first, first + kTilePixels, [&](std::uint32_t end) { samples += std::clamp(end, from, to) - from; });
     return samples;
+}
+
+// As SampleList.comp counts them: of a group that shares, each pixel has as many as any of them.
+std::uint64_t DeviceFilm::numbersBetween(std::uint32_t slot, std::uint32_t from, std::uint32_t to) const {
+    if (!sharesPaths_) return samplesBetween(slot, from, to);
+    std::uint64_t numbers = 0;
+    const std::uint32_t* const plan = &plan_[std::size_t{slot} * kTilePixels];
+    for (std::uint32_t y = 0; y < shared::kTile; y += shared::kReuseSide)
+        for (std::uint32_t x = 0; x < shared::kTile; x += shared::kReuseSide) {
+            const std::uint32_t* const above = plan + y * shared::kTile + x;
+            const std::uint32_t* const below = above + shared::kTile;
+            const std::uint32_t end = std::max({above[0], above[1], below[0], below[1]});
+            numbers += std::uint64_t{shared::kReuseGroup} * (std::clamp(end, from, to) - from);
+        }
+    return numbers;
 }
 
 std::uint64_t DeviceFilm::stepSamples() const {
@@ -283,7 +294,7 @@ std::uint64_t DeviceFilm::stepSamples() const {
 void DeviceFilm::advance(const shared::FilmLaunch& launch) {
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot < launch.activeSlots)
+        if (slot < slotCount())
             samples_[slot] = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
     }
 }

@@ -38,6 +38,7 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <RayTracing.rchit.h>
 #include <RayTracing.rgen.h>
 #include <RayTracing.rmiss.h>
+#include <SampleList.comp.h>
 
 } // namespace
 
@@ -105,6 +106,8 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return RayTracing_Procedural_rint;
         case Shader::FilmReduce:
             return FilmReduce_comp;
+        case Shader::SampleList:
+            return SampleList_comp;
         case Shader::FilmResolve:
             return FilmResolve_comp;
         case Shader::PreviewVertex:

@@ -36,6 +36,7 @@ enum class Shader {
     SphereHit,
     SphereIntersection,
     FilmReduce,
+    SampleList,
     FilmResolve,
     PreviewVertex,
     PreviewFragment,

@@ -35,18 +35,6 @@ namespace {
 using image::Film;
 using vulkan::Memory;
 
-// Where there is a plan, tiles that it gives many samples come first, so that launches can leave out the others when
-// these are done.
-image::TileList inOrder(const Film& film, image::TileList tiles) {
-    const auto endOf = [&film](std::uint32_t tile) {
-        std::uint32_t end = 0;
-        for (std::uint32_t r = 0; r < film.desc().replicates; ++r) end = std::max(end, film.planEnd(tile, r));
-        return end;
-    };
-    if (film.hasPlan()) std::ranges::stable_sort(tiles, std::ranges::greater{}, endOf);
-    return tiles;
-}
-
 class GpuEngine final : public app::Engine {
   public:
     GpuEngine(vulkan::VulkanContext& context, const GpuEngineOptions& options)
@@ -54,7 +42,7 @@ class GpuEngine final : public app::Engine {
           options_(options),
           cache_(context, options.pipelineCache ? vulkan::pipelineCacheFile(context) : ""),
           engine_(options.engine),
-          bindings_(context, engine_, std::max(sizeof(shared::FilmLaunch), sizeof(shared::PixelLaunch))),
+          bindings_(context, engine_, std::max(sizeof(shared::PathLaunch), sizeof(shared::PixelLaunch))),
           uniforms_(context.memory(), sizeof(shared::RenderConstants), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                     Memory::Device, "constants"),
           launches_(context, cache_, {.invocations = maxInvocations(context, engine_), .samples = kMaxSamples}),
@@ -90,7 +78,7 @@ class GpuEngine final : public app::Engine {
     void uploadConstants(const scene::CameraDesc& camera);
     bool beginPass(const std::atomic<bool>* cancel);
     void launchNext();
-    void beginLaunch(const shared::FilmLaunch& launch);
+    void beginLaunch(shared::FilmLaunch launch);
     void finishPaths();
     void endLaunch();
     void endLaunches();
@@ -201,7 +189,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
 
 void GpuEngine::setFilm(Film film) {
     film_ = std::move(film);
-    tiles_ = inOrder(film_, image::allTiles(film_));
+    tiles_ = image::allTiles(film_);
     limit_.reset();
     loadTiles();
 }
@@ -209,7 +197,7 @@ void GpuEngine::setFilm(Film film) {
 void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<const std::byte> packed) {
     if (dirty_) refresh();
     image::unpackTiles(packed, film_);
-    tiles_ = inOrder(film_, std::move(tiles));
+    tiles_ = std::move(tiles);
     limit_ = spp;
     loadTiles();
 }
@@ -217,9 +205,10 @@ void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<c
 void GpuEngine::loadTiles() {
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(tiles_.size(), 1));
     const std::uint32_t tiles = std::min(count, std::max(1u, options_.regionSlots / settings_.replicates));
-    if (!region_ || !region_->fits(film_, tiles)) {
+    const bool sharesPaths = params_.pathReuse != 0;
+    if (!region_ || !region_->fits(film_, tiles, sharesPaths)) {
         region_ = nullptr; // its memory may be needed for the next one
-        region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles);
+        region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles, sharesPaths);
     }
     region_->load(film_, tiles_, 0);
     samplesDone_ = image::totalSamples(film_, tiles_);
@@ -271,10 +260,6 @@ bool GpuEngine::beginPass(const std::atomic<bool>* cancel) {
     if (begun_ >= goal_ && !limit_ && film_.isPilot()) planSamples(cancel);
     if (tiles_.empty() || begun_ >= goal_) return false;
     if (region_->first() != 0) region_->load(film_, tiles_, 0);
-    if (film_.hasPlan()) {
-        finishPaths(); // what they bring may be the last of a tile
-        region_->leaveOutDone();
-    }
     const std::uint64_t wanted = settings_.sppIsKnown ? launchSize_->samplesIn(options_.passSeconds) : 0;
     pass_ = planPass(*region_, begun_, goal_, launchSize_->suggest(), wanted, kMaxSamples);
     if (pass_->end % (shared::kBlock * settings_.replicates) != 0) region_->reserveOpenBlocks();
@@ -304,8 +289,9 @@ void GpuEngine::launchNext() {
     }
 }
 
-void GpuEngine::beginLaunch(const shared::FilmLaunch& launch) {
+void GpuEngine::beginLaunch(shared::FilmLaunch launch) {
     if (launches_.overlaps(launch)) finishPaths();
+    launch.sampleCount = region_->numbersOf(launch);
     while (!launches_.hasRoom(launch, reuse_ != nullptr)) endLaunch();
     samplesDone_ += launches_.begin(launchKernels(), *region_, launch);
     dirty_ = true;

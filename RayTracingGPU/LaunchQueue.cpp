@@ -10,16 +10,19 @@ namespace {
 
 using vulkan::Memory;
 
-static_assert(sizeof(shared::FilmLaunch) <= 128, "Vulkan promises no more push constants");
-
 constexpr VkDeviceSize kCounterBytes = VkDeviceSize{shared::kCounterLines} * shared::kCounters * sizeof(std::uint32_t);
 
 VkDeviceSize radianceBytes(const shared::FilmLaunch& launch) {
-    return VkDeviceSize{shared::launchSamples(launch)} * sizeof(shared::vec3);
+    return VkDeviceSize{launch.sampleCount} * sizeof(shared::vec3);
 }
 
 VkDeviceSize sharedBytes(const shared::FilmLaunch& launch, bool isShared) {
-    return isShared ? VkDeviceSize{shared::launchSamples(launch)} * shared::kSharedPathBytes : 0;
+    return isShared ? VkDeviceSize{launch.sampleCount} * shared::kSharedPathBytes : 0;
+}
+
+VkDeviceSize plannedBytes(const shared::FilmLaunch& launch) {
+    const bool isPlanned = (launch.flags & shared::kIsPlanned) != 0;
+    return isPlanned ? VkDeviceSize{launch.sampleCount} * sizeof(shared::PlannedSample) : 0;
 }
 
 VkDeviceSize progressBytes(std::uint64_t invocations) {
@@ -53,7 +56,8 @@ LaunchQueue::Launch::Launch(vulkan::VulkanContext& context)
 
 LaunchQueue::LaunchQueue(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache, const LaunchLimits& limits)
     : context_(context),
-      reducer_(context, cache, Shader::FilmReduce, sizeof(shared::FilmLaunch)),
+      reducer_(context, cache, Shader::FilmReduce, sizeof(shared::ReduceLaunch)),
+      lister_(context, cache, Shader::SampleList, sizeof(shared::ListLaunch)),
       limits_(limits),
       launches_{Launch(context), Launch(context)} {}
 
@@ -71,7 +75,7 @@ void LaunchQueue::prepare(std::uint64_t samples) {
 
 // No fewer than there are paths to go on with.
 std::uint32_t LaunchQueue::invocationsFor(const shared::FilmLaunch& launch) const {
-    return std::max(std::min(shared::launchSamples(launch), limits_.invocations), last_ ? invocations_ : 0);
+    return std::max(std::min(launch.sampleCount, limits_.invocations), last_ ? invocations_ : 0);
 }
 
 // Where its memory does not suffice, there is more when none of it is in use.
@@ -80,6 +84,7 @@ bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch, bool isShared) const
     const Launch& next = numbered(begun_);
     return begun_ - ended_ < launches_.size() && radianceBytes(launch) <= next.radiance.bytes() &&
            sharedBytes(launch, isShared) <= next.sharedPaths.bytes() &&
+           plannedBytes(launch) <= next.planned.bytes() &&
            progressBytes(invocationsFor(launch)) <= next.progress.bytes();
 }
 
@@ -95,53 +100,63 @@ std::uint64_t LaunchQueue::begin(const LaunchKernels& kernels, DeviceFilm& film,
     reserve(context_, next.radiance, radianceBytes(launch), limits_.samples * sizeof(shared::vec3));
     reserve(context_, next.sharedPaths, sharedBytes(launch, kernels.reuse != nullptr),
             limits_.samples * shared::kSharedPathBytes);
+    reserve(context_, next.planned, plannedBytes(launch), limits_.samples * sizeof(shared::PlannedSample));
     reserve(context_, next.progress, progressBytes(invocations), progressBytes(limits_.invocations));
     next.samples = film.samplesOf(launch);
-    shared::FilmLaunch push = launch;
-    const std::uint64_t added = submit(kernels, film, push, invocations);
-    last_ = push;
+    shared::FilmLaunch samples = launch;
+    samples.radiance = next.radiance.address();
+    const std::uint64_t added = submit(kernels, film, samples, invocations);
+    last_ = samples;
     invocations_ = invocations;
     return added;
 }
 
 std::uint64_t LaunchQueue::finish(const LaunchKernels& kernels, DeviceFilm& film) {
-    shared::FilmLaunch push = *last_;
-    push.slotCount = 0;
+    shared::FilmLaunch none = *last_;
+    none.slotCount = none.sampleCount = 0;
     numbered(begun_).samples = 0;
-    const std::uint64_t added = submit(kernels, film, push, invocations_);
+    const std::uint64_t added = submit(kernels, film, none, invocations_);
     last_.reset();
     return added;
 }
 
 // Records paths, what the samples of the launch before share, and what they add to the film.
-std::uint64_t LaunchQueue::submit(const LaunchKernels& kernels, DeviceFilm& film, shared::FilmLaunch& push,
+std::uint64_t LaunchQueue::submit(const LaunchKernels& kernels, DeviceFilm& film, const shared::FilmLaunch& samples,
                                   std::uint32_t invocations) {
     Launch& next = numbered(begun_);
     const Launch& before = numbered(begun_ + 1); // they take turns
-    push.radiance = next.radiance.address();
-    push.sharedPaths = next.sharedPaths.address();
-    push.progress = next.progress.address();
-    push.radianceBefore = before.radiance.address();
-    push.sharedPathsBefore = before.sharedPaths.address();
-    push.progressBefore = before.progress.address();
-    const vulkan::Access tracing = kernels.paths.access();
+    const shared::PathLaunch tracing{.film = samples,
+                                     .planned = next.planned.address(),
+                                     .sharedPaths = next.sharedPaths.address(),
+                                     .progress = next.progress.address(),
+                                     .radianceBefore = before.radiance.address(),
+                                     .sharedPathsBefore = before.sharedPaths.address(),
+                                     .progressBefore = before.progress.address()};
+    const vulkan::Access access = kernels.paths.access();
     next.run.begin([&](VkCommandBuffer commands) {
         vkCmdFillBuffer(commands, next.progress.get(), 0, kCounterBytes, 0);
         if (!last_) vkCmdFillBuffer(commands, before.progress.get(), 0, kCounterBytes, 0);
-        vulkan::barrier(commands, vulkan::kTransferWrite, tracing);
-        kernels.paths.launch(commands, push, invocations);
-        if (last_ && kernels.reuse != nullptr) {
-            vulkan::barrier(commands, tracing, tracing);
-            shared::FilmLaunch sharing = *last_;
-            sharing.progress = push.progress;
-            kernels.reuse->launch(commands, sharing, shared::launchSamples(sharing) / shared::kReuseGroup);
+        vulkan::barrier(commands, vulkan::kTransferWrite, access | vulkan::kComputeRead | vulkan::kComputeWrite);
+        if (plannedBytes(samples) != 0) {
+            const shared::ListLaunch listing{samples, tracing.planned, tracing.progress};
+            lister_.run(commands, listing, samples.slotCount);
+            vulkan::barrier(commands, vulkan::kComputeWrite, access | vulkan::kComputeRead);
         }
-        vulkan::barrier(commands, tracing, vulkan::kComputeRead | vulkan::kTransferRead);
-        if (last_) reducer_.run(commands, *last_, last_->slotCount);
+        kernels.paths.launch(commands, tracing, invocations);
+        if (last_ && kernels.reuse != nullptr) {
+            vulkan::barrier(commands, access, access);
+            shared::PathLaunch sharing = tracing; // whose counters it adds to
+            sharing.film = *last_;
+            sharing.planned = before.planned.address();
+            sharing.sharedPaths = before.sharedPaths.address();
+            kernels.reuse->launch(commands, sharing, last_->sampleCount / shared::kReuseGroup);
+        }
+        vulkan::barrier(commands, access, vulkan::kComputeRead | vulkan::kTransferRead);
+        if (last_) reducer_.run(commands, film.reductionOf(*last_), last_->slotCount);
         const VkBufferCopy all{0, 0, kCounterBytes};
         vkCmdCopyBuffer(commands, next.progress.get(), next.hostCounters.get(), 1, &all);
         // The next launch goes on with paths and film, and clears the counters that this one has read.
-        const vulkan::Access done = tracing | vulkan::kComputeWrite | vulkan::kTransferWrite;
+        const vulkan::Access done = access | vulkan::kComputeWrite | vulkan::kTransferWrite;
         vulkan::barrier(commands, done, context_.bufferUses() | vulkan::kHostRead);
     });
     ++begun_;

@@ -79,16 +79,18 @@ class LaunchQueue {
         vulkan::Buffer hostCounters; // a copy, when it has ended
         vulkan::Buffer radiance;
         vulkan::Buffer sharedPaths;
+        vulkan::Buffer planned; // samples, if there is a plan
         std::uint64_t samples = 0;
     };
     Launch& numbered(std::uint64_t n) { return launches_[n % launches_.size()]; }
     const Launch& numbered(std::uint64_t n) const { return launches_[n % launches_.size()]; }
     std::uint32_t invocationsFor(const shared::FilmLaunch& launch) const;
-    std::uint64_t submit(const LaunchKernels& kernels, DeviceFilm& film, shared::FilmLaunch& push,
+    std::uint64_t submit(const LaunchKernels& kernels, DeviceFilm& film, const shared::FilmLaunch& samples,
                          std::uint32_t invocations);
 
     vulkan::VulkanContext& context_;
     FilmPipeline reducer_;
+    FilmPipeline lister_; // of a plan's samples
     LaunchLimits limits_;
     std::array<Launch, 2> launches_;
     std::uint64_t begun_ = 0; // launches, numbered from 0

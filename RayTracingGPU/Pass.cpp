@@ -13,8 +13,7 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 
 // Where two launches take all pixels several samples further, they are a pass: one would have to wait for the paths of
 // the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
-// shorter than it may be. Where there is a plan, a pass ends where half of the tiles are done, and the next one leaves
-// them out. Large films go on by whole blocks.
+// shorter than it may be. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
               std::uint64_t wanted, std::uint64_t most) {
     const std::uint64_t replicates = region.replicates();
@@ -25,7 +24,6 @@ Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, 
         const std::uint64_t mostSteps = std::max<std::uint64_t>(std::min(fitting, most) / region.columnSamples(), 1);
         std::uint64_t steps =
             std::max(std::max(2 * fitting, wanted) / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
-        if (region.hasPlan()) steps = std::min<std::uint64_t>(steps, region.stepsOfHalf());
         end = begun + std::clamp<std::uint64_t>(steps, 1, mostSteps) * replicates;
     }
     end = std::min(end, spp);
@@ -35,17 +33,32 @@ Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, 
 }
 
 shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t most) {
-    const std::uint64_t room = most / (region.columnSamples() * pass.steps);
-    const std::uint64_t columns = fitting * region.bandSlots() / (pass.stepSamples * pass.steps);
     const std::uint32_t left = region.bandSlots() - pass.nextSlot;
     const std::uint32_t half = (region.bandSlots() + 1) / 2;
+    const auto launchOf = [&](std::uint32_t first, std::uint32_t width) {
+        shared::FilmLaunch launch{};
+        region.describe(launch, first, width);
+        launch.steps = pass.steps;
+        launch.spp = pass.end;
+        return launch;
+    };
+    if (region.hasPlan()) { // as many slots of each band as have so many samples together
+        constexpr std::uint64_t kPlaces = 1ull << 32; // see PlannedSample
+        const std::uint64_t numbered = kPlaces / (region.columnSamples() * pass.steps);
+        const std::uint64_t largest = std::min<std::uint64_t>({left, half, numbered});
+        std::uint64_t samples = region.numbersOf(launchOf(pass.nextSlot, 1));
+        std::uint32_t width = 1;
+        for (; width < largest; ++width) {
+            samples += region.numbersOf(launchOf(pass.nextSlot + width, 1));
+            if (samples > std::min(fitting, most)) break;
+        }
+        return launchOf(pass.nextSlot, width);
+    }
+    const std::uint64_t room = most / (region.columnSamples() * pass.steps);
+    const std::uint64_t columns = fitting * region.bandSlots() / (pass.stepSamples * pass.steps);
     const std::uint64_t width = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));
     const std::uint64_t launches = (left + width - 1) / width; // that take alike many
-    shared::FilmLaunch launch{};
-    region.describe(launch, pass.nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
-    launch.steps = pass.steps;
-    launch.spp = pass.end;
-    return launch;
+    return launchOf(pass.nextSlot, static_cast<std::uint32_t>((left + launches - 1) / launches));
 }
 
 } // namespace rt::gpu

@@ -8,7 +8,7 @@
 #include "PixelEnd.glsl"
 
 layout(local_size_x = 64) in; // the pixels of one slot
-layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
+layout(push_constant, scalar) uniform Launch { ReduceLaunch launch; };
 
 // s + x. Knuth's exact sum, renormalised; then the low word is rounded to 53 bits below the leading bit of the high
 // one, so that a double holds both.
@@ -29,16 +29,23 @@ void add(inout FilmSum s, vec3 x) {
 
 void main() {
     uint position = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-    if (position >= launch.slotCount) return;
-    uint slot = launchSlot(launch, position);
-    if (slot >= launch.activeSlots) return;
+    if (position >= launch.film.slotCount) return;
+    uint slot = launchSlot(launch.film, position);
+    if (slot >= launch.film.filmSlots) return;
     uint pixel = slot * kTilePixels + gl_LocalInvocationID.x;
-    uint done = launch.samples.at[slot];
-    uint end = samplesAfter(launch, slot % launch.replicates, done);
+    uint done = launch.film.samples.at[slot];
+    uint end = samplesAfter(launch.film, slot % launch.film.replicates, done);
     if (end == done) return;
-    bool blockSquares = (launch.flags & kKeepsBlockSquares) != 0u;
-    bool sampleSquares = (launch.flags & kKeepsSampleSquares) != 0u;
-    uint last = pixelEnd(launch, pixel, end);
+    bool blockSquares = (launch.film.flags & kKeepsBlockSquares) != 0u;
+    bool sampleSquares = (launch.film.flags & kKeepsSampleSquares) != 0u;
+    uint last = pixelEnd(launch.film, pixel, end);
+    uint number = sampleAt(launch.film, position, 0u, gl_LocalInvocationID.x); // of the pixel's first sample
+    uint distance = kTilePixels;                                               // to that of the next
+    if ((launch.film.flags & kIsPlanned) != 0u) {
+        uint start = launch.film.starts.at[pixel];
+        number = plannedAt(launch.film, start, done);
+        distance = plannedAt(launch.film, start, done + 1u) - number;
+    }
     FilmSum sum = launch.sums.at[pixel];
     FilmSum square;
     if (blockSquares || sampleSquares) square = launch.squares.at[pixel];
@@ -46,14 +53,14 @@ void main() {
     if (done % kBlock != 0u) block = launch.open.at[pixel];
     // All of a block are fetched before the first is added: a launch of few slots has many steps, whose latencies would
     // follow each other.
-    for (uint first = done; first < end;) {
+    uint closed = (max(last, done) + kBlock - 1u) / kBlock * kBlock; // blocks from here on are empty
+    for (uint first = done; first < min(closed, end);) {
         uint stop = min((first / kBlock + 1u) * kBlock, end);
         vec3 radiances[kBlock];
         [[unroll]] for (uint i = 0u; i < kBlock; i++) {
             radiances[i] = vec3(0.0f);
             if (first + i < min(stop, last))
-                radiances[i] =
-                    launch.radiance.at[sampleAt(launch, position, first + i - done, gl_LocalInvocationID.x)];
+                radiances[i] = launch.film.radiance.at[number + (first + i - done) * distance];
         }
         [[unroll]] for (uint i = 0u; i < kBlock; i++) {
             if (first + i < stop) {
@@ -73,5 +80,5 @@ void main() {
     if (blockSquares || sampleSquares) launch.squares.at[pixel] = square;
     memoryBarrierBuffer();
     barrier(); // every invocation has read the count
-    if (gl_LocalInvocationID.x == 0u) launch.samples.at[slot] = end;
+    if (gl_LocalInvocationID.x == 0u) launch.film.samples.at[slot] = end;
 }

@@ -13,7 +13,7 @@
 #include "TraceStep.glsl"
 #include "PixelEnd.glsl"
 
-layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
+layout(push_constant, scalar) uniform Launch { PathLaunch launch; };
 
 struct Work {
     uint number; // of the sample in its launch
@@ -23,28 +23,35 @@ struct Work {
     bool isResumed; // the launch before began it
 };
 
-// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with existsSample()
-// of PathReuse.glsl is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
+// Finds the sample of this number. False: there is no such pixel or sample. What it has in common with PathReuse.glsl
+// is spelled out: as a function it makes One Weekend take an H200 1.04 times as long.
 bool findWork(inout Work work) {
-    uint step = work.number / kTilePixels;
+    uint place = work.number;
+    if ((launch.film.flags & kIsPlanned) != 0u) {
+        PlannedSample planned = launch.planned.at[work.number];
+        place = planned.place;
+        work.number = planned.number;
+    }
+    uint step = place / kTilePixels;
     uint inSlot;
-    uint slot = launchSlot(launch, quotient(step, launch.steps, inSlot));
-    if (slot >= launch.activeSlots) return false;
-    uint tilePixel = work.number % kTilePixels;
+    uint slot = launchSlot(launch.film, quotient(step, launch.film.steps, inSlot));
+    if (slot >= launch.film.filmSlots) return false;
+    uint tilePixel = place % kTilePixels;
     uint replicate;
-    uint tile = quotient(slot, launch.replicates, replicate);
-    work.pixel = pixelInTile(launch.samples.at[launch.filmSlots + tile], tilePixel);
+    uint tile = quotient(slot, launch.film.replicates, replicate);
+    work.pixel = pixelInTile(launch.film.samples.at[launch.film.filmSlots + tile], tilePixel);
     if (work.pixel.x >= constants.params.width || work.pixel.y >= constants.params.height) return false;
-    uint done = launch.samples.at[slot];
+    uint done = launch.film.samples.at[slot];
     uint index = done + inSlot;
     uint pixelIndex = work.pixel.y * constants.params.width + work.pixel.x;
     work.smp = makeSampler(renderParams(), pixelIndex, replicate, index);
-    return index < pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, replicate, done));
+    return index <
+           pixelEnd(launch.film, slot * kTilePixels + tilePixel, samplesAfter(launch.film, replicate, done));
 }
 
 // False: all have been taken.
 bool takeWork(inout Work work) {
-    uint samples = launchSamples(launch);
+    uint samples = launch.film.sampleCount;
     work.isResumed = false;
     for (;;) {
         work.number = atomicAdd(launch.progress.counters[kCounterWork], 1u);
@@ -116,7 +123,7 @@ void leavePath(Work work, PathState path, DirectLight direct, Passage passage, b
 
 // What the samples of this path's launch bring, and what they share.
 MutableVectorArray radiancesOf(Work work) {
-    MutableVectorArray radiance = launch.radiance;
+    MutableVectorArray radiance = launch.film.radiance;
     if (work.isResumed) radiance = launch.radianceBefore;
     return radiance;
 }
@@ -212,7 +219,7 @@ void tracePaths(uint invocation) {
             break;
         }
         // A path goes on in the next launch, but not in a third one.
-        if (isOver && !work.isResumed && launch.slotCount != 0u) break;
+        if (isOver && !work.isResumed && launch.film.slotCount != 0u) break;
         if (tracesApart()) {
             Hit hit = traceStep(work.smp, path, direct, passage, false, nonfinite);
             goesOn = stepAlong(scene, params, work, hit, path, direct, passage);

@@ -6,33 +6,56 @@
 #include "SharedPaths.glsl"
 #include "PixelEnd.glsl"
 
-layout(push_constant, scalar) uniform Launch { FilmLaunch launch; };
+layout(push_constant, scalar) uniform Launch { PathLaunch launch; };
 
-// Whether a number stands for a sample: it has a pixel, which has not got all of its samples. To look up once what a
-// group's samples have in common took the third book's box 1.02 times as long on an H200, and others as long as this.
-bool existsSample(uint number) {
-    uint step = number / kTilePixels;
-    uint inSlot, replicate;
-    uint slot = launchSlot(launch, quotient(step, launch.steps, inSlot));
-    if (slot >= launch.activeSlots) return false;
-    uint tilePixel = number % kTilePixels;
-    uint tile = quotient(slot, launch.replicates, replicate);
-    uvec2 pixel = pixelInTile(launch.samples.at[launch.filmSlots + tile], tilePixel);
-    if (pixel.x >= constants.params.width || pixel.y >= constants.params.height) return false;
-    uint done = launch.samples.at[slot];
-    uint end = pixelEnd(launch, slot * kTilePixels + tilePixel, samplesAfter(launch, replicate, done));
-    return done + inSlot < end;
-}
+// The samples of one number of a group of pixels.
+struct SampleGroup {
+    uint slot;
+    uint tilePixel; // the upper left one
+    uint index;
+    uint number;    // of the upper left pixel's sample in its launch
+    uvec2 distance; // to the numbers of the next column and row
+};
 
-// Number of the first sample, in the upper left pixel, of those that an invocation adds to.
-uint firstOfGroup(uint step, uint group) {
+// False: it is beyond the last.
+bool findGroup(uint invocation, out SampleGroup group) {
     const uint kColumns = kTile / kReuseSide;
-    return step * kTilePixels + group / kColumns * kReuseSide * kTile + group % kColumns * kReuseSide;
+    const uint kGroups = kTilePixels / kReuseGroup;
+    if (invocation * kReuseGroup >= launch.film.sampleCount) return false;
+    uint inStep = invocation % kGroups;
+    uint place = invocation / kGroups * kTilePixels; // of the upper left pixel's sample
+    place += inStep / kColumns * kReuseSide * kTile + inStep % kColumns * kReuseSide;
+    group.number = place;
+    group.distance = uvec2(1u, kTile);
+    if ((launch.film.flags & kIsPlanned) != 0u) {
+        PlannedSample planned = launch.planned.at[invocation * kReuseGroup];
+        place = planned.place;
+        group.number = planned.number;
+        group.distance = uvec2(1u, kReuseSide);
+    }
+    uint inSlot;
+    group.slot = launchSlot(launch.film, quotient(place / kTilePixels, launch.film.steps, inSlot));
+    group.tilePixel = place % kTilePixels;
+    if (group.slot >= launch.film.filmSlots) return false;
+    group.index = launch.film.samples.at[group.slot] + inSlot;
+    return true;
 }
 
 // Of the group's sample i.
-uint numberInGroup(uint first, uint i) {
-    return first + i / kReuseSide * kTile + i % kReuseSide;
+uint numberInGroup(SampleGroup group, uint i) {
+    return group.number + i / kReuseSide * group.distance.y + i % kReuseSide * group.distance.x;
+}
+
+// Whether there is such a sample: its pixel is in the image and has not got all of its samples.
+bool existsSample(SampleGroup group, uint i) {
+    uint replicate;
+    uint tile = quotient(group.slot, launch.film.replicates, replicate);
+    uint tilePixel = group.tilePixel + i / kReuseSide * kTile + i % kReuseSide;
+    uvec2 pixel = pixelInTile(launch.film.samples.at[launch.film.filmSlots + tile], tilePixel);
+    if (pixel.x >= constants.params.width || pixel.y >= constants.params.height) return false;
+    uint done = launch.film.samples.at[group.slot];
+    uint end = samplesAfter(launch.film, replicate, done);
+    return group.index < pixelEnd(launch.film, group.slot * kTilePixels + tilePixel, end);
 }
 
 // Density with which x could have drawn y; 0 where something is between them.
@@ -54,28 +77,26 @@ float aimedRatioFrom(uint number, SharedVertex x, vec3 y) {
 }
 
 void sharePaths(uint invocation) {
-    const uint kGroups = kTilePixels / kReuseGroup;
-    uint step = invocation / kGroups; // counted through all slots
-    if (step >= launch.slotCount * launch.steps) return;
-    uint first = firstOfGroup(step, invocation % kGroups);
+    SampleGroup group;
+    if (!findGroup(invocation, group)) return;
     uint sharing = 0u; // a bit a sample
     for (uint i = 0u; i < kReuseGroup; i++) {
-        uint number = numberInGroup(first, i);
-        if (existsSample(number) && sharesVertex(launch.sharedPaths.at[4u * number + 3u].w)) sharing |= 1u << i;
+        uint number = numberInGroup(group, i);
+        if (existsSample(group, i) && sharesVertex(launch.sharedPaths.at[4u * number + 3u].w)) sharing |= 1u << i;
     }
     vec3 received[kReuseGroup]; // at the first vertices
     [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) received[k] = vec3(0.0f);
     uint rays = 0u;
     for (uint j = 0u; j < kReuseGroup; j++) {
-        uvec4 end = launch.sharedPaths.at[4u * numberInGroup(first, j) + 3u];
+        uvec4 end = launch.sharedPaths.at[4u * numberInGroup(group, j) + 3u];
         vec3 radiance = uintBitsToFloat(end.xyz);
         if ((sharing >> j & 1u) == 0u || end.w != kReuseSuffix || !(maxComponent(radiance) > 0.0f)) continue;
-        SharedVertex y = secondVertex(launch.sharedPaths, numberInGroup(first, j));
+        SharedVertex y = secondVertex(launch.sharedPaths, numberInGroup(group, j));
         vec4 densities = vec4(0.0f); // of scattering alone
         float sum = 0.0f;            // of those with which y was drawn
         for (uint k = 0u; k < kReuseGroup; k++) {
             if ((sharing >> k & 1u) == 0u) continue;
-            uint number = numberInGroup(first, k);
+            uint number = numberInGroup(group, k);
             SharedVertex x = firstVertex(launch.sharedPaths, number);
             densities[k] = densityFrom(x, y, k == j, rays);
             sum += densities[k] * aimedRatioFrom(number, x, y.position);
@@ -84,8 +105,8 @@ void sharePaths(uint invocation) {
     }
     [[unroll]] for (uint k = 0u; k < kReuseGroup; k++) {
         if ((sharing >> k & 1u) == 0u) continue;
-        uint number = numberInGroup(first, k);
-        launch.radiance.at[number] += uintBitsToFloat(launch.sharedPaths.at[4u * number + 1u].xyz) * received[k];
+        uint number = numberInGroup(group, k);
+        launch.film.radiance.at[number] += uintBitsToFloat(launch.sharedPaths.at[4u * number + 1u].xyz) * received[k];
     }
     if (rays != 0u) atomicAdd(launch.progress.counters[counterLine(invocation) + kCounterReuse], rays);
 }

@@ -120,6 +120,8 @@ const uint kCounterReuse = 6u;     // rays, of the launch before
 const uint kCounterEdgeRays = 7u;
 const uint kCounters = 8u;
 const uint kCounterLines = 64u;
+// Of line 1: samples that have been listed, see SampleList.comp.
+const uint kListed = kCounters + kCounterWork;
 // 1 when no sample is left; away from what is written often.
 const uint kSpent = (kCounterLines - 1u) * kCounters + kCounterLeft;
 
@@ -143,41 +145,68 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LaunchProgre
 };
 #endif
 
-// What a film keeps besides sums.
+// What a film keeps besides sums, and how the samples of a launch are numbered.
 const uint kKeepsBlockSquares = 1u;  // of (block sum)^2 / kBlock
 const uint kKeepsSampleSquares = 2u; // of the samples of a pilot
-const uint kIsPlanned = 4u;
+const uint kIsPlanned = 4u;          // each pixel has an end of its own
+const uint kSharesPaths = 8u;        // groups of pixels share
 
-// Push constants of a launch: some slots of each of the bands that the film's active slots are cut into, so that
-// each launch has its share of what takes long in the image. Its last paths are left to the launch that follows it; one
-// without slots takes no samples and leaves no paths.
+// A sample that a plan gives a launch.
+struct PlannedSample {
+    uint place; // sampleAt()
+    uint number;
+};
+RT_MUTABLE_ARRAY(PlannedSampleArray, PlannedSample)
+
+// The samples of a launch: of some slots of each of the bands that the film's slots are cut into, so that each launch
+// has its share of what takes long in the image.
 struct FilmLaunch {
-    MutableWordArray samples; // per slot: samples of its pixels; from filmSlots on: its tiles (packTile)
-    FilmSumArray sums;        // of closed blocks
-    FilmSumArray squares;     // if a flag says of what
-    MutableWordArray plan;    // most samples of each pixel, if kIsPlanned
-    MutableVectorArray open;  // sums of open blocks; needed only where a block is or stays open
-    MutableVectorArray radiance; // of each sample of the launch, see sampleAt()
-    SharedPathArray sharedPaths; // likewise, where params.pathReuse says so; see SharedPaths.glsl
-    LaunchProgress progress;
-    MutableVectorArray radianceBefore; // these three: of the launch before
-    SharedPathArray sharedPathsBefore;
-    LaunchProgress progressBefore;
+    MutableWordArray samples;    // per slot: samples of its pixels; from filmSlots on: its tiles (packTile)
+    MutableWordArray plan;       // most samples of each pixel, if kIsPlanned
+    MutableWordArray starts;     // likewise: see plannedAt()
+    MutableVectorArray radiance; // of each sample, by its number
     uint replicates;
     uint filmSlots;
-    uint activeSlots; // the first ones of these: the others have all that a plan gives them
     uint bandSlots;   // the last band may lack some
     uint firstSlot;   // of each band
     uint bandWidth;   // from firstSlot on
     uint slotCount;   // bandWidth times the bands
     uint steps;       // samples that the launch may take each slot further
     uint spp;         // per pixel, all replicates, at which the launch stops
+    uint sampleCount; // how many have a number, those that do not exist at the borders of the image included
     uint flags;       // kKeepsBlockSquares and so on
+};
+
+// Push constants of its paths, and of what they share. Its last paths are left to the launch that follows it; one
+// without slots takes no samples and leaves no paths.
+struct PathLaunch {
+    FilmLaunch film;
+    PlannedSampleArray planned;  // in the order in which they are traced, if kIsPlanned
+    SharedPathArray sharedPaths; // of each sample, where params.pathReuse says so; see SharedPaths.glsl
+    LaunchProgress progress;
+    MutableVectorArray radianceBefore; // these three: of the launch before
+    SharedPathArray sharedPathsBefore;
+    LaunchProgress progressBefore;
+};
+
+// Push constants of SampleList.comp.
+struct ListLaunch {
+    FilmLaunch film;
+    PlannedSampleArray planned;
+    LaunchProgress progress;
+};
+
+// Push constants of FilmReduce.comp.
+struct ReduceLaunch {
+    FilmLaunch film;
+    FilmSumArray sums;       // of closed blocks
+    FilmSumArray squares;    // if a flag says of what
+    MutableVectorArray open; // sums of open blocks; needed only where a block is or stays open
 };
 
 // Push constants of FilmResolve.comp, for a film that is whole.
 struct ResolveLaunch {
-    MutableWordArray samples; // as FilmLaunch's, and so are the next three
+    MutableWordArray samples; // as FilmLaunch's and ReduceLaunch's, and so are the next three
     FilmSumArray sums;
     MutableVectorArray open;
     MutableWordArray plan;
@@ -201,22 +230,26 @@ RT_FN uint samplesAfter(RT_IN(FilmLaunch) launch, uint replicate, uint done) {
     return max(done, min(done + launch.steps, end));
 }
 
-// Slot i of a launch, i < slotCount. There is none from activeSlots on, where the last band ends early.
+// Slot i of a launch, i < slotCount. There is none from filmSlots on, where the last band ends early.
 RT_FN uint launchSlot(RT_IN(FilmLaunch) launch, uint i) {
     uint inBand;
     uint band = quotient(i, launch.bandWidth, inBand);
     return band * launch.bandSlots + launch.firstSlot + inBand;
 }
 
-// The samples of a launch are numbered slot by slot, in each step by step, a step being one sample of each pixel: rays
-// of neighbours, which are alike, are then traced at a time. This is the number of one of slot i of the launch.
+// The samples of a launch follow each other slot by slot, in each step by step, a step being one sample of each pixel:
+// rays of neighbours, which are alike, are then traced at a time. This is the place of one of slot i of the launch, and
+// without a plan its number.
 RT_FN uint sampleAt(RT_IN(FilmLaunch) launch, uint i, uint step, uint tilePixel) {
     return (i * launch.steps + step) * kTilePixels + tilePixel;
 }
 
-// How many have a number, those that do not exist at the borders of the image included.
-RT_FN uint launchSamples(RT_IN(FilmLaunch) launch) {
-    return sampleAt(launch, launch.slotCount, 0u, 0u);
+// With a plan, which gives the pixels of a slot different numbers of samples, not every place has one. Those of a pixel
+// are then numbered one after the other, where paths are shared alternating with those of its group, so that no number
+// is without a sample and no memory without use. This is the number of the pixel's sample of this index; `start` is
+// what FilmLaunch::starts has of it.
+RT_FN uint plannedAt(RT_IN(FilmLaunch) launch, uint start, uint index) {
+    return start + index * ((launch.flags & kSharesPaths) != 0u ? kReuseGroup : 1u);
 }
 
 // A tile of the image, as samples of a film have it: its column and its row.

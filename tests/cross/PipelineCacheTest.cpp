@@ -24,7 +24,7 @@ class PipelineCacheTest : public ::testing::Test {
     // A pipeline through the cache, which is saved.
     void use() const {
         vulkan::PipelineCache cache(device(), file_);
-        const gpu::FilmPipeline reducer(device(), cache, gpu::Shader::FilmReduce, sizeof(shared::FilmLaunch));
+        const gpu::FilmPipeline reducer(device(), cache, gpu::Shader::FilmReduce, sizeof(shared::ReduceLaunch));
         cache.save();
     }
     std::string bytes() const {

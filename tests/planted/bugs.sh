@@ -39,6 +39,7 @@ bug 'boxes of the GPU that are left early' Traverse.glsl 's/leave = min\(leave, 
 # ---- film and images -------------------------------------------------------------------------------------------------
 bug 'checkpoint without squares' FilmState.cpp 's/writer\.put\(std::span\(squares_\)\);//' unit.FilmCheckpoint
 bug 'a film on the device that loses low words' FilmReduce.comp 's/precise vec3 rest = s\.low \+ error;/precise vec3 rest = error;/' cross.DeviceFilmTest
+bug 'samples of a plan that all have one number' SampleList.comp 's/plannedAt\(launch\.film, start, step\)/plannedAt(launch.film, start, 0u)/' cross.SharedOrNot/SampleListTest
 bug 'relMSE' Metrics.cpp 's/\(square\(target\) \+ kRelativeFloor\)/(std::abs(target) + kRelativeFloor)/' unit.Metrics
 bug 'an EXR whose table leads beside its rows' ExrWriter.cpp 's/kRowHead = 8/kRowHead = 4/' unit.ImageExr
 bug 'EXR attributes of any size' ExrHeader.cpp 's/fixed->bytes == size/fixed != nullptr/' unit.ImageIoHostile

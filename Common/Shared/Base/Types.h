@@ -352,6 +352,9 @@ const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones nex
 const uint kPathReuseOff = 0u;
 const uint kPathReuseScattered = 1u; // what the bsdf alone has drawn
 const uint kPathReuseAimed = 2u;     // also what is aimed at a sphere of glass, see AimedScattering.h
+// How many pixels a group has, whose samples of one number share: as many across and down.
+const uint kReuseSide = 2u;
+const uint kReuseGroup = kReuseSide * kReuseSide;
 
 struct RenderParams {
     uint width; // pixels

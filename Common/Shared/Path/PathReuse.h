@@ -15,10 +15,6 @@
 
 RT_SHARED_BEGIN
 
-// How many pixels a group has, whose samples of one number share: as many across and down.
-const uint kReuseSide = 2u;
-const uint kReuseGroup = kReuseSide * kReuseSide;
-
 // Of the roulette behind y, where throughput begins anew: paths get about as long as those that are not shared.
 const float kReuseSurvival = 0.6f;
 
