@@ -16,7 +16,6 @@ using shared::FilmSum;
 using shared::kTilePixels;
 using shared::vec3;
 
-static_assert(shared::kReuseSide == 2); // numbersBetween() looks at two rows
 static_assert(Film::kBlock == shared::kBlock && Film::kTile == shared::kTile && Film::kTilePixels == kTilePixels);
 
 constexpr std::uint32_t kChunk = 1u << 14; // slots that are converted at a time
@@ -254,9 +253,9 @@ std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
 }
 
 std::uint32_t DeviceFilm::numbersOf(const shared::FilmLaunch& launch) const {
-    std::uint64_t numbers = std::uint64_t{launch.slotCount} * launch.steps * kTilePixels;
-    if (hasPlan()) numbers = sumOverSlots(launch, [this](auto... slot) { return numbersBetween(slot...); });
-    return static_cast<std::uint32_t>(std::min<std::uint64_t>(numbers, ~0u));
+    if (!hasPlan()) return shared::sampleAt(launch, launch.slotCount, 0, 0);
+    return static_cast<std::uint32_t>(
+        sumOverSlots(launch, [this](auto... slot) { return numbersBetween(slot...); }));
 }
 
 // Of the slot's pixels inside of the image, of the indices from `from` to `to`, that excluded.
@@ -273,13 +272,12 @@ std::uint64_t DeviceFilm::numbersBetween(std::uint32_t slot, std::uint32_t from,
     if (!sharesPaths_) return samplesBetween(slot, from, to);
     std::uint64_t numbers = 0;
     const std::uint32_t* const plan = &plan_[std::size_t{slot} * kTilePixels];
-    for (std::uint32_t y = 0; y < shared::kTile; y += shared::kReuseSide)
-        for (std::uint32_t x = 0; x < shared::kTile; x += shared::kReuseSide) {
-            const std::uint32_t* const above = plan + y * shared::kTile + x;
-            const std::uint32_t* const below = above + shared::kTile;
-            const std::uint32_t end = std::max({above[0], above[1], below[0], below[1]});
-            numbers += std::uint64_t{shared::kReuseGroup} * (std::clamp(end, from, to) - from);
-        }
+    for (std::uint32_t group = 0; group < kTilePixels; group += shared::kReuseGroup) {
+        std::uint32_t end = 0;
+        for (std::uint32_t i = group; i < group + shared::kReuseGroup; ++i)
+            end = std::max(end, plan[shared::groupedPixel(i)]);
+        numbers += std::uint64_t{shared::kReuseGroup} * (std::clamp(end, from, to) - from);
+    }
     return numbers;
 }
 

@@ -82,6 +82,7 @@ class GpuEngine final : public app::Engine {
     void finishPaths();
     void endLaunch();
     void endLaunches();
+    bool sharesPaths() const { return params_.pathReuse != 0; }
     LaunchKernels launchKernels() const { return {*kernel_, reuse_.get()}; }
     void planSamples(const std::atomic<bool>* cancel);
     bool nextRegion();
@@ -145,15 +146,14 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     const SpecializationConstants constants =
         makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount,
                                     app::mayHaveEdges(scene_->compiled(), settings), traversal);
-    const bool sharesPaths = params_.pathReuse != 0;
-    if (!kernel_ || constants_ != constants || sharesPaths != (reuse_ != nullptr)) {
+    if (!kernel_ || constants_ != constants || sharesPaths() != (reuse_ != nullptr)) {
         const app::Stopwatch watch;
         kernel_ = nullptr;
         reuse_ = nullptr;
         firstHits_ = nullptr;
         constants_ = constants;
         kernel_ = makeKernel(KernelPurpose::Paths);
-        reuse_ = sharesPaths ? makeKernel(KernelPurpose::Reuse) : nullptr;
+        reuse_ = sharesPaths() ? makeKernel(KernelPurpose::Reuse) : nullptr;
         cache_.save();
         report_.pipelineSeconds = watch.seconds();
         launchSize_.reset();
@@ -205,10 +205,9 @@ void GpuEngine::renderOnly(image::TileList tiles, std::uint32_t spp, std::span<c
 void GpuEngine::loadTiles() {
     const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(tiles_.size(), 1));
     const std::uint32_t tiles = std::min(count, std::max(1u, options_.regionSlots / settings_.replicates));
-    const bool sharesPaths = params_.pathReuse != 0;
-    if (!region_ || !region_->fits(film_, tiles, sharesPaths)) {
+    if (!region_ || !region_->fits(film_, tiles, sharesPaths())) {
         region_ = nullptr; // its memory may be needed for the next one
-        region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles, sharesPaths);
+        region_ = std::make_unique<DeviceFilm>(context_, film_.desc(), tiles, sharesPaths());
     }
     region_->load(film_, tiles_, 0);
     samplesDone_ = image::totalSamples(film_, tiles_);

@@ -19,12 +19,10 @@ struct SampleGroup {
 
 // False: it is beyond the last.
 bool findGroup(uint invocation, out SampleGroup group) {
-    const uint kColumns = kTile / kReuseSide;
     const uint kGroups = kTilePixels / kReuseGroup;
     if (invocation * kReuseGroup >= launch.film.sampleCount) return false;
-    uint inStep = invocation % kGroups;
-    uint place = invocation / kGroups * kTilePixels; // of the upper left pixel's sample
-    place += inStep / kColumns * kReuseSide * kTile + inStep % kColumns * kReuseSide;
+    // Of the upper left pixel's sample.
+    uint place = invocation / kGroups * kTilePixels + groupedPixel(invocation % kGroups * kReuseGroup);
     group.number = place;
     group.distance = uvec2(1u, kTile);
     if ((launch.film.flags & kIsPlanned) != 0u) {
@@ -50,7 +48,7 @@ uint numberInGroup(SampleGroup group, uint i) {
 bool existsSample(SampleGroup group, uint i) {
     uint replicate;
     uint tile = quotient(group.slot, launch.film.replicates, replicate);
-    uint tilePixel = group.tilePixel + i / kReuseSide * kTile + i % kReuseSide;
+    uint tilePixel = group.tilePixel + groupedPixel(i);
     uvec2 pixel = pixelInTile(launch.film.samples.at[launch.film.filmSlots + tile], tilePixel);
     if (pixel.x >= constants.params.width || pixel.y >= constants.params.height) return false;
     uint done = launch.film.samples.at[group.slot];

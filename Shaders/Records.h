@@ -244,6 +244,15 @@ RT_FN uint sampleAt(RT_IN(FilmLaunch) launch, uint i, uint step, uint tilePixel)
     return (i * launch.steps + step) * kTilePixels + tilePixel;
 }
 
+// Pixel i of a tile where those of a group that shares follow each other, row by row, i < kTilePixels.
+RT_FN uint groupedPixel(uint i) {
+    const uint kColumns = kTile / kReuseSide;
+    uint group = i / kReuseGroup;
+    uint inGroup = i % kReuseGroup;
+    uint row = group / kColumns * kReuseSide + inGroup / kReuseSide;
+    return row * kTile + group % kColumns * kReuseSide + inGroup % kReuseSide;
+}
+
 // With a plan, which gives the pixels of a slot different numbers of samples, not every place has one. Those of a pixel
 // are then numbered one after the other, where paths are shared alternating with those of its group, so that no number
 // is without a sample and no memory without use. This is the number of the pixel's sample of this index; `start` is

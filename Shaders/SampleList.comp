@@ -14,15 +14,6 @@ layout(push_constant, scalar) uniform Launch { ListLaunch launch; };
 shared uint counts[kTilePixels]; // samples of each pixel, in the order of the invocations
 shared uint first;               // number of the slot's first sample, and its place in the list
 
-// Pixels of a group follow each other.
-uint tilePixelOf(uint invocation) {
-    const uint kColumns = kTile / kReuseSide;
-    uint group = invocation / kReuseGroup;
-    uint inGroup = invocation % kReuseGroup;
-    uint row = group / kColumns * kReuseSide + inGroup / kReuseSide;
-    return row * kTile + group % kColumns * kReuseSide + inGroup % kReuseSide;
-}
-
 // Of a pixel. One of a group that shares has as many as any of them, so that their numbers alternate.
 uint countOf(uint invocation, bool isShared) {
     uint count = counts[invocation];
@@ -37,7 +28,8 @@ void main() {
     uint slot = launchSlot(launch.film, position);
     if (slot >= launch.film.filmSlots) return;
     uint invocation = gl_LocalInvocationID.x;
-    uint pixel = slot * kTilePixels + tilePixelOf(invocation);
+    uint tilePixel = groupedPixel(invocation);
+    uint pixel = slot * kTilePixels + tilePixel;
     uint done = launch.film.samples.at[slot];
     uint slotEnd = samplesAfter(launch.film, slot % launch.film.replicates, done);
     counts[invocation] = max(pixelEnd(launch.film, pixel, slotEnd), done) - done;
@@ -72,7 +64,6 @@ void main() {
             end = min(end, counts[i]);
         }
         for (uint place = first + listed + rank; step < end; step++) {
-            uint tilePixel = pixel - slot * kTilePixels;
             launch.planned.at[place].place = sampleAt(launch.film, position, step, tilePixel);
             launch.planned.at[place].number = plannedAt(launch.film, start, step);
             place += alive;

@@ -226,8 +226,9 @@ INSTANTIATE_TEST_SUITE_P(Nightly, ConnectionAgreementTest, kSecondEngine, engine
 TEST_P(ConnectionAgreementTest, SampleForSample) {
     if (lacks(GetParam())) return;
     const std::string folder = RT_TEST_DATA_DIR "/scenes/";
+    const std::string files[] = {folder + "glass-instances.json", folder + "sun.json"};
     for (const std::string& id : {std::string("rest-of-life-cornell-box-glass"), std::string("many-lights:100"),
-                                  std::string("next-week-final"), folder + "glass-instances.json", folder + "sun.json"}) {
+                                  std::string("next-week-final"), files[0], files[1]}) {
         // Which every built-in scene's test (above) connects by default.
         const bool isTriedByDefault = id.starts_with("rest-of-life") || id.starts_with("many-lights");
         if (isTriedByDefault && GetParam() == app::GpuEngineKind::Compute) continue;
