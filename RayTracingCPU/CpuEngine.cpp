@@ -216,7 +216,7 @@ class CpuEngine final : public app::Engine {
         context_ = {&scene_->view, app::makeRenderParams(s, settings),
                     scene::makeCamera(camera, settings.width, settings.height, s.origin)};
         edges_ = app::splitAtEdges(s, context_.camera, settings, context_.params);
-        if (context_.params.edgeRays > 0) context_.edges = edges_.bits.data();
+        if (context_.params.edgeRays > 0) context_.edges = edges_.parts.data();
         film_ = std::move(film);
         limit_.reset();
         passEnd_ = 0;

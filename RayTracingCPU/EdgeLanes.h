@@ -3,6 +3,7 @@
 #pragma once
 #include "Common/Shared/Path/EdgeRays.h"
 #include "RayTracingCPU/SampleLanes.h"
+#include "RayTracingCPU/ShadowRay.h"
 
 namespace rt::cpu {
 namespace {
@@ -15,16 +16,19 @@ class EdgeRays {
   public:
     explicit EdgeRays(const KernelContext& context) : context_(context) {}
 
-    // Adds the edge rays of a sample in this pixel. Up to fifteen rays wait until there are sixteen.
-    void add(const uvec2& pixel, const Sampler& smp, uint sample) {
+    // Adds the edge rays of a sample in this part of a pixel, and tells whether its own camera ray is there. Up to
+    // fifteen rays wait until there are sixteen.
+    bool add(const uvec2& pixel, const PixelPart& part, const Sampler& smp, uint sample) {
         entries_[count_] = {sample, vec3(0.0f)};
         for (uint i = 0u; i < context_.params.edgeRays; ++i) {
             set(samplers_, waiting_, edgeSampler(context_.params, smp, i));
             pixels_[waiting_] = pixel;
+            parts_[waiting_] = part;
             entryOf_[waiting_] = count_;
             if (++waiting_ == kLanes) traceWaiting();
         }
         ++count_;
+        return isInPart(part, cameraSamples(kFeatures, smp).pixel);
     }
 
     // Adds what they bring to the radiances of the samples.
@@ -33,6 +37,7 @@ class EdgeRays {
         for (uint i = 0u; i < count_; ++i) radiances[entries_[i].sample] += entries_[i].radiance;
         counters.edge += std::uint64_t{count_} * context_.params.edgeRays;
         counters.scattered += scattered_;
+        counters.shadow += shadow_;
     }
 
   private:
@@ -48,8 +53,11 @@ class EdgeRays {
         RecordLanes<CameraSamples> u;
         drawCameraSamples<kFeatures>(samplers_, u);
         for (uint i = 0u; i < waiting_; ++i) {
-            const Ray ray = cameraRay(kFeatures, params, camera, pixels_[i], get(u, i));
-            entries_[entryOf_[i]].radiance += trace(get(samplers_, i), startEdgeRay(params, ray, vec3(0.0f)));
+            CameraSamples inPart = get(u, i);
+            inPart.pixel = placeInPart(parts_[i], inPart.pixel);
+            const Ray ray = cameraRay(kFeatures, params, camera, pixels_[i], inPart);
+            entries_[entryOf_[i]].radiance +=
+                trace(get(samplers_, i), startEdgeRay(params, parts_[i], ray, vec3(0.0f)));
         }
         waiting_ = 0u;
     }
@@ -64,18 +72,36 @@ class EdgeRays {
             Vertex v;
             if (!arrive(kFeatures, scene, params, smp, hit, path, unusedPrefix, v)) break;
             const VertexSamples u = vertexSamples(kFeatures, smp, v.index);
-            if (!goOn(kFeatures, params, v, sampleScattering(kFeatures, v, u.bsdf), u.roulette.x, path)) break;
+            const DirectLight direct = splitsBlur(kFeatures, params, v) ? sampleReflected(v, u, path) : noDirectLight();
+            addUnshadowed(direct, path);
+            const bool goesOn = goOn(kFeatures, params, v, sampleScattering(kFeatures, v, u.bsdf), u.roulette.x, path);
+            if (direct.distance > 0.0f) {
+                ++shadow_;
+                if (arrives<kFeatures>(scene, smp, path, direct)) addDirectLight(kFeatures, scene, direct, path);
+            }
+            if (!goesOn) break;
+            ++scattered_;
         }
-        scattered_ += path.vertex - 1u;
         return path.radiance;
+    }
+
+    // A sample of the light that a blurred mirror reflects.
+    DirectLight sampleReflected(const Vertex& v, const VertexSamples& u, PathState& path) {
+        const CpuScene& scene = *context_.scene;
+        const RenderParams& params = context_.params;
+        const vec2 selection = selectionSample(kFeatures, scene.globals, u);
+        const LightChoice choice = chooseLight(kFeatures, scene, scene.globals.lightCount, selection, path.last);
+        return sampleDirectLight(kFeatures, scene, params, choice, v, u, path);
     }
 
     const KernelContext& context_;
     uint count_ = 0u;   // samples
     uint waiting_ = 0u; // rays
     std::uint64_t scattered_ = 0u;
+    std::uint64_t shadow_ = 0u;
     RecordLanes<Sampler> samplers_;
     uvec2 pixels_[kLanes];
+    PixelPart parts_[kLanes];
     uint entryOf_[kLanes];
     Entry entries_[kBatchSamples];
 };

@@ -68,9 +68,10 @@ struct KernelContext {
     const CpuScene* scene = nullptr;
     shared::RenderParams params{};
     shared::Camera camera{};
-    const std::uint32_t* edges = nullptr; // of params.edgeRays, as scene::LightEdges::bits; null: there are none
+    const std::uint32_t* edges = nullptr; // of params.edgeRays, as scene::LightEdges::parts; null: there are none
 
-    bool isAtEdge(std::uint32_t pixel) const { return edges != nullptr && (edges[pixel / 32] >> pixel % 32 & 1u) != 0; }
+    // 0: no edge.
+    std::uint32_t edgePart(std::uint32_t pixel) const { return edges != nullptr ? edges[pixel] : 0u; }
 };
 
 // One specialisation. A kernel renders every scene whose features it covers.

@@ -194,7 +194,7 @@ class PathPacket {
             if (slot.sample == kNone) continue;
             keepVertex<kFeatures>(lanes_, i, v);
             active.arrived |= 1u << i;
-            active.lit |= uint(choosesLight(v)) << i;
+            active.lit |= uint(choosesLight(v, slot.path)) << i;
             const bool principled = isPrincipled(kFeatures, v.bsdf);
             active.principled |= uint(principled) << i;
             active.layered |= uint(principled && v.values.others != 0u) << i;
@@ -219,10 +219,9 @@ class PathPacket {
         slot.sample = samples_.template next<kFeatures>(lanes_, i, ray, pixel);
         if (slot.sample == kNone) return false;
         slot.path = startPath(ray);
-        if (context_.isAtEdge(pixel.y * params_.width + pixel.x)) {
+        const uint packed = context_.edgePart(pixel.y * params_.width + pixel.x);
+        if (packed != 0u && edgeRays_.add(pixel, pixelPart(packed), get(lanes_.samplers, i), slot.sample))
             slot.path.pdf = kCountedApart;
-            edgeRays_.add(pixel, get(lanes_.samplers, i), slot.sample);
-        }
         return true;
     }
 
@@ -235,8 +234,9 @@ class PathPacket {
         slot.sample = kNone;
     }
 
-    bool choosesLight(const Vertex& v) const {
-        return usesNextEventEstimation(kFeatures, params_, scene_.globals, v) ||
+    bool choosesLight(const Vertex& v, const PathState& path) const {
+        return (usesNextEventEstimation(kFeatures, params_, scene_.globals, v) &&
+                !leavesBlur(kFeatures, params_, v, path)) ||
                usesMixture(kFeatures, params_, scene_.globals, v);
     }
 
@@ -315,15 +315,8 @@ class PathPacket {
     void traceShadow(uint i, const DirectLight& direct, PathState& path) {
         if (!(direct.distance > 0.0f)) return;
         ++counters_.shadow;
-        const Ray ray = shadowRay(path, direct);
-        bool isFree;
-        if (has(kFeatures, kFeatureOpacity)) {
-            const Sampler smp = get(lanes_.samplers, i);
-            isFree = traceRay<kFeatures>(scene_, smp, 2u * path.vertex + 1u, ray, direct.distance).t < 0.0f;
-        } else {
-            isFree = !isOccluded(scene_, ray, direct.distance);
-        }
-        if (isFree) addDirectLight(kFeatures, scene_, direct, path);
+        if (arrives<kFeatures>(scene_, get(lanes_.samplers, i), path, direct))
+            addDirectLight(kFeatures, scene_, direct, path);
     }
 
     // What the next ray hits; adds what the shadow ray, if there is one, lets through.

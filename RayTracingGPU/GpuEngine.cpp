@@ -95,7 +95,7 @@ class GpuEngine final : public app::Engine {
     RenderBindings bindings_;
     std::optional<FilmResolver> resolver_; // once it was needed
     vulkan::Buffer uniforms_;              // RenderConstants
-    vulkan::Buffer edges_;                 // of lights, of which these tell
+    vulkan::Buffer edges_, edgeParts_;     // of lights, of which these tell
     LaunchQueue launches_;
     ReadBackPool readBacks_;
 
@@ -179,8 +179,10 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     constants.globals = s.globals;
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
     const scene::LightEdges edges = app::splitAtEdges(s, constants.camera, settings_, params_);
-    edges_ = vulkan::deviceArray<std::uint32_t>(context_, edges.bits, "edges of lights");
+    edges_ = vulkan::deviceArray<std::uint32_t>(context_, edges.bits(), "edges of lights");
     constants.edges = edges_.address();
+    edgeParts_ = vulkan::deviceArray<std::uint32_t>(context_, edges.parts, "parts of pixels with edges");
+    constants.edgeParts = edgeParts_.address();
     constants.params = params_;
     const std::size_t bounds = std::min<std::size_t>(s.lightBounds.size(), shared::kContributionLights);
     std::copy_n(s.lightBounds.begin(), bounds, constants.lightBounds);

@@ -11,7 +11,7 @@
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
 uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool isEdgeRay) {
     PathState path = beginPath(params, samples);
-    if (isEdgeRay) path = startEdgeRay(params, path.ray, vec3(0.0f));
+    if (isEdgeRay) path = startEdgeRay(params, pixelPart(packedPart(samples.pixel)), path.ray, vec3(0.0f));
     DirectLight direct = noDirectLight();
     Passage passage = noPassage();
     uint rays = 0u;

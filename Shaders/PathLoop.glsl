@@ -62,10 +62,27 @@ bool takeWork(inout Work work) {
 
 // Of a sample that has been taken, or its next edge ray.
 PathState beginPath(RenderParams params, Work work, bool isEdgeRay, vec3 radiance) {
-    Ray ray = cameraRay(kFeatures, params, constants.camera, work.pixel, cameraSamples(kFeatures, work.smp));
-    PathState path = startPath(ray);
-    if (isEdgeRay) path = startEdgeRay(params, ray, radiance);
-    if (!isEdgeRay && work.edgeRays != 0u) path.pdf = kCountedApart;
+    CameraSamples u = cameraSamples(kFeatures, work.smp);
+    // In place of startEdgeRay(), which with what goes with it takes an H200 1.18 times as long in the glass box.
+    float weight = 1.0f;
+    float pdf = 0.0f;
+    if (kHasEdges != 0u && work.edgeRays != 0u) {
+        PixelPart part = pixelPart(packedPart(work.pixel));
+        if (isEdgeRay) {
+            u.pixel = placeInPart(part, u.pixel);
+            weight = edgeWeight(params, part);
+            pdf = kEdgeRay;
+        } else if (isInPart(part, u.pixel)) {
+            pdf = kCountedApart;
+        }
+    }
+    PathState path = startPath(cameraRay(kFeatures, params, constants.camera, work.pixel, u));
+    path.throughput = vec3(weight);
+    path.pdf = pdf;
+    if (isEdgeRay) {
+        path.radiance = radiance;
+        path.reuse = kReuseNone;
+    }
     return path;
 }
 

@@ -68,7 +68,8 @@ struct TreeArrays {
 struct RenderConstants {
     SceneArrays arrays;
     TreeArrays tree;
-    WordArray edges; // of lights, as scene::LightEdges has them, where params.edgeRays > 0
+    WordArray edges;     // of lights, a bit a pixel, where params.edgeRays > 0: what all pixels read stays in caches
+    WordArray edgeParts; // of these pixels, as scene::LightEdges::parts
     SceneGlobals globals;
     RenderParams params;
     Camera camera;

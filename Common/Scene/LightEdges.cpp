@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -11,9 +10,9 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "Common/Scene/LightsInMirrors.h"
 #include "Common/Scene/LightsInSpheres.h"
 
 namespace rt::scene {
@@ -51,24 +50,52 @@ class EdgeImage {
         return std::min(length * scale_ / std::max(distance, 1e-6 * length), 1e6);
     }
 
-    // Sets the pixels that the line from a to b crosses, or comes as near to as `margin` pixels.
-    void drawLine(const glm::dvec3& a, const glm::dvec3& b, double margin) {
+    // A side of the outline of a light: pixels that the line from a to b crosses, or comes as near to as `margin`
+    // pixels, have edges.
+    void addLine(const glm::dvec3& a, const glm::dvec3& b, double margin) {
         glm::dvec3 from = toView_ * (a - eye_), to = toView_ * (b - eye_);
         if (from.z > to.z) std::swap(from, to);
         const double nearest = kNearest * to.z;
         if (!(to.z > 0.0)) return;
-        if (from.z < nearest) from += (to - from) * ((nearest - from.z) / (to.z - from.z));
+        if (from.z < nearest) {
+            from += (to - from) * ((nearest - from.z) / (to.z - from.z));
+            isCut_ = true;
+        }
         // What is out of focus is blurred: the further from its plane, the more.
         const double blur = std::max(std::abs(1.0 - 1.0 / from.z), std::abs(1.0 - 1.0 / to.z));
-        drawLine(glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin);
+        lines_.push_back({glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin});
+    }
+
+    // Draws the lines that have been added. `isWhole`: they are the whole outline of a light, which covers nothing
+    // beyond them.
+    void draw(bool isWhole) {
+        glm::dvec2 low = size_, high(0.0);
+        for (const Line& line : lines_) {
+            low = glm::min(low, glm::min(line.a, line.b) - line.reach);
+            high = glm::max(high, glm::max(line.a, line.b) + line.reach);
+        }
+        if (isCut_ || !isWhole) {
+            low = glm::dvec2(0.0);
+            high = size_;
+        }
+        for (const Line& line : lines_) drawLine(line, low, high);
+        lines_.clear();
+        isCut_ = false;
     }
 
   private:
     // Of the distance of a line's far end: what is nearer to the camera's own plane is cut off.
     static constexpr double kNearest = 1e-3;
 
-    // In pixels, to `reach` beside it.
-    void drawLine(glm::dvec2 a, glm::dvec2 b, const glm::dvec2& reach) {
+    // In pixels, and how far to its sides edges are blurred.
+    struct Line {
+        glm::dvec2 a, b, reach;
+    };
+
+    // Of a light within a rectangle.
+    void drawLine(const Line& line, const glm::dvec2& low, const glm::dvec2& high) {
+        const glm::dvec2 reach = line.reach;
+        glm::dvec2 a = line.a, b = line.b;
         if (a.y > b.y) std::swap(a, b);
         const double first = std::max(std::floor(a.y - reach.y), 0.0);
         const double last = std::min(std::floor(b.y + reach.y), size_.y - 1.0);
@@ -82,7 +109,10 @@ class EdgeImage {
             const double right = std::min(std::floor(std::max(enter, leave) + reach.x), size_.x - 1.0);
             if (left > right) continue;
             const std::uint64_t begin = static_cast<std::uint64_t>(row) * width_;
-            edges_.add(begin + static_cast<std::uint64_t>(left), begin + static_cast<std::uint64_t>(right));
+            for (double column = left; column <= right; ++column) {
+                const glm::dvec2 corner(column, row);
+                edges_.add(begin + static_cast<std::uint64_t>(column), low - corner, high - corner);
+            }
         }
     }
 
@@ -93,6 +123,8 @@ class EdgeImage {
     double scale_ = 0;  // pixels of a length as large as its distance
     std::uint64_t width_;
     LightEdges& edges_;
+    std::vector<Line> lines_;
+    bool isCut_ = false; // a part of them is behind the camera
 };
 
 // ---- round lights --------------------------------------------------------------------------------------------------
@@ -122,7 +154,7 @@ void drawOutline(const Ellipsoid& light, double pixels, EdgeImage& image) {
     glm::dvec3 from = corner(0);
     for (int i = 1; i <= corners; ++i) {
         const glm::dvec3 to = corner(i);
-        image.drawLine(from, to, off);
+        image.addLine(from, to, off);
         from = to;
     }
 }
@@ -135,6 +167,7 @@ void drawRound(const Light& light, EdgeImage& image) {
         const glm::dmat3 axes(light.edgeU, light.edgeV, light.normal);
         const double longest = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
         drawOutline({center, axes}, image.pixels(longest, distance), image);
+        image.draw(true);
         return;
     }
     // One that moves is drawn where it is a pixel further on.
@@ -144,6 +177,7 @@ void drawRound(const Light& light, EdgeImage& image) {
         drawOutline({center + way * (i / steps), glm::dmat3(light.radius)}, image.pixels(light.radius, distance),
                     image);
     }
+    image.draw(true);
 }
 
 // ---- flat lights ---------------------------------------------------------------------------------------------------
@@ -152,23 +186,25 @@ constexpr double kRounding = 0.01; // pixels
 
 void drawQuad(const Light& light, EdgeImage& image) {
     const glm::dvec3 corner(light.position), u(light.edgeU), v(light.edgeV);
-    image.drawLine(corner, corner + u, kRounding);
-    image.drawLine(corner, corner + v, kRounding);
-    image.drawLine(corner + u, corner + u + v, kRounding);
-    image.drawLine(corner + v, corner + u + v, kRounding);
+    image.addLine(corner, corner + u, kRounding);
+    image.addLine(corner, corner + v, kRounding);
+    image.addLine(corner + u, corner + u + v, kRounding);
+    image.addLine(corner + v, corner + u + v, kRounding);
+    image.draw(true);
 }
 
 // Positions on a grid so fine that only those of one vertex share a place, but for where rounding parts them.
 using Place = std::array<std::int64_t, 3>;
 
 struct TriangleEdge {
-    Place first, second; // first <= second
-    bool isFront;        // the eye sees the triangle's front side
+    Place first, second;    // first <= second
+    bool isFront;           // the eye sees the triangle's front side
+    std::uint32_t triangle; // among the lights
     glm::dvec3 a, b;
     auto key() const { return std::tie(first, second, isFront); }
 };
 
-void appendEdges(const Light& light, bool isFront, double grid, std::vector<TriangleEdge>& edges) {
+void appendEdges(const Light& light, std::uint32_t index, bool isFront, double grid, std::vector<TriangleEdge>& edges) {
     const glm::dvec3 corners[] = {light.position, light.position + light.edgeU, light.position + light.edgeV};
     Place places[3];
     for (int i = 0; i < 3; ++i)
@@ -177,18 +213,27 @@ void appendEdges(const Light& light, bool isFront, double grid, std::vector<Tria
     for (int i = 0; i < 3; ++i) {
         const int k = (i + 1) % 3;
         edges.push_back(
-            {std::min(places[i], places[k]), std::max(places[i], places[k]), isFront, corners[i], corners[k]});
+            {std::min(places[i], places[k]), std::max(places[i], places[k]), isFront, index, corners[i], corners[k]});
     }
 }
 
 // Draws the edges that only one triangle has, of all triangles that face the same way.
 void drawBorders(std::vector<TriangleEdge>& edges, EdgeImage& image) {
     std::ranges::sort(edges, {}, &TriangleEdge::key);
+    std::vector<TriangleEdge> borders;
     for (std::size_t i = 0; i < edges.size();) {
         std::size_t next = i + 1;
         while (next < edges.size() && edges[next].key() == edges[i].key()) ++next;
-        if (next == i + 1) image.drawLine(edges[i].a, edges[i].b, kRounding);
+        if (next == i + 1) borders.push_back(edges[i]);
         i = next;
+    }
+    std::ranges::sort(borders, {}, &TriangleEdge::triangle);
+    for (std::size_t i = 0; i < borders.size();) {
+        const std::uint32_t triangle = borders[i].triangle;
+        const std::size_t first = i;
+        for (; i < borders.size() && borders[i].triangle == triangle; ++i)
+            image.addLine(borders[i].a, borders[i].b, kRounding);
+        image.draw(i - first == 3);
     }
 }
 
@@ -201,15 +246,37 @@ double largestCoordinate(const std::vector<Light>& lights) {
     return largest;
 }
 
+// The first of the steps of a pixel that holds some of what is between these places, and 16 bits above it the last's end.
+std::uint32_t stepsBetween(double begin, double end) {
+    constexpr double kSteps = 255.0;
+    const double first = std::clamp(std::floor(kSteps * begin), 0.0, kSteps - 1.0);
+    const double last = std::clamp(std::ceil(kSteps * end), first + 1.0, kSteps);
+    return static_cast<std::uint32_t>(first) | static_cast<std::uint32_t>(last) << 16;
+}
+
 } // namespace
 
-void LightEdges::add(std::uint64_t first, std::uint64_t last) {
-    for (std::uint64_t word = first / 32; word <= last / 32; ++word) {
-        const std::uint64_t from = word == first / 32 ? first % 32 : 0, to = word == last / 32 ? last % 32 : 31;
-        const std::uint32_t mask = ~0u >> (31 - (to - from)) << from;
-        count += static_cast<std::uint64_t>(std::popcount(mask & ~bits[word]));
-        bits[word] |= mask;
+void LightEdges::add(std::uint64_t pixel, const glm::dvec2& begin, const glm::dvec2& end) {
+    const std::uint32_t part = stepsBetween(begin.x, end.x) | stepsBetween(begin.y, end.y) << 8;
+    std::uint32_t& all = parts[pixel];
+    if (all == 0) {
+        all = part;
+        ++count;
+        return;
     }
+    std::uint32_t united = 0;
+    for (std::uint32_t shift = 0; shift < 32; shift += 8) {
+        const std::uint32_t a = all >> shift & 255, b = part >> shift & 255;
+        united |= (shift < 16 ? std::min(a, b) : std::max(a, b)) << shift;
+    }
+    all = united;
+}
+
+std::vector<std::uint32_t> LightEdges::bits() const {
+    std::vector<std::uint32_t> words((parts.size() + 31) / 32);
+    for (std::size_t pixel = 0; pixel < parts.size(); ++pixel)
+        words[pixel / 32] |= static_cast<std::uint32_t>(parts[pixel] != 0) << pixel % 32;
+    return words;
 }
 
 bool mayHaveLightEdges(const CompiledScene& scene) {
@@ -223,7 +290,7 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
     if (!mayHaveLightEdges(scene)) return {};
     constexpr double kGrid = 1e-5; // of the largest coordinate
     LightEdges edges;
-    edges.bits.resize((std::uint64_t{width} * height + 31) / 32);
+    edges.parts.resize(std::uint64_t{width} * height);
     EdgeImage image(camera, width, height, edges);
     const double grid = kGrid * std::max(largestCoordinate(scene.lights), 1e-30);
     std::vector<TriangleEdge> ofTriangles;
@@ -236,11 +303,12 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
         if (light.kind == shared::kLightQuad)
             drawQuad(light, image);
         else
-            appendEdges(light, isFront, grid, ofTriangles);
+            appendEdges(light, i, isFront, grid, ofTriangles);
     }
     drawBorders(ofTriangles, image);
     addLightsInSpheres(scene, camera, width, height, edges);
-    if (edges.count == 0) edges.bits.clear();
+    addLightsInMirrors(scene, camera, width, height, edges);
+    if (edges.count == 0) edges.parts.clear();
     return edges;
 }
 

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::scene {
@@ -10,11 +12,19 @@ namespace rt::scene {
 // The pixels of an image that the edge of a light may cross: within them the camera's rays may meet its radiance or
 // miss it, as they may in all of a ball of glass that shows a light.
 struct LightEdges {
-    std::vector<std::uint32_t> bits; // a bit a pixel, row by row, of each word from the lowest; empty: there are none
-    std::uint64_t count = 0;         // of the bits that are set
+    // Of each pixel, row by row, the rectangle that holds all of it that lights with edges there can cover: in 1/255 of
+    // a pixel and from the lowest byte on, where it begins from the left and from above, and where it ends. 0: no edge.
+    // Empty: no pixel has one.
+    std::vector<std::uint32_t> parts;
+    std::uint64_t count = 0; // of the pixels with edges
 
-    // Sets pixels `first` to `last`, of one row, in bits that are there for the whole image.
-    void add(std::uint64_t first, std::uint64_t last);
+    // Adds what this pixel, of parts that are there for the whole image, has of a rectangle, in pixels from its upper
+    // left corner.
+    void add(std::uint64_t pixel, const glm::dvec2& begin, const glm::dvec2& end);
+    void addWhole(std::uint64_t pixel) { add(pixel, {0, 0}, {1, 1}); }
+
+    // Whether each pixel has an edge, a bit a pixel, of each word from the lowest.
+    std::vector<std::uint32_t> bits() const;
 };
 
 // What hides a light is not looked at, nor are edges in mirrors and behind glass other than spheres

@@ -185,7 +185,7 @@ class Search {
     void add(std::uint32_t left, std::uint32_t top, std::uint32_t side) {
         const std::uint64_t right = std::min(left + side, width_) - 1;
         for (std::uint64_t y = top; y < std::min(top + side, height_); ++y)
-            edges_.add(y * width_ + left, y * width_ + right);
+            for (std::uint64_t x = left; x <= right; ++x) edges_.addWhole(y * width_ + x);
     }
 
     View viewAlong(const vec3& direction) const {

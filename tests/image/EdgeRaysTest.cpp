@@ -12,6 +12,7 @@
 #include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Scene/LightEdges.h"
 #include "Common/Scene/LightsInSpheres.h"
+#include "Common/Shared/Path/EdgeRays.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 
@@ -78,10 +79,16 @@ app::RenderSettings lampSettings(std::uint32_t spp) {
 }
 
 bool isIn(const LightEdges& edges, std::uint32_t pixel) {
-    return !edges.bits.empty() && (edges.bits[pixel / 32] >> pixel % 32 & 1u) != 0;
+    return !edges.parts.empty() && edges.parts[pixel] != 0;
 }
 
-// A lamp of radiance 1 before black: what is neither is a pixel with an edge.
+double areaOf(const LightEdges& edges, std::uint32_t pixel) {
+    const shared::PixelPart part = shared::pixelPart(edges.parts[pixel]);
+    return static_cast<double>(part.size.x) * static_cast<double>(part.size.y);
+}
+
+// A lamp of radiance 1 before black: what is neither is a pixel with an edge, and no more of it is covered than the
+// part of it that is sampled; of the small sphere that is little else.
 TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
     for (const Lamp& lamp : lamps()) {
         const auto scene = compileLamp(lamp);
@@ -93,6 +100,7 @@ TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
         const LightEdges edges = findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin),
                                                 kLampSide, kLampSide);
         std::uint64_t mixed = 0, count = 0;
+        double covered = 0, sampled = 0;
         for (std::uint32_t pixel = 0; pixel < kLampSide * kLampSide; ++pixel) {
             const float value = picture.data[3 * pixel];
             const bool isMixed = value > 0.0f && value < 1.0f;
@@ -100,7 +108,14 @@ TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
             EXPECT_TRUE(isEdge || !isMixed) << lamp.name << ": " << pixel % kLampSide << ", " << pixel / kLampSide;
             mixed += isMixed ? 1 : 0;
             count += isEdge ? 1 : 0;
+            if (!isEdge) continue;
+            const double area = areaOf(edges, pixel), coverage = static_cast<double>(value);
+            EXPECT_GE(area + 0.04, coverage) << lamp.name << ": " << pixel; // of 256 samples
+            covered += coverage;
+            sampled += area;
         }
+        const bool isSmall = lamp.name == std::string("small sphere");
+        EXPECT_LE(sampled, isSmall ? 1.6 * covered : static_cast<double>(count)) << lamp.name;
         EXPECT_EQ(edges.count, count) << lamp.name;
         EXPECT_GT(mixed, 0u) << lamp.name;
         EXPECT_LT(count, 1.6 * static_cast<double>(mixed) + 4) << lamp.name; // corners that 256 samples missed
@@ -200,7 +215,7 @@ TEST(EdgeRays, SpheresShowLights) {
         const shared::Camera camera = makeCamera(scene->camera, kLampSide, kLampSide, scene->origin);
         const LightEdges edges = findLightEdges(*scene, camera, kLampSide, kLampSide);
         LightEdges inSphere;
-        inSphere.bits.resize(kLampSide * kLampSide / 32);
+        inSphere.parts.resize(kLampSide * kLampSide);
         addLightsInSpheres(*scene, camera, kLampSide, kLampSide, inSphere);
         ASSERT_GT(inSphere.count, 0u);
         const std::vector<double> before = variancesOf(false), after = variancesOf(true);
@@ -215,6 +230,64 @@ TEST(EdgeRays, SpheresShowLights) {
         EXPECT_GT(found, 0.9 * all);
         EXPECT_LT(left, 0.2 * all);
         EXPECT_LT(static_cast<double>(inVain), 0.15 * static_cast<double>(inSphere.count));
+    }
+}
+
+// A plate of metal with some fuzz that shows small lamps.
+SceneDesc plateScene(double fuzz) {
+    SceneDesc desc = emptyScene({0, 0, 3}, {0, 0, 0}, 50);
+    desc.id = "plate";
+    desc.materials["lamp"] = lambertian(0.2, 1);
+    desc.materials["plate"].kind = MaterialKind::Metal;
+    desc.materials["plate"].parameters[shared::kMetalFuzz] = fuzz;
+    desc.objects = {{QuadDesc{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, "plate"}},
+                    {SphereDesc{{0.9, 0.8, 2.5}, 0.03, {}, "lamp"}},
+                    {QuadDesc{{-1.2, 0.5, 2.4}, {0.06, 0, 0}, {0, -0.05, 0.01}, "lamp"}}};
+    return desc;
+}
+
+// Spots that are about as large as pixels: a fifth of the noise is left at most, and the light is what it was (4
+// standard errors of the mean), also where paths must end behind the plate.
+TEST(EdgeRays, BlurredMirrorsShowLights) {
+    for (const double fuzz : {0.002, 0.02}) {
+        const auto scene = app::compile(plateScene(fuzz), false);
+        const auto engine = cpu::makeCpuEngine({});
+        engine->setScene(scene, nullptr);
+        for (const std::uint32_t depth : {2u, 10u}) {
+            constexpr std::uint32_t kSeeds = 64;
+            struct Noise {
+                double mean = 0, errorOfMean = 0, variance = 0;
+            };
+            const auto noiseOf = [&](bool edgeRays) {
+                app::RenderSettings settings = lampSettings(16);
+                settings.maxDepth = depth;
+                settings.edgeRays = edgeRays;
+                std::vector<double> sum(3 * kLampSide * kLampSide), squares(sum.size());
+                double ofImages = 0, squaresOfImages = 0;
+                for (settings.seed = 1; settings.seed <= kSeeds; ++settings.seed) {
+                    const image::Image picture = renderImage(*engine, *scene, settings);
+                    double image = 0;
+                    for (std::size_t i = 0; i < sum.size(); ++i) {
+                        const double value = picture.data[i];
+                        image += value;
+                        sum[i] += value;
+                        squares[i] += value * value;
+                    }
+                    ofImages += image;
+                    squaresOfImages += image * image;
+                }
+                Noise noise;
+                for (std::size_t i = 0; i < sum.size(); ++i) noise.variance += squares[i] - sum[i] * sum[i] / kSeeds;
+                noise.mean = ofImages / kSeeds;
+                const double variance = squaresOfImages / kSeeds - noise.mean * noise.mean;
+                noise.errorOfMean = std::sqrt(variance / (kSeeds - 1));
+                return noise;
+            };
+            const Noise before = noiseOf(false), after = noiseOf(true);
+            EXPECT_LT(after.variance, 0.2 * before.variance) << fuzz << ", " << depth;
+            EXPECT_NEAR(after.mean, before.mean, 4 * std::hypot(before.errorOfMean, after.errorOfMean))
+                << fuzz << ", " << depth;
+        }
     }
 }
 

@@ -8,10 +8,15 @@ RT_SHARED_BEGIN
 
 const uint kMetalFuzz = 0u;        // of Bsdf::parameter: [0,1]
 const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
+const float kBlurredFuzz = 0.1f;   // up to it a metal shows lights as blurred images
 
 // kFeatureFuzz says that some metal of the scene is.
 RT_FN bool isFuzzy(uint features, RT_IN(Bsdf) m) {
     return has(features, kFeatureFuzz) && m.parameter[kMetalFuzz] > kMirrorFuzz;
+}
+
+RT_FN bool isBlurredMirror(uint features, RT_IN(Bsdf) m) {
+    return isFuzzy(features, m) && m.parameter[kMetalFuzz] <= kBlurredFuzz;
 }
 
 RT_FN bool isDeltaMetal(uint features, RT_IN(Bsdf) m) {

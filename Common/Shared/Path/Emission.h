@@ -10,12 +10,17 @@
 RT_SHARED_BEGIN
 
 // In place of densities, up to the first vertex that is no mirror and no glass, see EdgeRays.h: of a path whose
-// emission is counted apart, and of the rays that count it.
+// emission is counted apart, and of the rays that count it. And of such a path behind that vertex, a blurred mirror.
 const float kCountedApart = -1.0f;
 const float kEdgeRay = -2.0f;
+const float kBlurCountedApart = -3.0f;
+
+RT_FN bool isBehindBlur(uint features, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && has(features, kFeatureFuzz) && s.pdf == kBlurCountedApart;
+}
 
 RT_FN bool isCountedApart(uint features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && s.pdf == kCountedApart;
+    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindBlur(features, s));
 }
 
 RT_FN bool isEdgeRay(uint features, RT_IN(PathState) s) {

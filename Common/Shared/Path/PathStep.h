@@ -112,6 +112,17 @@ RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) par
     return 1.0f;
 }
 
+// Whether edge rays that arrive at v take a sample of the light that it reflects.
+RT_FN bool splitsBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+    return has(features, kFeatureLights) && usesMis(params) && v.inMedium == 0u && isMetal(features, v.bsdf) &&
+           isBlurredMirror(features, v.bsdf);
+}
+
+// Whether that light is left to edge rays by the path, which has arrived at v.
+RT_FN bool leavesBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && s.pdf == kCountedApart && splitsBlur(features, params, v);
+}
+
 // Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. `prefix`: see
 // followReuse(). False: the path has ended.
 RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
@@ -135,7 +146,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
         if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
         placeOnSurface(features, scene, s, surface, material, v);
-        if (isEdgeRay(features, s) && !isDelta(features, v.bsdf)) return false;
+        if (isEdgeRay(features, s) && !isDelta(features, v.bsdf) && !splitsBlur(features, params, v)) return false;
         if (reusesPaths(features, params)) followReuse(features, surface, v, s, prefix);
     }
     s.last = lightContext(params, v);
@@ -158,13 +169,19 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
     }
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
-    // What edge rays count, they count behind mirrors and glass, too.
+    // What edge rays count, they count behind mirrors and glass, too, and behind the first mirror that is blurred.
+    bool leaves = leavesBlur(features, params, v, s);
+    bool isSplit = splitsBlur(features, params, v) && isEdgeRay(features, s);
     bool staysApart = has(features, kFeatureLights) && s.pdf < 0.0f && v.inMedium == 0u && isDelta(features, v.bsdf);
+    if (isBehindBlur(features, s)) staysApart = false;
     if (!staysApart) s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
+    if (leaves) s.pdf = kBlurCountedApart;
+    if (isSplit) s.vertex = params.maxDepth - 1u; // it ends at the next one
     // What is shared was drawn with the density of scattering, and no other.
     bool mayEnd = v.index > 0u && !(reusesPaths(features, params) && s.reuse == kReuseFirst);
     // What is aimed at glass weighs little, but the light is just behind it.
     if (aimsPaths(features, params) && s.reuse == kReuseEnded && b.delta != 0u) mayEnd = false;
+    if (isSplit) mayEnd = false;
     if (params.russianRoulette != 0u && mayEnd) {
         float survivors = float(params.russianRoulette) * strongest;
         if (isEdgeRay(features, s)) survivors *= float(params.edgeRays);
@@ -186,7 +203,7 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
     completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
-    bool nextEvent = usesNextEventEstimation(features, params, globals, v);
+    bool nextEvent = usesNextEventEstimation(features, params, globals, v) && !leavesBlur(features, params, v, s);
     bool mixture = usesMixture(features, params, globals, v);
     LightChoice choice = noLightChoice();
     if (nextEvent || mixture) {
