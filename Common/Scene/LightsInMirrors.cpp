@@ -23,7 +23,7 @@ constexpr std::size_t kMostMirrors = 64;
 constexpr std::uint32_t kMostLightsInMirrors = 64;
 constexpr double kLargestSpot = 16; // its radius, in pixels: larger ones differ less within a pixel
 // Radiance in the middle of a spot, over that of the brightest light, that is worth edge rays.
-constexpr double kWorthwhileSpot = 0.05;
+constexpr double kWorthwhileSpot = 0.005;
 
 double greatest(const glm::dvec3& color) {
     return std::max({color.x, color.y, color.z});
@@ -110,18 +110,26 @@ class SpotImage {
     }
 
   private:
-    // Sets the pixels of a square whose middles the mirror is in front of. All lengths are pixels.
+    // Sets the pixels of a square that show some of the mirror. All lengths are pixels.
     void draw(const Mirror& mirror, const glm::dvec2& middle, double reach) {
         const glm::dvec2 first = glm::max(glm::floor(middle - reach), 0.0);
         const glm::dvec2 end = glm::min(glm::ceil(middle + reach), size_);
         for (double y = first.y; y < end.y; ++y) {
             for (double x = first.x; x < end.x; ++x) {
                 const glm::dvec2 corner(x, y);
-                if (!mirror.isMet(eye_, toImage_ * glm::dvec3((corner + 0.5) / size_, 1.0))) continue;
+                if (!shows(corner, mirror)) continue;
                 const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width_ + static_cast<std::uint64_t>(x);
                 edges_.add(pixel, middle - reach - corner, middle + reach - corner);
             }
         }
+    }
+
+    // In the middle of the pixel or at its corners.
+    bool shows(const glm::dvec2& corner, const Mirror& mirror) const {
+        constexpr glm::dvec2 kPlaces[] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
+        return std::ranges::any_of(kPlaces, [&](const glm::dvec2& place) {
+            return mirror.isMet(eye_, toImage_ * glm::dvec3((corner + place) / size_, 1.0));
+        });
     }
 
     glm::dvec3 eye_;
