@@ -246,7 +246,7 @@ double largestCoordinate(const std::vector<Light>& lights) {
     return largest;
 }
 
-// The first of the steps of a pixel that holds some of what is between these places, and 16 bits above it the last's end.
+// Where the steps of a pixel begin that hold what is between these places, and 16 bits above it where they end.
 std::uint32_t stepsBetween(double begin, double end) {
     constexpr double kSteps = 255.0;
     const double first = std::clamp(std::floor(kSteps * begin), 0.0, kSteps - 1.0);
