@@ -84,11 +84,11 @@ class SpotImage {
     SpotImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
         : eye_(camera.origin),
           toImage_(camera.across, camera.down, camera.corner),
+          toView_(glm::inverse(toImage_)),
           size_(width, height),
           width_(width),
           edges_(edges) {
-        const glm::dmat3 toView = glm::inverse(toImage_);
-        const double focus = 1.0 / glm::length(glm::dvec3(toView[0].z, toView[1].z, toView[2].z));
+        const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
         scale_ = focus * size_.x / glm::length(toImage_[0]);
     }
 
@@ -103,7 +103,7 @@ class SpotImage {
         const double blur = mirror.fuzz * distance * height / (height + towardsEye);
         const double share = std::min(1.0, std::pow(light.radius / blur, 2)); // of the lobe that the light fills
         const double reach = (light.radius + blur) / distance * scale_;       // pixels
-        const glm::dvec3 view = glm::inverse(toImage_) * (center - eye_);
+        const glm::dvec3 view = toView_ * (center - eye_);
         if (mirror.albedo * radiance * share < least || reach > kLargestSpot || !(view.z > 0)) return;
         draw(mirror, glm::dvec2(view) / view.z * size_, reach);
     }
@@ -133,6 +133,7 @@ class SpotImage {
 
     glm::dvec3 eye_;
     glm::dmat3 toImage_; // from places across and down the image, and 1, to directions from the eye
+    glm::dmat3 toView_;  // and back
     glm::dvec2 size_;    // pixels
     double scale_ = 0;   // pixels of a length as large as its distance
     std::uint64_t width_;
