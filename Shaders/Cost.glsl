@@ -9,9 +9,7 @@
 #include "TraceStep.glsl"
 
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
-uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool isEdgeRay) {
-    PathState path = beginPath(params, samples);
-    if (isEdgeRay) path = startEdgeRay(params, pixelPart(packedPart(samples.pixel)), path.ray, vec3(0.0f));
+uint tracePath(SceneRef scene, RenderParams params, Sampler smp, PathState path) {
     DirectLight direct = noDirectLight();
     Passage passage = noPassage();
     uint rays = 0u;
@@ -19,26 +17,37 @@ uint tracePath(SceneRef scene, RenderParams params, PixelSamples samples, bool i
     bool goesOn = true;
     while (goesOn || isChecking(direct, passage)) {
         bool checking = isChecking(direct, passage);
-        Hit hit = traceStep(samples.smp, path, direct, passage, checking, nonfinite);
+        Hit hit = traceStep(smp, path, direct, passage, checking, nonfinite);
         rays++;
         if (checking) {
             endChecked(scene, hit, path, direct, passage);
         } else {
             SharedPart unusedPart;
-            goesOn = stepPath(kFeatures, scene, params, samples.smp, hit, path, unusedPart, direct, passage);
+            goesOn = stepPath(kFeatures, scene, params, smp, hit, path, unusedPart, direct, passage);
         }
     }
     return rays;
 }
 
-// Of a sample.
+// Of a sample: of its own path, and of its edge rays.
 uint traceSample(SceneRef scene, RenderParams params, PixelSamples samples) {
-    uint rays = tracePath(scene, params, samples, false);
+    uint rays = 0u;
     uint count = edgeRays(samples.pixel);
-    Sampler smp = samples.smp;
-    for (uint i = 0u; i < count; i++) {
-        samples.smp = edgeSampler(params, smp, i);
-        rays += tracePath(scene, params, samples, true);
+    for (uint i = 0u; i <= count; i++) {
+        Sampler smp = samples.smp;
+        if (i > 0u) smp = edgeSampler(params, smp, i - 1u);
+        CameraSamples u = cameraSamples(kFeatures, smp);
+        PixelPart part;
+        if (count > 0u) part = pixelPart(packedPart(samples.pixel));
+        if (i > 0u) u.pixel = placeInPart(part, u.pixel);
+        Ray ray = cameraRay(kFeatures, params, constants.camera, samples.pixel, u);
+        PathState path = startPath(ray);
+        if (i > 0u) {
+            path = startEdgeRay(params, part, ray, vec3(0.0f));
+        } else if (count > 0u && isInPart(part, u.pixel)) {
+            path.pdf = kCountedApart;
+        }
+        rays += tracePath(scene, params, smp, path);
     }
     return rays;
 }

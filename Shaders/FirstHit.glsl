@@ -14,7 +14,8 @@ void writeFeatures(uint invocation) {
     float depth = 0.0f;
     uint hits = 0u;
     for (; samples.smp.index < launch.samples; samples.smp.index++) {
-        Ray ray = beginPath(params, samples).ray;
+        CameraSamples u = cameraSamples(kFeatures, samples.smp);
+        Ray ray = cameraRay(kFeatures, params, constants.camera, samples.pixel, u);
         Hit hit = traceLayers(samples.smp, 0u, ray, false, kInfinity);
         if (hit.t < 0.0f) continue;
         Surface surface = makeSurface(kFeatures, scene, ray, hit);

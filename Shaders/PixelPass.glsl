@@ -17,7 +17,3 @@ bool beginPixel(uint invocation, RenderParams params, out PixelSamples samples) 
     samples.smp = makeSampler(params, index, 0u, 0u);
     return invocation < launch.pixels;
 }
-
-PathState beginPath(RenderParams params, PixelSamples samples) {
-    return startPath(cameraRay(kFeatures, params, constants.camera, samples.pixel, cameraSamples(kFeatures, samples.smp)));
-}

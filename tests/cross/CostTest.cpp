@@ -17,10 +17,10 @@ constexpr std::uint32_t kCostSide = 20, kSamples = 8;
 
 class CostTest : public ::testing::TestWithParam<app::GpuEngineKind> {
   protected:
-    // Seen from so far that the box is surrounded by nothing. False where the device lacks the engine.
-    bool start(const app::RenderSettings& settings) {
+    // Seen from so far that a box is surrounded by nothing. False where the device lacks the engine.
+    bool start(const char* name, const app::RenderSettings& settings) {
         if (lacks(GetParam())) return false;
-        const auto scene = app::compile(app::loadScene("next-week-cornell-box"), true);
+        const auto scene = app::compile(app::loadScene(name), true);
         scene::CameraDesc camera = scene->camera;
         camera.verticalFov *= 1.6;
         engine_ = gpu::makeGpuEngine(device(), {.pipelineCache = false, .engine = GetParam()});
@@ -48,9 +48,11 @@ TEST_P(CostTest, RaysAreThoseOfTheRender) {
     app::RenderSettings s = settings();
     // Drivers take long over the samplers by projected solid angle.
     if (isNightly(GetParam())) s.sphereLight = s.quadLight = app::ShapeSampling::Projected;
-    if (!start(s)) return;
+    // What a ray meets after the first vertex depends on its place in the pixel where mirrors show lamps as spots.
+    if (!start("veach-mis", s)) return;
     while (!engine_->renderSome({}).finished) continue;
     const app::RayCounts rays = engine_->report().rays;
+    EXPECT_GT(rays.edge, 0u);
     const image::Image costs = engine_->renderCost(app::Cost::Rays, kSamples);
     double sum = 0;
     for (const float cost : costs.data) sum += std::round(static_cast<double>(cost) * kSamples);
@@ -58,7 +60,7 @@ TEST_P(CostTest, RaysAreThoseOfTheRender) {
 }
 
 TEST_P(CostTest, PixelsOfLongPathsTakeLonger) {
-    if (!start(settings())) return;
+    if (!start("next-week-cornell-box", settings())) return;
     EXPECT_EQ(engine_->knowsCost(app::Cost::Time), device().info().hasShaderClock);
     const image::Image times = engine_->renderCost(app::Cost::Time, kSamples);
     if (!device().info().hasShaderClock) {
