@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <span>
 
 #include "Common/Image/Convergence.h"
 #include "Common/Image/Summary.h"
+#include "Common/Shared/Base/Types.h"
 
 namespace rt::bench {
 namespace {
@@ -16,6 +18,7 @@ using image::Summary;
 
 constexpr double kLeastBusySeconds = 0.05; // for clocks of threads that tick a hundred times a second
 constexpr double kLeastDeviceSeconds = 1;  // for steps of a tenth of a second in a device's counter of energy
+constexpr std::uint32_t kDependentSide = shared::kReuseSide; // pixels of images and references may share paths
 
 std::size_t steps(const Measured& measured) {
     std::size_t most = 0;
@@ -171,7 +174,7 @@ void addErrors(std::vector<Row>& rows, const Measured& measured, const image::Re
         for (const Run& run : measured.runs) {
             if (step >= run.snapshots.size()) continue;
             whole = whole && run.snapshots[step].spp > 0;
-            all.push_back(image::analyseError(run.snapshots[step].image, reference));
+            all.push_back(image::analyseError(run.snapshots[step].image, reference, kDependentSide));
         }
         if (whole) addError(rows[step], all);
     }

@@ -1,7 +1,6 @@
 #include "Common/Image/ErrorAnalysis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
@@ -14,16 +13,24 @@ namespace {
 constexpr double kFirefly = 10; // times the rmse
 constexpr std::uint32_t kCell = 8;
 
-double worstBiasZ(const Image& image, const Image& reference) {
-    std::array<double, 4> sums{}, squares{};
-    for (std::size_t i = 0; i < image.data.size(); ++i) {
-        const double difference = static_cast<double>(image.data[i]) - reference.data[i];
-        sums[i % image.channels] += difference;
-        squares[i % image.channels] += difference * difference;
-    }
+// Of squares of pixels, which are independent of each other.
+double worstBiasZ(const Image& image, const Image& reference, std::uint32_t side) {
+    const std::uint32_t columns = (image.width + side - 1) / side;
+    std::vector<double> row(columns); // sums of differences
     double worst = 0;
-    for (std::size_t c = 0; c < sums.size(); ++c) {
-        const double z = squares[c] > 0 ? sums[c] / std::sqrt(squares[c]) : 0.0;
+    for (std::uint32_t c = 0; c < image.channels; ++c) {
+        double sum = 0, squares = 0;
+        for (std::uint32_t top = 0; top < image.height; top += side) {
+            std::fill(row.begin(), row.end(), 0.0);
+            for (std::uint32_t y = top; y < std::min(top + side, image.height); ++y)
+                for (std::uint32_t x = 0; x < image.width; ++x)
+                    row[x / side] += static_cast<double>(image.pixel(x, y)[c]) - reference.pixel(x, y)[c];
+            for (const double difference : row) {
+                sum += difference;
+                squares += difference * difference;
+            }
+        }
+        const double z = squares > 0 ? sum / std::sqrt(squares) : 0.0;
         if (std::abs(z) > std::abs(worst)) worst = z;
     }
     return worst;
@@ -94,7 +101,7 @@ MeanSquares meanSquaresUpTo1(const Image& image, const Reference& reference) {
     });
 }
 
-ErrorAnalysis analyseError(const Image& image, const Reference& reference) {
+ErrorAnalysis analyseError(const Image& image, const Reference& reference, std::uint32_t dependentSide) {
     const ErrorFigures figures = compare(image, reference.mean);
     ErrorAnalysis result;
     const MeanSquares all = meanSquares(image, reference, [](const float*) { return true; });
@@ -108,7 +115,7 @@ ErrorAnalysis analyseError(const Image& image, const Reference& reference) {
     result.mae = figures.mae;
     result.psnr = figures.psnr;
     result.flip = flip(image, reference.mean);
-    result.biasZ = worstBiasZ(image, reference.mean);
+    result.biasZ = worstBiasZ(image, reference.mean, dependentSide);
     findFireflies(image, reference.mean, figures.rmse, result);
     return result;
 }

@@ -34,8 +34,8 @@ struct ErrorAnalysis {
     double referenceMse = 0, referenceRelmse = 0; // what was subtracted
     double mseError = 0;                          // as in MeanSquares
     MeanSquares upTo1;                            // of meanSquaresUpTo1()
-    // Of the test that both have the same mean over all pixels: standard deviations from 0 in the worst channel. Pixels
-    // have independent random numbers, so |z| > 4 says that one of the two is biased.
+    // Of the test that both have the same mean over all pixels: standard deviations from 0 in the worst channel. Beyond
+    // 4 one of the two is biased.
     double biasZ = 0;
     // Pixels that are brighter than the reference by more than 10 times the rmse in some channel, and what share of the
     // mse is theirs.
@@ -43,7 +43,8 @@ struct ErrorAnalysis {
     double fireflyShare = 0;
 };
 
+// The noise of pixels of a square of `dependentSide` may be alike, as in ErrorEstimate.h; others are independent.
 // Throws InputError unless all sizes are equal and values finite.
-ErrorAnalysis analyseError(const Image& image, const Reference& reference);
+ErrorAnalysis analyseError(const Image& image, const Reference& reference, std::uint32_t dependentSide);
 
 } // namespace rt::image

@@ -101,7 +101,7 @@ TEST(BenchReference, IsAsGoodAsWhatIsMeasuredAsksFor) {
     EXPECT_FALSE(made->cached);
     EXPECT_GE(made->spp, 9u * 64u); // variance at most a ninth
     // Samples are uniform in [0,1]: variance 1/12. What is measured against 0.5 and against the reference agrees.
-    const image::ErrorAnalysis error = image::analyseError(run.snapshots[1].image, made->reference);
+    const image::ErrorAnalysis error = image::analyseError(run.snapshots[1].image, made->reference, 1);
     EXPECT_NEAR(error.mse, 1.0 / 12 / 64, 4 * 1.0 / 12 / 64 * std::sqrt(2.0 / (16 * 16 * 3)) * 1.1);
     EXPECT_NEAR(error.referenceMse, 1.0 / 12 / static_cast<double>(made->spp),
                 0.2 / 12 / static_cast<double>(made->spp));
