@@ -12,6 +12,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
+#include "Common/Scene/ImagePlane.h"
 #include "Common/Scene/LightsInMirrors.h"
 #include "Common/Scene/LightsInSpheres.h"
 
@@ -32,28 +33,22 @@ bool isFlat(const Light& light) {
 class EdgeImage {
   public:
     EdgeImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
-        : eye_(camera.origin),
-          size_(width, height),
-          toView_(glm::inverse(glm::dmat3(camera.across, camera.down, camera.corner))),
-          width_(width),
-          edges_(edges) {
-        const glm::dvec3 u = toView_ * glm::dvec3(camera.lensU), v = toView_ * glm::dvec3(camera.lensV);
-        lens_ = size_ * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
-        const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
-        scale_ = focus * size_.x / glm::length(glm::dvec3(camera.across));
+        : plane_(camera, width, height), width_(width), edges_(edges) {
+        const glm::dvec3 u = plane_.toView(camera.lensU), v = plane_.toView(camera.lensV);
+        lens_ = plane_.size() * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
     }
 
-    const glm::dvec3& eye() const { return eye_; }
+    const glm::dvec3& eye() const { return plane_.eye(); }
 
     // Pixels that a length takes across the view at this distance, about, but no more than matter.
     double pixels(double length, double distance) const {
-        return std::min(length * scale_ / std::max(distance, 1e-6 * length), 1e6);
+        return std::min(length * plane_.pixelsPerLength() / std::max(distance, 1e-6 * length), 1e6);
     }
 
     // A side of the outline of a light: pixels that the line from a to b crosses, or comes as near to as `margin`
     // pixels, have edges.
     void addLine(const glm::dvec3& a, const glm::dvec3& b, double margin) {
-        glm::dvec3 from = toView_ * (a - eye_), to = toView_ * (b - eye_);
+        glm::dvec3 from = plane_.toView(a - eye()), to = plane_.toView(b - eye());
         if (from.z > to.z) std::swap(from, to);
         const double nearest = kNearest * to.z;
         if (!(to.z > 0.0)) return;
@@ -63,20 +58,20 @@ class EdgeImage {
         }
         // What is out of focus is blurred: the further from its plane, the more.
         const double blur = std::max(std::abs(1.0 - 1.0 / from.z), std::abs(1.0 - 1.0 / to.z));
-        lines_.push_back({glm::dvec2(from) / from.z * size_, glm::dvec2(to) / to.z * size_, lens_ * blur + margin});
+        lines_.push_back({plane_.placeOf(from), plane_.placeOf(to), lens_ * blur + margin});
     }
 
     // Draws the lines that have been added. `isWhole`: they are the whole outline of a light, which covers nothing
     // beyond them.
     void draw(bool isWhole) {
-        glm::dvec2 low = size_, high(0.0);
+        glm::dvec2 low = plane_.size(), high(0.0);
         for (const Line& line : lines_) {
             low = glm::min(low, glm::min(line.a, line.b) - line.reach);
             high = glm::max(high, glm::max(line.a, line.b) + line.reach);
         }
         if (isCut_ || !isWhole) {
             low = glm::dvec2(0.0);
-            high = size_;
+            high = plane_.size();
         }
         for (const Line& line : lines_) drawLine(line, low, high);
         lines_.clear();
@@ -98,7 +93,7 @@ class EdgeImage {
         glm::dvec2 a = line.a, b = line.b;
         if (a.y > b.y) std::swap(a, b);
         const double first = std::max(std::floor(a.y - reach.y), 0.0);
-        const double last = std::min(std::floor(b.y + reach.y), size_.y - 1.0);
+        const double last = std::min(std::floor(b.y + reach.y), plane_.size().y - 1.0);
         const double slope = b.y > a.y ? (b.x - a.x) / (b.y - a.y) : 0.0;
         for (double row = first; row <= last; ++row) {
             // The part of the line that comes near enough to this row.
@@ -106,7 +101,7 @@ class EdgeImage {
             if (row - reach.y > a.y) enter = a.x + slope * (row - reach.y - a.y);
             if (row + 1.0 + reach.y < b.y) leave = a.x + slope * (row + 1.0 + reach.y - a.y);
             const double left = std::max(std::floor(std::min(enter, leave) - reach.x), 0.0);
-            const double right = std::min(std::floor(std::max(enter, leave) + reach.x), size_.x - 1.0);
+            const double right = std::min(std::floor(std::max(enter, leave) + reach.x), plane_.size().x - 1.0);
             if (left > right) continue;
             const std::uint64_t begin = static_cast<std::uint64_t>(row) * width_;
             for (double column = left; column <= right; ++column) {
@@ -116,11 +111,8 @@ class EdgeImage {
         }
     }
 
-    glm::dvec3 eye_;
-    glm::dvec2 size_;
-    glm::dmat3 toView_; // across and down the image times the distance, which z is, in units of that of the focus
-    glm::dvec2 lens_;   // half axes of the blur of what is infinitely far away, in pixels
-    double scale_ = 0;  // pixels of a length as large as its distance
+    ImagePlane plane_;
+    glm::dvec2 lens_; // half axes of the blur of what is infinitely far away, in pixels
     std::uint64_t width_;
     LightEdges& edges_;
     std::vector<Line> lines_;

@@ -11,6 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "Common/Scene/ImagePlane.h"
 #include "Common/Shared/Material/Metal.h"
 
 namespace rt::scene {
@@ -82,37 +83,29 @@ Ball ballAround(const Light& light) {
 class SpotImage {
   public:
     SpotImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
-        : eye_(camera.origin),
-          toImage_(camera.across, camera.down, camera.corner),
-          toView_(glm::inverse(toImage_)),
-          size_(width, height),
-          width_(width),
-          edges_(edges) {
-        const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
-        scale_ = focus * size_.x / glm::length(toImage_[0]);
-    }
+        : plane_(camera, width, height), width_(width), edges_(edges) {}
 
     // What the mirror makes of a light of this radiance, its greatest component, if it is more than `least`.
     void add(const Mirror& mirror, const Ball& light, double radiance, double least) {
-        const double towardsEye = mirror.heightOf(eye_), height = mirror.heightOf(light.center);
+        const double towardsEye = mirror.heightOf(plane_.eye()), height = mirror.heightOf(light.center);
         if (!(towardsEye * height > 0)) return;
         // The spot is a ball behind the mirror: the light's image, as far away as the light, and around it as much as
         // the lobe's width there.
         const glm::dvec3 center = light.center - 2.0 * height * mirror.normal;
-        const double distance = glm::length(center - eye_);
+        const double distance = glm::length(center - plane_.eye());
         const double blur = mirror.fuzz * distance * height / (height + towardsEye);
         const double share = std::min(1.0, std::pow(light.radius / blur, 2)); // of the lobe that the light fills
-        const double reach = (light.radius + blur) / distance * scale_;       // pixels
-        const glm::dvec3 view = toView_ * (center - eye_);
+        const double reach = (light.radius + blur) / distance * plane_.pixelsPerLength();
+        const glm::dvec3 view = plane_.toView(center - plane_.eye());
         if (mirror.albedo * radiance * share < least || reach > kLargestSpot || !(view.z > 0)) return;
-        draw(mirror, glm::dvec2(view) / view.z * size_, reach);
+        draw(mirror, plane_.placeOf(view), reach);
     }
 
   private:
     // Sets the pixels of a square that show some of the mirror. All lengths are pixels.
     void draw(const Mirror& mirror, const glm::dvec2& middle, double reach) {
         const glm::dvec2 first = glm::max(glm::floor(middle - reach), 0.0);
-        const glm::dvec2 end = glm::min(glm::ceil(middle + reach), size_);
+        const glm::dvec2 end = glm::min(glm::ceil(middle + reach), plane_.size());
         for (double y = first.y; y < end.y; ++y) {
             for (double x = first.x; x < end.x; ++x) {
                 const glm::dvec2 corner(x, y);
@@ -127,15 +120,11 @@ class SpotImage {
     bool shows(const glm::dvec2& corner, const Mirror& mirror) const {
         constexpr glm::dvec2 kPlaces[] = {{0.5, 0.5}, {0, 0}, {1, 0}, {0, 1}, {1, 1}};
         return std::ranges::any_of(kPlaces, [&](const glm::dvec2& place) {
-            return mirror.isMet(eye_, toImage_ * glm::dvec3((corner + place) / size_, 1.0));
+            return mirror.isMet(plane_.eye(), plane_.directionTo(corner + place));
         });
     }
 
-    glm::dvec3 eye_;
-    glm::dmat3 toImage_; // from places across and down the image, and 1, to directions from the eye
-    glm::dmat3 toView_;  // and back
-    glm::dvec2 size_;    // pixels
-    double scale_ = 0;   // pixels of a length as large as its distance
+    ImagePlane plane_;
     std::uint64_t width_;
     LightEdges& edges_;
 };

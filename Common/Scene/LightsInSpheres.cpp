@@ -16,6 +16,7 @@
 #include <glm/vec3.hpp>
 
 #include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/ImagePlane.h"
 #include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Material/Dielectric.h"
 #include "Common/Shared/Shape/Shapes.h"
@@ -103,7 +104,7 @@ class Search {
   public:
     Search(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width, std::uint32_t height,
            LightEdges& edges)
-        : camera_(camera), width_(width), height_(height), edges_(edges) {
+        : camera_(camera), plane_(camera, width, height), width_(width), height_(height), edges_(edges) {
         for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
             lamps_.emplace_back(scene.lights[i]);
             brightest_ = std::max(brightest_, squareOf(scene.lights[i].emission));
@@ -136,11 +137,10 @@ class Search {
     Window windowOf() const {
         constexpr int kCorners = 64;
         constexpr double kMargin = 1.5; // pixels, and chords are shorter than arcs
-        const glm::dvec2 size(width_, height_);
-        const glm::dvec3 eye(camera_.origin), towards = glm::dvec3(center_) - eye;
+        const glm::dvec2 size = plane_.size();
+        const glm::dvec3 towards = glm::dvec3(center_) - plane_.eye();
         const double distance = glm::length(towards), sine = static_cast<double>(sphere_.radius) / distance;
         if (!(sine < 1.0)) return {}; // the camera is inside
-        const glm::dmat3 toView = glm::inverse(glm::dmat3(camera_.across, camera_.down, camera_.corner));
         const glm::dvec3 along = towards / distance;
         const shared::Frame around = shared::makeFrame(vec3(along));
         const glm::dvec3 x(around.tangent), y(around.bitangent);
@@ -149,13 +149,13 @@ class Search {
         int behind = 0;
         for (int i = 0; i < kCorners; ++i) {
             const double angle = 2 * std::numbers::pi * i / kCorners;
-            const glm::dvec3 p = toView * (along + reach * (std::cos(angle) * x + std::sin(angle) * y));
+            const glm::dvec3 p = plane_.toView(along + reach * (std::cos(angle) * x + std::sin(angle) * y));
             if (!(p.z > 0)) {
                 ++behind;
                 continue;
             }
-            low = glm::min(low, glm::dvec2(p) / p.z * size);
-            high = glm::max(high, glm::dvec2(p) / p.z * size);
+            low = glm::min(low, plane_.placeOf(p));
+            high = glm::max(high, plane_.placeOf(p));
         }
         if (behind == kCorners) return {};
         if (behind > 0) return {0, 0, size.x, size.y};
@@ -236,6 +236,7 @@ class Search {
     }
 
     const shared::Camera& camera_;
+    ImagePlane plane_;
     std::uint32_t width_, height_;
     LightEdges& edges_;
     std::vector<Lamp> lamps_;
