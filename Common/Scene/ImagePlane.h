@@ -20,13 +20,18 @@ class ImagePlane {
         : eye_(camera.origin),
           fromView_(camera.across, camera.down, camera.corner),
           toView_(glm::inverse(fromView_)),
-          size_(width, height) {
+          size_(width, height),
+          width_(width) {
         const double focus = 1.0 / glm::length(glm::dvec3(toView_[0].z, toView_[1].z, toView_[2].z));
         pixelsPerLength_ = focus * size_.x / glm::length(fromView_[0]);
     }
 
     const glm::dvec3& eye() const { return eye_; } // the middle of the lens
     const glm::dvec2& size() const { return size_; }
+    // The number of the pixel in this column and row, row by row.
+    std::uint64_t pixelAt(double column, double row) const {
+        return static_cast<std::uint64_t>(row) * width_ + static_cast<std::uint64_t>(column);
+    }
 
     // A vector in the camera's own terms: across and down the image, each times the depth and in units of the image's
     // side, and the depth in units of the distance of the plane of focus.
@@ -42,6 +47,7 @@ class ImagePlane {
     glm::dvec3 eye_;
     glm::dmat3 fromView_, toView_;
     glm::dvec2 size_;
+    std::uint64_t width_;
     double pixelsPerLength_ = 0;
 };
 

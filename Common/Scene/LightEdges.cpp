@@ -32,8 +32,7 @@ bool isFlat(const Light& light) {
 // The image, on which lines in space are drawn.
 class EdgeImage {
   public:
-    EdgeImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
-        : plane_(camera, width, height), width_(width), edges_(edges) {
+    EdgeImage(const ImagePlane& plane, const shared::Camera& camera, LightEdges& edges) : plane_(plane), edges_(edges) {
         const glm::dvec3 u = plane_.toView(camera.lensU), v = plane_.toView(camera.lensV);
         lens_ = plane_.size() * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
     }
@@ -103,17 +102,15 @@ class EdgeImage {
             const double left = std::max(std::floor(std::min(enter, leave) - reach.x), 0.0);
             const double right = std::min(std::floor(std::max(enter, leave) + reach.x), plane_.size().x - 1.0);
             if (left > right) continue;
-            const std::uint64_t begin = static_cast<std::uint64_t>(row) * width_;
             for (double column = left; column <= right; ++column) {
                 const glm::dvec2 corner(column, row);
-                edges_.add(begin + static_cast<std::uint64_t>(column), low - corner, high - corner);
+                edges_.add(plane_.pixelAt(column, row), low - corner, high - corner);
             }
         }
     }
 
-    ImagePlane plane_;
+    const ImagePlane& plane_;
     glm::dvec2 lens_; // half axes of the blur of what is infinitely far away, in pixels
-    std::uint64_t width_;
     LightEdges& edges_;
     std::vector<Line> lines_;
     bool isCut_ = false; // a part of them is behind the camera
@@ -283,7 +280,8 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
     constexpr double kGrid = 1e-5; // of the largest coordinate
     LightEdges edges;
     edges.parts.resize(std::uint64_t{width} * height);
-    EdgeImage image(camera, width, height, edges);
+    const ImagePlane plane(camera, width, height);
+    EdgeImage image(plane, camera, edges);
     const double grid = kGrid * std::max(largestCoordinate(scene.lights), 1e-30);
     std::vector<TriangleEdge> ofTriangles;
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
@@ -299,7 +297,7 @@ LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& came
     }
     drawBorders(ofTriangles, image);
     addLightsInSpheres(scene, camera, width, height, edges);
-    addLightsInMirrors(scene, camera, width, height, edges);
+    addLightsInMirrors(scene, plane, edges);
     if (edges.count == 0) edges.parts.clear();
     return edges;
 }

@@ -11,7 +11,6 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "Common/Scene/ImagePlane.h"
 #include "Common/Shared/Material/Metal.h"
 
 namespace rt::scene {
@@ -82,8 +81,7 @@ Ball ballAround(const Light& light) {
 // Which lights are seen as spots, and where. All lengths are the world's unless they are said to be pixels.
 class SpotImage {
   public:
-    SpotImage(const shared::Camera& camera, std::uint32_t width, std::uint32_t height, LightEdges& edges)
-        : plane_(camera, width, height), width_(width), edges_(edges) {}
+    SpotImage(const ImagePlane& plane, LightEdges& edges) : plane_(plane), edges_(edges) {}
 
     // What the mirror makes of a light of this radiance, its greatest component, if it is more than `least`.
     void add(const Mirror& mirror, const Ball& light, double radiance, double least) {
@@ -110,8 +108,7 @@ class SpotImage {
             for (double x = first.x; x < end.x; ++x) {
                 const glm::dvec2 corner(x, y);
                 if (!shows(corner, mirror)) continue;
-                const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width_ + static_cast<std::uint64_t>(x);
-                edges_.add(pixel, middle - reach - corner, middle + reach - corner);
+                edges_.add(plane_.pixelAt(x, y), middle - reach - corner, middle + reach - corner);
             }
         }
     }
@@ -124,15 +121,13 @@ class SpotImage {
         });
     }
 
-    ImagePlane plane_;
-    std::uint64_t width_;
+    const ImagePlane& plane_;
     LightEdges& edges_;
 };
 
 } // namespace
 
-void addLightsInMirrors(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
-                        std::uint32_t height, LightEdges& edges) {
+void addLightsInMirrors(const CompiledScene& scene, const ImagePlane& plane, LightEdges& edges) {
     const std::uint32_t lights = scene.globals.lightCount;
     if (lights > kMostLightsInMirrors) return;
     const std::vector<Mirror> mirrors = blurredMirrors(scene);
@@ -143,7 +138,7 @@ void addLightsInMirrors(const CompiledScene& scene, const shared::Camera& camera
     };
     double brightest = 0;
     for (std::uint32_t i = 0; i < lights; ++i) brightest = std::max(brightest, radianceOf(scene.lights[i]));
-    SpotImage image(camera, width, height, edges);
+    SpotImage image(plane, edges);
     for (std::uint32_t i = 0; i < lights; ++i) {
         const Light& light = scene.lights[i];
         const double radiance = radianceOf(light);
