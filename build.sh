@@ -13,8 +13,7 @@ bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
 
-preset=${CI:+ci} # in continuous integration warnings are errors and the benchmarks must build
-preset=${preset:-release}
+preset=release # whatever the environment: what users build is what is tested
 
 fail() {
     echo "build.sh: $*" >&2
@@ -31,9 +30,9 @@ usage() {
                          render the default scene on CPU and GPU and compare them
 ./build.sh test          the same, then build and run the tests of every change (label ci)
 ./build.sh test --all    those and the nightly ones (label nightly): random actions, larger samples, the second GPU engine
-./build.sh fuzz [SECONDS [TARGET...]]
+./build.sh fuzz [--fixed] [SECONDS [TARGET...]]
                          build fuzz targets with Clang, unless some are named all, and run them, 60 s together; finds are
-                         kept in build/fuzz/finds
+                         kept in build/fuzz/finds; --fixed: the same inputs every time
 ./build.sh sanitize      build the CPU program and its tests with sanitizers and run the tests of every change: address and
                          undefined behaviour in build-asan/, then threads in build-tsan/
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
@@ -143,16 +142,18 @@ case $verb in
     test)
         [[ -z ${1:-} || $1 == --all ]] || fail "test $1: must be --all or nothing"
         install_packages "${build_packages[@]}" "${test_packages[@]}" "${cluster_packages[@]}"
-        configure -DRT_BUILD_TESTS=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
+        configure -DRT_BUILD_TESTS=ON -DRT_BUILD_BENCH=ON ${VCPKG_ROOT:+-DVCPKG_MANIFEST_FEATURES=tests}
         build
         provide_device || fail "$no_device_reason"
         run_tests "$@"
         ;;
     fuzz)
+        fixed=()
+        [[ ${1:-} != --fixed ]] || { fixed=(--fixed); shift; }
         [[ ${1:-60} =~ ^[1-9][0-9]{0,6}$ ]] || fail "fuzz $1: must be a number of seconds, 1 to 9999999"
         install_packages "${build_packages[@]}" "${fuzz_packages[@]}"
         build_fuzz "${@:2}"
-        tests/fuzz/campaign.sh build/fuzz "${1:-60}" "$(nproc)" "${@:2}"
+        tests/fuzz/campaign.sh ${fixed[@]+"${fixed[@]}"} build/fuzz "${1:-60}" "$(nproc)" "${@:2}"
         ;;
     sanitize)
         install_packages "${build_packages[@]}" "${test_packages[@]}"

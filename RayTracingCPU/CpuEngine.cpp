@@ -35,22 +35,26 @@ double secondsSince(Clock::time_point start) {
 }
 
 std::span<const Kernel> kernelTable(InstructionSet set) {
-#if defined(__x86_64__) || defined(_M_X64)
     switch (set) {
+#ifdef RT_KERNELS_x86_64_v4
         case InstructionSet::X86_64_v4:
             return {kernels_x86_64_v4(), kKernelCount};
+#endif
+#ifdef RT_KERNELS_x86_64_v3
         case InstructionSet::X86_64_v3:
             return {kernels_x86_64_v3(), kKernelCount};
+#endif
+#ifdef RT_KERNELS_x86_64_v2
         case InstructionSet::X86_64_v2:
             return {kernels_x86_64_v2(), kKernelCount};
-        case InstructionSet::Generic:
-            break;
-    }
-    throw UsageError(
-        "this processor lacks the instruction set x86-64-v2 (SSE4.2), the least that kernels are made for");
-#else
-    return {kernels_generic(), kKernelCount};
 #endif
+#ifdef RT_KERNELS_generic
+        case InstructionSet::Generic:
+            return {kernels_generic(), kKernelCount};
+#endif
+        default:
+            throw UsageError(std::string("this program has no kernels for ") + name(set));
+    }
 }
 
 // The leanest kernel that covers the features. The last one of a table covers all.

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "Common/Accel/Traverse/RayQuery.h"
 #include "Common/App/Session/Engine.h"
 #include "Common/Core/CpuFeatures.h"
 
@@ -14,11 +15,11 @@ struct CpuEngineOptions {
     Policy policy = Policy::Par;
     std::uint32_t threads = 0; // 0: as many as the machine has; 1 under Seq
     // Highest instruction set to use; lower ones are for tests and comparisons.
-    InstructionSet instructionSet = bestInstructionSet();
+    InstructionSet instructionSet = accel::usableInstructionSet();
 };
 
-// The same image bit for bit for any policy and number of threads. Throws UsageError where the processor is older than
-// any kernel.
+// The same image bit for bit for any policy and number of threads. Throws UsageError where the build has no
+// kernels for the instruction set.
 std::unique_ptr<app::Engine> makeCpuEngine(const CpuEngineOptions& options);
 
 } // namespace rt::cpu

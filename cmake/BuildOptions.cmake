@@ -52,10 +52,18 @@ endif()
 
 # The instruction sets that kernels are compiled for on this architecture; the program chooses among them at run time.
 string(TOLOWER "${CMAKE_SYSTEM_PROCESSOR}" RT_PROCESSOR)
+set(RT_ALL_ISAS generic)
 if(RT_PROCESSOR MATCHES "^(x86_64|amd64)$")
-    set(RT_KERNEL_ISAS x86_64_v2 x86_64_v3 x86_64_v4)
-else()
-    set(RT_KERNEL_ISAS generic)
+    set(RT_ALL_ISAS x86_64_v2 x86_64_v3 x86_64_v4)
+endif()
+set(RT_KERNEL_ISAS ${RT_ALL_ISAS} CACHE STRING "Instruction sets of kernels; a developer's build may leave some out")
+foreach(isa IN LISTS RT_KERNEL_ISAS)
+    if(NOT isa IN_LIST RT_ALL_ISAS)
+        message(FATAL_ERROR "RT_KERNEL_ISAS: ${isa} must be among ${RT_ALL_ISAS}")
+    endif()
+endforeach()
+if(NOT RT_KERNEL_ISAS)
+    message(FATAL_ERROR "RT_KERNEL_ISAS: at least one of ${RT_ALL_ISAS}")
 endif()
 
 # Gives `source`, a kernel compiled for one of RT_KERNEL_ISAS, the options of that instruction set. Functions of <cmath>

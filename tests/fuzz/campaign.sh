@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# campaign.sh FOLDER SECONDS JOBS [TARGET...]: runs these fuzz targets, or all that are built in FOLDER, JOBS at a time,
+# campaign.sh [--fixed] FOLDER SECONDS JOBS [TARGET...]: runs these fuzz targets, or all that are built in FOLDER, JOBS at a time,
 # SECONDS in all. What makes one fail is kept in FOLDER/finds, and the exit code is 1 then; 77 where nothing is built.
 # Corpora grow in FOLDER/corpus. Files that targets write and read are kept in memory, where the system offers a folder.
-# In continuous integration all begin alike and end after so many inputs, about as many as such a time takes, instead of
-# after that time: whether it fails depends on the tree alone, not on the machine's speed.
+# --fixed: all begin alike and end after so many inputs, about as many as such a time takes, instead of after that time:
+# whether it fails depends on the tree alone, not on the machine's speed.
 set -euo pipefail
+export fixed=''
+[[ $1 != --fixed ]] || { fixed=yes; shift; }
 folder=$1 seconds=$2 jobs=$3
 [[ -d $folder/targets ]] || { echo "$folder has no fuzz targets: ./build.sh fuzz builds them"; exit 77; }
 cd "$folder"
@@ -23,7 +25,7 @@ most_bytes() {
 # time.
 fuzz() {
     local target=$1 seconds=$2 log=logs/$1.log status=0 words=() end=(-max_total_time="$2")
-    [[ -z ${CI:-} ]] || end=(-seed=1 -runs=$((seconds * inputs_per_second)))
+    [[ -z $fixed ]] || end=(-seed=1 -runs=$((seconds * inputs_per_second)))
     [[ ! -f seeds/words/$target ]] || words=("-dict=seeds/words/$target")
     mkdir -p "corpus/$target"
     # The programs that are tested see neither the user's files nor another place for files of their own.

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <thread>
 
+#include "Common/Accel/Traverse/RayQuery.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingCPU/Workers.h"
@@ -81,7 +82,7 @@ TEST(CpuEngine, InstructionSetsRenderTheSameImage) {
         const auto settings = plainSettings(24, 16);
         const auto expected = renderBits(*scene, settings);
         for (auto set : {InstructionSet::X86_64_v2, InstructionSet::X86_64_v3}) {
-            if (set > bestInstructionSet()) continue;
+            if (set > bestInstructionSet() || accel::rayQuery(set) == nullptr) continue;
             const auto found = renderBits(*scene, settings, {cpu::Policy::Par, 0, set});
             std::size_t near = 0;
             for (std::size_t i = 0; i < found.size(); ++i)

@@ -11,6 +11,7 @@
 
 #include "Common/Accel/Cuboids.h"
 #include "Common/Accel/GpuBvh.h"
+#include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Shape/Shapes.h"
 #include "tests/unit/AccelScene.h"
 

@@ -1,44 +1,48 @@
 #include "Common/Accel/Traverse/RayQuery.h"
 
+#include <string>
+
+#include "Common/Core/Error.h"
+
 namespace rt::accel {
 
-#if defined(__x86_64__) || defined(_M_X64)
-
+extern const RayQuery kRayQuery_generic;
 extern const RayQuery kRayQuery_x86_64_v2;
 extern const RayQuery kRayQuery_x86_64_v3;
 extern const RayQuery kRayQuery_x86_64_v4;
 
 const RayQuery* rayQuery(InstructionSet set) {
     switch (set) {
+#ifdef RT_KERNELS_x86_64_v4
         case InstructionSet::X86_64_v4:
             return &kRayQuery_x86_64_v4;
+#endif
+#ifdef RT_KERNELS_x86_64_v3
         case InstructionSet::X86_64_v3:
             return &kRayQuery_x86_64_v3;
+#endif
+#ifdef RT_KERNELS_x86_64_v2
         case InstructionSet::X86_64_v2:
             return &kRayQuery_x86_64_v2;
-        case InstructionSet::Generic:
-            break;
-    }
-    return nullptr;
-}
-
-const RayQuery& rayQuery() {
-    const RayQuery* best = rayQuery(bestInstructionSet());
-    return best != nullptr ? *best : kRayQuery_x86_64_v2; // the least that this project runs on
-}
-
-#else
-
-extern const RayQuery kRayQuery_generic;
-
-const RayQuery* rayQuery(InstructionSet set) {
-    return set == InstructionSet::Generic ? &kRayQuery_generic : nullptr;
-}
-
-const RayQuery& rayQuery() {
-    return kRayQuery_generic;
-}
-
 #endif
+#ifdef RT_KERNELS_generic
+        case InstructionSet::Generic:
+            return &kRayQuery_generic;
+#endif
+        default:
+            return nullptr;
+    }
+}
+
+InstructionSet usableInstructionSet() {
+    for (int set = static_cast<int>(bestInstructionSet()); set >= 0; --set)
+        if (rayQuery(static_cast<InstructionSet>(set)) != nullptr) return static_cast<InstructionSet>(set);
+    throw UsageError(std::string("this program has no kernels for a processor of ") + name(bestInstructionSet()));
+}
+
+const RayQuery& rayQuery() {
+    static const RayQuery& best = *rayQuery(usableInstructionSet());
+    return best;
+}
 
 } // namespace rt::accel
