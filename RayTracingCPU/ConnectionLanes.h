@@ -143,7 +143,7 @@ RT_CALL void findPaths(ConnectionLanes& c) {
 }
 
 // Probabilities of connections from all vertices, and their rates. Returns the paths that attempt one.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, FloatLanes& totals,
                           FloatLanes& chances, FloatLanes& rates) {
     addWeights(scene, params, lanes, totals);
@@ -165,7 +165,7 @@ RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, con
 
 // Adds a connection of the path in lane i to those that wait, up to the light's end. False: there is nothing to connect
 // to after all.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, uint i,
                            float target, float rate, ConnectionLanes& c) {
     const Vertex v = vertexIn<kFeatures>(lanes, i);
@@ -193,7 +193,7 @@ RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, co
 }
 
 // Of kernels without connections.
-template <uint kFeatures, bool kConnects = (kFeatures & kFeatureConnections) != 0u>
+template <Features kFeatures, bool kConnects = (kFeatures & kMethodConnections) != kFeatureNone>
 class Connections {
   public:
     Connections(const CpuScene&, const RenderParams&, KernelCounters&) {}
@@ -204,7 +204,7 @@ constexpr uint kConnectionEntries = 2u * kBatchSamples;
 
 // The connections of the samples of a packet. What they bring to an entry is summed apart from its path, in the order
 // of its vertices: the sum does not depend on how long a connection waits for others.
-template <uint kFeatures>
+template <Features kFeatures>
 class Connections<kFeatures, true> {
   public:
     Connections(const CpuScene& scene, const RenderParams& params, KernelCounters& counters)

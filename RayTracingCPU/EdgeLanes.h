@@ -11,7 +11,7 @@ namespace {
 using namespace rt::shared;
 
 // The edge rays of a kernel's samples.
-template <uint kFeatures>
+template <Features kFeatures>
 class EdgeRays {
   public:
     explicit EdgeRays(const KernelContext& context) : context_(context) {}

@@ -32,7 +32,7 @@ struct ReuseGroup {
 };
 
 // What the paths of a kernel's samples share, in the order of TileSamples.
-template <uint kFeatures>
+template <Features kFeatures>
 class SharedPaths {
   public:
     explicit SharedPaths(const KernelContext& context)

@@ -70,8 +70,8 @@ std::string ratesKey(const vulkan::VulkanContext& context, const scene::Compiled
     const vulkan::DeviceLimits& limits = context.limits();
     const std::string device = std::to_string(limits.vendor) + ":" + std::to_string(limits.deviceId) + ":" +
                                context.info().name + ":" + context.info().driver;
-    return hexText(hashBytes(std::as_bytes(std::span(device)))) + "-" + hexText(scene.features) + "-" +
-           std::to_string(sizeClass(scene));
+    return hexText(hashBytes(std::as_bytes(std::span(device)))) + "-" + hexText(scene.features.scene) +
+           hexText(scene.features.materials) + "-" + std::to_string(sizeClass(scene));
 }
 
 std::vector<app::EngineRate> EngineRates::find(const std::string& key) const {

@@ -103,7 +103,7 @@ class GpuEngine final : public app::Engine {
     std::optional<PreviewPass> preview_; // of the scene, once it was asked for
     app::RenderSettings settings_;
     shared::RenderParams params_{};
-    std::uint32_t features_ = 0;
+    shared::Features features_;
     std::unique_ptr<Kernel> kernel_;
     std::unique_ptr<Kernel> reuse_;     // if samples share their paths
     std::unique_ptr<Kernel> firstHits_; // once it was asked for

@@ -34,7 +34,7 @@ constexpr VkShaderStageFlags kStages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
 // What the preview leaves out: the lens, and motion over the shutter.
-std::uint32_t previewFeatures(std::uint32_t features) {
+shared::Features previewFeatures(shared::Features features) {
     return features & ~(shared::kFeatureThinLens | shared::kFeatureMovingSpheres);
 }
 
@@ -68,9 +68,14 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
 
 // The specialization constants of Preview.glsl; others stay as the shaders have them.
 struct Specialization {
-    std::uint32_t values[2]; // features, shape
-    VkSpecializationMapEntry entries[2] = {{shared::kFeaturesId, 0, 4}, {shared::kShapeId, 4, 4}};
-    VkSpecializationInfo info() const { return {2, entries, sizeof values, values}; }
+    shared::Features features;
+    std::uint32_t shape;
+
+    static constexpr VkSpecializationMapEntry kEntries[] = {{shared::kSceneFeaturesId, 0, 4},
+                                                            {shared::kMaterialFeaturesId, 4, 4},
+                                                            {shared::kMethodsId, 8, 4},
+                                                            {shared::kShapeId, 12, 4}};
+    VkSpecializationInfo info() const { return {4, kEntries, 16, this}; }
 };
 
 } // namespace
@@ -134,7 +139,7 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     for (const Draw& draw : draws_) {
         if (!drawing_[draw.shape]) drawing_[draw.shape] = createDrawing(cache, draw.shape);
     }
-    const Specialization constants{{features_, 0}};
+    const Specialization constants{features_, 0};
     const VkSpecializationInfo specialization = constants.info();
     const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFinish));
     finishing_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), &specialization, kWhat);
@@ -142,7 +147,7 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
 
 vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape) {
     const VkDevice device = context_.device();
-    const Specialization constants{{features_, shape}};
+    const Specialization constants{features_, shape};
     const VkSpecializationInfo specialization = constants.info();
     const auto vertex = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewVertex));
     const auto fragment = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFragment));

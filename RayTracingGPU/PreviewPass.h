@@ -44,7 +44,7 @@ class PreviewPass {
 
     vulkan::VulkanContext& context_;
     const GpuScene& scene_;
-    std::uint32_t features_;
+    shared::Features features_;
     std::vector<Draw> draws_;
     vulkan::Buffer indices_; // see PreviewLaunch
     vulkan::Buffer constants_;

@@ -118,7 +118,7 @@ bool resumePath(uint number, RenderParams params, inout Work work, inout PathSta
     path = unfinished.path;
     if (!has(kFeatures, kFeatureMovingSpheres)) path.ray.time = 0.0f; // as the compiler is to know
     direct = unfinished.direct;
-    if (has(kFeatures, kFeatureConnections)) passage = unfinished.passage;
+    if (has(kFeatures, kMethodConnections)) passage = unfinished.passage;
     goesOn = unfinished.goesOn != 0u;
     return true;
 }
@@ -134,7 +134,7 @@ void leavePath(Work work, PathState path, DirectLight direct, Passage passage, b
     unfinished.goesOn = goesOn ? 1u : 0u;
     unfinished.path = path;
     unfinished.direct = direct;
-    if (has(kFeatures, kFeatureConnections)) unfinished.passage = passage;
+    if (has(kFeatures, kMethodConnections)) unfinished.passage = passage;
     launch.progress.left[atomicAdd(launch.progress.counters[kCounterLeft], 1u)] = unfinished;
 }
 
@@ -245,7 +245,7 @@ void tracePaths(uint invocation) {
                 hit = traceStep(work.smp, path, direct, passage, true, nonfinite);
                 endChecked(scene, hit, path, direct, passage);
                 shadow++;
-                if (!has(kFeatures, kFeatureConnections)) break;
+                if (!has(kFeatures, kMethodConnections)) break;
             }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {

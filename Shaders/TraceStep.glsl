@@ -40,7 +40,7 @@ bool isChecking(DirectLight direct, Passage passage) {
 // The next of them.
 Ray checkedRay(PathState path, DirectLight direct, Passage passage, out float tMax) {
 #ifdef RT_FULL
-    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) return passageRay(passage, path.ray.time, tMax);
+    if (has(kFeatures, kMethodConnections) && passage.segments != 0u) return passageRay(passage, path.ray.time, tMax);
 #endif
     tMax = direct.distance;
     return shadowRay(path, direct);
@@ -49,7 +49,7 @@ Ray checkedRay(PathState path, DirectLight direct, Passage passage, out float tM
 // What becomes of its light, and of the ray.
 void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout Passage passage) {
 #ifdef RT_FULL
-    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) {
+    if (has(kFeatures, kMethodConnections) && passage.segments != 0u) {
         float tMax;
         Ray ray = passageRay(passage, path.ray.time, tMax);
         endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, passage, path.radiance);

@@ -22,7 +22,7 @@ struct MaterialType {
     const char* name; // in scene files
     const char* help;
     bool scatters;
-    std::uint32_t feature; // 0: none
+    shared::Features feature; // none: it does not scatter
     std::span<const MaterialParameter> parameters;
 };
 

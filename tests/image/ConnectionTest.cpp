@@ -62,12 +62,12 @@ void expectSameLight(const SceneDesc& desc, Effort effort, std::uint32_t maxDept
     settings.spp = effort.spp;
     settings.maxDepth = maxDepth;
     const auto reference = images(*engine, *scene, settings, false, 100);
-    EXPECT_FALSE(shared::has(engine->report().features, shared::kFeatureConnections));
+    EXPECT_FALSE(shared::has(engine->report().features, shared::kMethodConnections));
     for (const auto heuristic : {app::LightSampling::Mis, app::LightSampling::MisBalance}) {
         settings.lightSampling = heuristic;
         const auto result = image::testImages(
             images(*engine, *scene, settings, true, heuristic == app::LightSampling::Mis ? 1000 : 2000), reference);
-        EXPECT_TRUE(shared::has(engine->report().features, shared::kFeatureConnections));
+        EXPECT_TRUE(shared::has(engine->report().features, shared::kMethodConnections));
         EXPECT_GT(result.globalP, 1e-4) << desc.id << ", " << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << desc.id << ", " << result.summary();
     }

@@ -308,7 +308,7 @@ TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
 // A feature mask that is exactly what a material needs gives the same bits as the largest.
 TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
     Uniforms uniform(12);
-    const std::pair<Bsdf, uint> materials[] = {{lambertian(), kFeatureLambertian},
+    const std::pair<Bsdf, Features> materials[] = {{lambertian(), kFeatureLambertian},
                                                {metal(0), kFeatureMetal},
                                                {metal(0.3f), kFeatureMetal | kFeatureFuzz},
                                                {glass(1.5f), kFeatureDielectric}};

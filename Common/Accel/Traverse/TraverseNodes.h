@@ -165,7 +165,7 @@ RT_FN void prefetchBytes(const void* at) {
 }
 
 // Starts to fetch what `r` refers to: the first block of a leaf.
-RT_FN void prefetchReference(shared::uint features, const AccelView& view, Reference r) {
+RT_FN void prefetchReference(shared::Features features, const AccelView& view, Reference r) {
     if ((r & kLeafBit) == 0) {
         prefetchBytes<sizeof(WideNode)>(view.nodes + r);
     } else if (shared::has(features, shared::kFeatureTriangles) && leafKind(r) == LeafKind::Triangle) {

@@ -140,7 +140,7 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
 // Decides on the samples of an adaptive film, whose pilot is done. False: there is nothing to decide, or cancelled.
 bool RankedEngine::planSamples(const std::atomic<bool>* cancel) {
     if (isPart_ || !film_.isPilot()) return false;
-    const std::uint32_t features = report().features;
+    const shared::Features features = report().features;
     std::vector<std::uint32_t> plan =
         image::makeSamplePlan(film_, settings_.spp, dependentSide(features), {.cancel = cancel});
     if (plan.empty()) return false;

@@ -33,8 +33,8 @@ namespace {
 constexpr std::size_t kMemoryForWriting = std::size_t{4} << 20; // bytes
 
 void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
-    const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
-    if (missing == 0) return;
+    const shared::Features missing = scene.features & ~settings.features.value_or(shared::kFeatureAll);
+    if (missing == shared::kFeatureNone) return;
     std::string names;
     for (const std::string& name : featureNames(missing)) names += (names.empty() ? "" : ",") + name;
     throw UsageError("--features: the scene also needs " + names);

@@ -56,7 +56,7 @@ RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, ve
 }
 
 // Density over solid angle of wi under sampleLight; 0 where wi misses the light.
-RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float lightPdfAlong(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                           float time, vec3 wi) {
     LightIntersection c;
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {

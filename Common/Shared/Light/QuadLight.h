@@ -62,7 +62,7 @@ struct QuadView {
 
 // Automatic: a rectangle at twice its short edge or farther is sampled as a strip, a nearer one more and more with
 // regard to the cosine. Without a branch but for the method, for loops over lights.
-RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
+RT_FN QuadView viewQuad(Features features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
     q.swapped = false;
@@ -187,7 +187,7 @@ RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3
     return s;
 }
 
-RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+RT_FN LightSample sampleQuadLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.strategy == kStrategySolidAngle) {
@@ -199,7 +199,7 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
     return sampleQuadApart(view, light, position, u);
 }
 
-RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float quadLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.strategy == kStrategySolidAngle) {

@@ -30,7 +30,7 @@ RT_FN uvec2 skyTexel(RT_IN(Image) image, vec2 uv) {
                  min(uint(uv.y * float(image.height)), image.height - 1u));
 }
 
-RT_FN vec3 skyRadiance(uint features, SceneRef scene, vec3 direction) {
+RT_FN vec3 skyRadiance(Features features, SceneRef scene, vec3 direction) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     if (globals.skyKind == kSkyBlack) return vec3(0.0f, 0.0f, 0.0f);
     if (globals.skyKind == kSkyGradient) return mix(globals.skyBottom, globals.skyTop, 0.5f * (direction.y + 1.0f));

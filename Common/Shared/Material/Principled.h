@@ -11,7 +11,7 @@
 
 RT_SHARED_BEGIN
 
-RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
+RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
     return false; // few are, and the choice among their lobes tells
 }
 
@@ -46,19 +46,19 @@ RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
 }
 
 // From the frame of the normal to that of the clear coat's.
-RT_FN vec3 toCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+RT_FN vec3 toCoat(Features features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     if (!has(features, kFeatureCoatNormal)) return w;
     return toLocal(makeFrame(lobes.coatNormal), w);
 }
 
-RT_FN vec3 fromCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+RT_FN vec3 fromCoat(Features features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     if (!has(features, kFeatureCoatNormal)) return w;
     return toWorld(makeFrame(lobes.coatNormal), w);
 }
 
 // The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but
 // for lobes.others, for loops over samples.
-RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);
     float grazing = schlick(c);
@@ -70,14 +70,14 @@ RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes,
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
     vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
     float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
-    if (has(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
-    if (!has(lobes.others, kLobeCoat | kLobeGlass)) {
+    if (hasLobe(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
+    if (!hasLobe(lobes.others, kLobeCoat | kLobeGlass)) {
         return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
     }
 
     float uncoloured = 0.0f;
     float glassPdf = 0.0f;
-    if (has(lobes.others, kLobeGlass)) {
+    if (hasLobe(lobes.others, kLobeGlass)) {
         float reflected = fresnel(c, lobes.eta).x;
         uncoloured = lobes.glass * reflected * facets;
         // The normals of glass are all that are visible.
@@ -86,7 +86,7 @@ RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes,
     float coat = 0.0f;
     float coatPdf = 0.0f;
     bool isCoatAbove = isAbove;
-    if (has(lobes.others, kLobeCoat)) {
+    if (hasLobe(lobes.others, kLobeCoat)) {
         vec3 coatWo = toCoat(features, lobes, wo);
         vec3 coatWi = toCoat(features, lobes, wi);
         float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
@@ -124,7 +124,7 @@ RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
 }
 
 // Of reflection only: transmission is a matter of sampling.
-RT_FN vec4 evalPrincipled(uint features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipled(Features features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     Frame frame = makeFrame(n);
     return evalPrincipledReflection(features, m.lobes, toLocal(frame, wo), toLocal(frame, wi));
 }
@@ -156,7 +156,7 @@ RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u
 }
 
 // One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
-RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
+RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
     float beyondSpecular = beyondDiffuse + lobes.coatShare;
@@ -205,7 +205,7 @@ RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u
 }
 
 // f cos and density of a proposal: of the lobes that send light to its side.
-RT_FN vec4 evalProposal(uint features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
+RT_FN vec4 evalProposal(Features features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
     if (s.transmitted == 0u) return evalPrincipledReflection(features, m.lobes, wo, s.wi);
     return s.wi.z < 0.0f ? evalPrincipledTransmission(m, wo, s.wi) : vec4(0.0f);
 }
@@ -218,7 +218,7 @@ RT_FN void weighProposal(vec4 f, RT_INOUT(BsdfSample) s) {
     s.weight = select(isWeighed, vec3(f) / density, s.weight);
 }
 
-RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
+RT_FN BsdfSample samplePrincipled(Features features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     Frame frame = makeFrame(n);
     vec3 local = toLocal(frame, wo);
     if (!(local.z > 0.0f)) return absorbed();
@@ -230,10 +230,10 @@ RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, ve
 
 #else
 
-vec4 evalPrincipled(uint features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
+vec4 evalPrincipled(Features features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
     return vec4(0.0f);
 }
-BsdfSample samplePrincipled(uint features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
+BsdfSample samplePrincipled(Features features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
     return absorbed();
 }
 

@@ -10,11 +10,7 @@
 
 RT_SHARED_BEGIN
 
-#ifdef __cplusplus
-static_assert(kFeatureDetail == kFeaturePrincipled, "surfaces give principled materials what they ask for");
-#endif
-
-RT_FN bool isPrincipled(uint features, RT_IN(Material) m) {
+RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
     return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
 }
 
@@ -53,11 +49,11 @@ RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, f
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 // A texture's colour and opacity on a surface.
-RT_FN vec4 surfaceTexture(uint features, SceneRef scene, uint texture, RT_IN(Surface) s) {
+RT_FN vec4 surfaceTexture(Features features, SceneRef scene, uint texture, RT_IN(Surface) s) {
     return evalTexture(features, scene, texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2);
 }
 
-RT_FN float surfaceNumber(uint features, SceneRef scene, RT_IN(ScaledChannel) number, RT_IN(Surface) s) {
+RT_FN float surfaceNumber(Features features, SceneRef scene, RT_IN(ScaledChannel) number, RT_IN(Surface) s) {
     if (!has(features, kTexturedFeatures) || number.texture == kNone) return number.factor;
     vec4 texel = surfaceTexture(features, scene, number.texture, s);
     float high = number.channel == 2u ? texel.z : texel.w;
@@ -65,13 +61,13 @@ RT_FN float surfaceNumber(uint features, SceneRef scene, RT_IN(ScaledChannel) nu
     return clamp(number.factor * (number.channel < 2u ? low : high), 0.0f, 1.0f);
 }
 
-RT_FN vec3 surfaceColor(uint features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {
+RT_FN vec3 surfaceColor(Features features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {
     if (!has(features, kTexturedFeatures) || source.texture == kNone) return source.color;
     return vec3(surfaceTexture(features, scene, source.texture, s));
 }
 
 // Share of rays that meet the surface.
-RT_FN float surfaceOpacity(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+RT_FN float surfaceOpacity(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     float opacity = surfaceNumber(features, scene, p.opacity, s) * s.color.w;
     if (p.alphaCutoff < 0.0f) return opacity;
     return opacity < p.alphaCutoff ? 0.0f : 1.0f;
@@ -96,7 +92,7 @@ RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
 
 // The shading normal that a map asks for, on the side of `shading`; `facing` is 1 on the front and -1 on the back.
 // `scale` is that of the map's x and y.
-RT_FN vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, RT_IN(Surface) s, vec3 shading,
+RT_FN vec3 mappedNormal(Features features, SceneRef scene, uint texture, float scale, RT_IN(Surface) s, vec3 shading,
                         float facing) {
     if (!has(features, kTexturedFeatures) || texture == kNone || s.tangent.w == 0.0f) return shading;
     vec3 tangent = vec3(s.tangent) - shading * dot(vec3(s.tangent), shading);
@@ -114,7 +110,7 @@ RT_FN vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale
 
 // The normal of the clear coat in the frame of n, the normal of what is below it: each has its own map, and without one
 // is smooth. Other arguments as of mappedNormal() and keepReflectionAbove().
-RT_FN vec3 coatNormalOf(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
+RT_FN vec3 coatNormalOf(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
                         float facing, vec3 geometric, vec3 wo, vec3 n) {
     bool isOwn = has(features, kFeatureCoatNormal) && (p.normalTexture != kNone || p.coatTexture != kNone);
     if (!isOwn) return vec3(0.0f, 0.0f, 1.0f);
@@ -131,7 +127,7 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
 }
 
 // Of the principled material p at a point.
-RT_FN PrincipledValues principledValues(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     PrincipledValues values;
     values.metallic = surfaceNumber(features, scene, p.metallic, s);
     values.roughness = surfaceNumber(features, scene, p.roughness, s);
@@ -159,10 +155,10 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.others = values.others;
 
     // Clear coat and sheen leave the rest to what is below. From inside of glass there is neither.
-    bool inside = has(values.others, kLobeGlass) && !front && values.thin == 0u;
+    bool inside = hasLobe(values.others, kLobeGlass) && !front && values.thin == 0u;
     float coat = 0.0f;
     float coatAlbedo = 0.0f;
-    if (has(values.others, kLobeCoat)) {
+    if (hasLobe(values.others, kLobeCoat)) {
         vec3 c = directionalAlbedo(scene, coatCosine, values.clearcoatRoughness);
         float boost = compensation(vec3(kCoatReflectance), c.x + c.y).x;
         coat = inside ? 0.0f : values.clearcoat * boost;
@@ -170,7 +166,7 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     }
     vec3 sheen = vec3(0.0f);
     float sheenAlbedo = 0.0f;
-    if (has(values.others, kLobeSheen)) {
+    if (hasLobe(values.others, kLobeSheen)) {
         sheen = select(inside, vec3(0.0f), values.sheenColor);
         float whole = directionalAlbedo(scene, cosine, values.sheenRoughness).z;
         sheenAlbedo = min(maxComponent(sheen) * whole, 1.0f);
@@ -191,7 +187,7 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.sheenExponent = 1.0f / square(values.sheenRoughness);
     lobes.alpha = square(values.roughness);
     lobes.glass = 0.0f;
-    if (has(values.others, kLobeGlass)) {
+    if (hasLobe(values.others, kLobeGlass)) {
         lobes.glass = (1.0f - metallic) * values.transmission * below;
         if (lobes.glass > 0.0f && values.roughness > 0.0f) {
             // A sheet mirrors to its other side what it does not reflect.
@@ -219,23 +215,23 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
 
 #else
 
-float surfaceOpacity(uint features, SceneRef scene, Principled p, Surface s) {
+float surfaceOpacity(Features features, SceneRef scene, Principled p, Surface s) {
     return 1.0f;
 }
 vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
     return n;
 }
-vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
+vec3 mappedNormal(Features features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
     return shading;
 }
-vec3 coatNormalOf(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing, vec3 geometric,
-                  vec3 wo, vec3 n) {
+vec3 coatNormalOf(Features features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing,
+                  vec3 geometric, vec3 wo, vec3 n) {
     return vec3(0.0f, 0.0f, 1.0f);
 }
 vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
     return vec3(0.0f);
 }
-PrincipledValues principledValues(uint features, SceneRef scene, Principled p, Surface s) {
+PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
     PrincipledValues values;
     values.others = 0u;
     values.roughness = 0.0f;

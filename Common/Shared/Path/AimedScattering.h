@@ -13,8 +13,8 @@ RT_SHARED_BEGIN
 // Of the directions from a vertex to which all light comes by way of the sphere.
 const float kMostAimed = 0.7f;
 
-RT_FN bool aimsPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse == kPathReuseAimed;
+RT_FN bool aimsPaths(Features features, RT_IN(RenderParams) params) {
+    return has(features, kMethodReuse) && params.pathReuse == kPathReuseAimed;
 }
 
 // Share of the directions from x that are drawn towards the sphere; `direct` is LightContext::total there.

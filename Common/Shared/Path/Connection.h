@@ -78,7 +78,7 @@ RT_FN LightEnd sampleSkyEnd(SceneRef scene, RT_IN(ConnectionChoice) choice, vec3
     return end;
 }
 
-RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
+RT_FN LightEnd sampleEnd(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
                          vec3 center, float time, float rate, vec2 u) {
     if (has(features, kFeatureSkyImage) && choice.skyPatch != kNone) {
         return sampleSkyEnd(scene, choice, center, rate, u);
@@ -208,7 +208,7 @@ RT_FN SpherePath pickPath(RT_IN(SpherePath) a, RT_IN(SpherePath) b, RT_IN(Sphere
 const float kPassageMargin = 5.0e-5f;
 
 // A path weighed against scattering at v, which the path before reached with this throughput.
-RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, vec3 center,
+RT_FN Passage weighPassage(Features features, RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, vec3 center,
                            RT_IN(SpherePath) path, RT_IN(LightEnd) end, RT_IN(Vertex) v, vec3 throughput) {
     Passage p = noPassage();
     if (!(path.share > 0.0f)) return p;
@@ -245,7 +245,7 @@ RT_FN vec2 connectionSample(RT_IN(Sampler) smp, RT_IN(Vertex) v) {
 }
 
 // A connection from v, where a light has been chosen for next-event estimation.
-RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+RT_FN Passage connectLight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
                            RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s) {
     s.chain.rate = 0.0f;
     if (params.connectedSpheres == 0u || !connects(features, v)) return noPassage();
@@ -297,7 +297,7 @@ RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
 }
 
 // What becomes of the passage when its next segment has been traced; the last one adds to `radiance`.
-RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax, RT_INOUT(Passage) p,
+RT_FN void endSegment(Features features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax, RT_INOUT(Passage) p,
                       RT_INOUT(vec3) radiance) {
     if (!isFree) {
         p.segments = 0u;

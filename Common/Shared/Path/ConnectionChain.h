@@ -61,7 +61,7 @@ RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sphere
 
 // The element of sphereReaches for a light by way of the sphere, for the sky that of the patch which holds this texel;
 // kNone: it is not connected to.
-RT_FN uint reachOf(uint features, SceneRef scene, RT_IN(SmoothSphere) sphere, uint light, uvec2 texel) {
+RT_FN uint reachOf(Features features, SceneRef scene, RT_IN(SmoothSphere) sphere, uint light, uvec2 texel) {
     for (uint i = sphere.firstReach; i < sphere.firstReach + sphere.reachCount; i++) {
         RT_IN(SphereReach) reach = loadSphereReach(scene, i);
         if (reach.light != light) continue;
@@ -81,7 +81,7 @@ struct LightMet {
 
 // Density over area with which a connection to `met`, where the chain scattered, would end there; 0: none would.
 // Completes the point and the normal of the sky as sampleEnd() has them.
-RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
+RT_FN float connectingDensity(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
                               RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, RT_INOUT(LightMet) met) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     bool isSky = has(features, kFeatureSkyImage) && met.index == globals.skyLight;
@@ -111,8 +111,8 @@ RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams)
 }
 
 // Weight of what the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
-RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
-                            vec3 y, vec3 normal) {
+RT_CALL float passageWeight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
+                            uint index, vec3 y, vec3 normal) {
     uint k = passedSphere(scene, params, s.chain);
     if (k == kNone) return 1.0f;
     RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);

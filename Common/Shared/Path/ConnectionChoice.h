@@ -69,7 +69,7 @@ RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, floa
 }
 
 // Connections leave from diffuse surfaces, rough ones and media.
-RT_FN bool connects(uint features, RT_IN(Vertex) v) {
+RT_FN bool connects(Features features, RT_IN(Vertex) v) {
     return v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
 }
 

@@ -25,7 +25,7 @@ RT_FN LayeredRay beforeLayers(RT_IN(Ray) ray) {
 
 // Whether the ray goes on through what it hits, from r on; then r is moved beyond. `ray` is the number of the ray in
 // the path of this sample: 2 vertices, and 1 for a shadow ray.
-RT_FN bool goesThrough(uint features, SceneRef scene, RT_IN(Sampler) smp, uint ray, RT_IN(Hit) hit,
+RT_FN bool goesThrough(Features features, SceneRef scene, RT_IN(Sampler) smp, uint ray, RT_IN(Hit) hit,
                        RT_INOUT(LayeredRay) r) {
     if (hit.t < 0.0f || r.layers == kMostLayers) return false;
     Surface s = makeSurface(features, scene, r.ray, hit);

@@ -21,13 +21,13 @@ const float kReuseSurvival = 0.6f;
 // Of the vertex that has drawn y, where rounding leaves none.
 const float kLeastReuseDensity = 1.0e-37f;
 
-RT_FN bool reusesPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse != kPathReuseOff;
+RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
+    return has(features, kMethodReuse) && params.pathReuse != kPathReuseOff;
 }
 
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and
 // `prefix` is what it had brought before.
-RT_FN void followReuse(uint features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
+RT_FN void followReuse(Features features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
                        RT_INOUT(vec3) prefix) {
     // Where normals are interpolated, how v scatters depends on where it is seen from.
     bool isPlain = isLambertian(features, v.bsdf) && surface.shading == surface.normal;

@@ -29,7 +29,7 @@ RT_SHARED_BEGIN
 const float kLeastSurvival = 0.05f; // of the roulette: bounds what a path may weigh
 
 // The ray of a sample from the camera.
-RT_FN Ray cameraRay(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, uvec2 pixel,
+RT_FN Ray cameraRay(Features features, RT_IN(RenderParams) params, RT_IN(Camera) camera, uvec2 pixel,
                     RT_IN(CameraSamples) u) {
     return generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), u.pixel, u.lens, u.time.x);
 }
@@ -87,11 +87,11 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
     s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
 }
 
-// With kFeatureConnections: follows the path's chain to what it has hit, and returns the weight of emission there.
-RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
+// With kMethodConnections: follows the path's chain to what it has hit, and returns the weight of emission there.
+RT_FN float weighChain(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
                        RT_IN(Surface) surface, RT_INOUT(PathState) s) {
 #ifdef RT_FULL
-    if (has(features, kFeatureConnections)) {
+    if (has(features, kMethodConnections)) {
         arriveChain(scene, params, hit, s);
         if (s.chain.state >= kChainBeyond && surface.light != kNone) {
             return passageWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
@@ -101,10 +101,10 @@ RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params
     return 1.0f;
 }
 
-// With kFeatureConnections: the weight of the sky that the path has left for.
-RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
+// With kMethodConnections: the weight of the sky that the path has left for.
+RT_FN float weighSkyChain(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
 #ifdef RT_FULL
-    if (has(features, kFeatureConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
+    if (has(features, kMethodConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
         uint sky = loadGlobals(scene).skyLight;
         if (sky != kNone) return passageWeight(features, scene, params, s, sky, vec3(0.0f), vec3(0.0f));
     }
@@ -113,19 +113,19 @@ RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) par
 }
 
 // Whether edge rays that arrive at v take a sample of the light that it reflects.
-RT_FN bool splitsBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+RT_FN bool splitsBlur(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     return has(features, kFeatureLights) && usesMis(params) && v.inMedium == 0u && isMetal(features, v.bsdf) &&
            isBlurredMirror(features, v.bsdf);
 }
 
 // Whether that light is left to edge rays by the path, which has arrived at v.
-RT_FN bool leavesBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(PathState) s) {
+RT_FN bool leavesBlur(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && s.pdf == kCountedApart && splitsBlur(features, params, v);
 }
 
 // Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. `prefix`: see
 // followReuse(). False: the path has ended.
-RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+RT_FN bool arrive(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                   RT_INOUT(PathState) s, RT_INOUT(vec3) prefix, RT_OUT(Vertex) v) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
@@ -154,7 +154,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
 }
 
 // Goes on from v into the direction that b sampled; `survival` decides the roulette. False: the path ends here.
-RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
+RT_FN bool goOn(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
                 RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
     float strongest = maxComponent(s.throughput);
@@ -195,7 +195,7 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
 
 // All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
 // `passage` and `direct`, which the caller sets to noPassage() and noDirectLight(), have been added if they arrive.
-RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+RT_FN bool stepPath(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                     RT_INOUT(PathState) s, RT_INOUT(SharedPart) part, RT_INOUT(DirectLight) direct,
                     RT_INOUT(Passage) passage) {
     Vertex v;
@@ -215,7 +215,7 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         addUnshadowed(direct, s);
     }
 #ifdef RT_FULL
-    if (has(features, kFeatureConnections) && nextEvent) passage = connectLight(features, scene, params, smp, v, u, s);
+    if (has(features, kMethodConnections) && nextEvent) passage = connectLight(features, scene, params, smp, v, u, s);
 #endif
     BsdfSample b = sampleScattering(features, v, u.bsdf);
     if (mixture) b = sampleMixture(features, scene, params, choice, v, u, b, s.ray.time, s.last);
@@ -225,7 +225,7 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         if (part.aimed > 0.0f) b = aimScattering(globals.aimed, v, u.bsdf, u.roulette.y, part.aimed, b);
     }
 #ifdef RT_FULL
-    if (has(features, kFeatureConnections)) goOnChain(v, b, s);
+    if (has(features, kMethodConnections)) goOnChain(v, b, s);
 #endif
     return goOn(features, params, v, b, u.roulette.x, s);
 }
