@@ -83,8 +83,7 @@ bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch, bool isShared) const
     if (isEmpty()) return true;
     const Launch& next = numbered(begun_);
     return begun_ - ended_ < launches_.size() && radianceBytes(launch) <= next.radiance.bytes() &&
-           sharedBytes(launch, isShared) <= next.sharedPaths.bytes() &&
-           plannedBytes(launch) <= next.planned.bytes() &&
+           sharedBytes(launch, isShared) <= next.sharedPaths.bytes() && plannedBytes(launch) <= next.planned.bytes() &&
            progressBytes(invocationsFor(launch)) <= next.progress.bytes();
 }
 

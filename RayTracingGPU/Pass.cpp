@@ -42,7 +42,7 @@ shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::u
         launch.spp = pass.end;
         return launch;
     };
-    if (region.hasPlan()) { // as many slots of each band as have so many samples together
+    if (region.hasPlan()) {                           // as many slots of each band as have so many samples together
         constexpr std::uint64_t kPlaces = 1ull << 32; // see PlannedSample
         const std::uint64_t numbered = kPlaces / (region.columnSamples() * pass.steps);
         const std::uint64_t largest = std::min<std::uint64_t>({left, half, numbered});

@@ -144,8 +144,8 @@ class Search {
 std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                                              const glm::uvec2& size, const glm::uvec2& pixel) {
     const shared::Camera record = scene::makeCamera(camera, size.x, size.y, scene.origin);
-    const shared::Ray ray =
-        shared::generateCameraRay(shared::kFeatureNone, record, pixel, size, shared::vec2(0.5f), shared::vec2(0.5f), kTime);
+    const shared::Ray ray = shared::generateCameraRay(shared::kFeatureNone, record, pixel, size, shared::vec2(0.5f),
+                                                      shared::vec2(0.5f), kTime);
     return Search(scene, ray).run();
 }
 
