@@ -336,7 +336,7 @@ class CpuEngine final : public app::Engine {
     app::RenderSettings settings_;
     shared::Features features_;
     const Kernel* kernel_ = nullptr;
-    scene::LightEdges edges_;
+    scene::Silhouettes edges_;
     KernelContext context_;
 
     Film film_;

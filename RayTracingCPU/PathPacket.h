@@ -236,7 +236,7 @@ class PathPacket {
 
     bool choosesLight(const Vertex& v, const PathState& path) const {
         return (usesNextEventEstimation(kFeatures, params_, scene_.globals, v) &&
-                !leavesBlur(kFeatures, params_, v, path)) ||
+                !leavesGlossyHit(kFeatures, params_, v, path)) ||
                usesMixture(kFeatures, params_, scene_.globals, v);
     }
 

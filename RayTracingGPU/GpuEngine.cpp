@@ -178,7 +178,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     constants.tree = scene_->tree();
     constants.globals = s.globals;
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
-    const scene::LightEdges edges = app::splitAtEdges(s, constants.camera, settings_, params_);
+    const scene::Silhouettes edges = app::splitAtEdges(s, constants.camera, settings_, params_);
     edges_ = vulkan::deviceArray<std::uint32_t>(context_, edges.bits(), "edges of lights");
     constants.edges = edges_.address();
     edgeParts_ = vulkan::deviceArray<std::uint32_t>(context_, edges.parts, "parts of pixels with edges");

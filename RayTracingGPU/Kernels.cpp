@@ -24,7 +24,7 @@ struct Shaders {
     }
 };
 
-// What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
+// What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
 constexpr shared::Features kFeaturesOfFull = shared::kMethodProjected | shared::kFeaturePrincipled |
                                              shared::kFeatureOpacity | shared::kFeatureCoatNormal |
                                              shared::kMethodConnections;

@@ -39,7 +39,8 @@ class PreviewPass {
     void uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
     void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
     void drawBand(const Band& band);
-    std::uint64_t recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done, std::uint64_t most) const;
+    std::uint64_t recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done,
+                             std::uint64_t maximum) const;
     void finishBand(const Band& band);
 
     vulkan::VulkanContext& context_;

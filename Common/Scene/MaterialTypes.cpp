@@ -15,9 +15,9 @@ constexpr bool kOptional = false;
 constexpr MaterialParameter color(const char* name, bool isRequired, const char* help) {
     return {MaterialParameter::Type::Color, name, isRequired, 0, 1, 1, help};
 }
-constexpr MaterialParameter number(const char* name, bool isRequired, double least, double most, double usual,
+constexpr MaterialParameter number(const char* name, bool isRequired, double minimum, double maximum, double usual,
                                    const char* help) {
-    return {MaterialParameter::Type::Number, name, isRequired, least, most, usual, help};
+    return {MaterialParameter::Type::Number, name, isRequired, minimum, maximum, usual, help};
 }
 
 template <typename... Parameters>

@@ -14,7 +14,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "Common/Scene/Indirect.h"
+#include "Common/Scene/Boxed.h"
 #include "Common/Shared/Material/Materials.h"
 #include "Common/Shared/Material/PrincipledParameters.h"
 
@@ -222,7 +222,7 @@ struct MeshFile {
     bool operator==(const MeshFile&) const = default;
 };
 struct MeshDesc {
-    std::variant<MeshFile, Indirect<MeshData>> source;
+    std::variant<MeshFile, Boxed<MeshData>> source;
     std::string material; // empty: those of the file
     bool light = true;
     bool operator==(const MeshDesc&) const = default;

@@ -6,7 +6,7 @@
 
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
 #include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Shared/Base/Features.h"

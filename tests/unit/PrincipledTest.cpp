@@ -252,14 +252,14 @@ TEST(Principled, CoatsTurnWithTheirNormal) {
 // A lobe that becomes a mirror loses no brightness on the way.
 TEST(Principled, MirrorsAreTheLimitOfRoughness) {
     Uniforms uniform(35);
-    const float least = std::sqrt(kLeastAlpha);
+    const float minimum = std::sqrt(kMinAlpha);
     for (const Case& which : kCases)
         for (const double cosine : {0.9, 0.3}) {
             const vec3 wo = outgoing(cosine);
             const vec3 albedo(0.8f, 0.5f, 0.2f);
             Mean below, above;
-            const Bsdf mirror = bsdfOf(principled(which, 0.999f * least), albedo, wo);
-            const Bsdf rough = bsdfOf(principled(which, 1.001f * least), albedo, wo);
+            const Bsdf mirror = bsdfOf(principled(which, 0.999f * minimum), albedo, wo);
+            const Bsdf rough = bsdfOf(principled(which, 1.001f * minimum), albedo, wo);
             for (int i = 0; i < 1 << 14; ++i) {
                 below.add(double(draw(mirror, wo, uniform.pair()).weight.y));
                 above.add(double(draw(rough, wo, uniform.pair()).weight.y));

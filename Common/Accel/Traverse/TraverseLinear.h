@@ -30,7 +30,7 @@ RT_FN void acceptLanes(const LaneHits& lanes, const std::uint32_t* names, LaneBe
 
 RT_FN shared::Hit nearestOfLanes(const LaneBest& best, float tMax) {
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
-    const float t = least(best.t);
+    const float t = minimum(best.t);
     if (!(t < tMax)) return hit;
     const Mask8 nearest = best.t == broadcast(t);
     std::uint32_t name = firstOf(nearest, best.name);

@@ -23,7 +23,7 @@ RT_FN void acceptNearest(const LaneHits& lanes, shared::uint kind, const std::ui
     unsigned hits = bits(mask);
     if (hits == 0) return;
     if ((hits & (hits - 1)) != 0) {
-        const float nearest = least(select(mask, lanes.t, broadcast(kLargest)));
+        const float nearest = minimum(select(mask, lanes.t, broadcast(kLargest)));
         hits = bits(mask & (lanes.t == broadcast(nearest)));
     }
     const unsigned i = lowestBit(hits);

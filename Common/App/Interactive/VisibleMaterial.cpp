@@ -16,7 +16,7 @@ namespace rt::app {
 namespace {
 
 constexpr float kTime = 0.5f;
-constexpr std::uint64_t kMostTests = 4'000'000; // of shapes: 20 ms or so
+constexpr std::uint64_t kMaxTests = 4'000'000; // of shapes: 20 ms or so
 
 struct Box {
     shared::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
@@ -52,7 +52,7 @@ class Search {
   private:
     bool isWorthIt(const shared::Geometry& g) {
         tests_ += std::uint64_t{1} + g.sphereCount + g.quadCount + g.triangleCount;
-        return tests_ <= kMostTests;
+        return tests_ <= kMaxTests;
     }
 
     shared::vec3 centerOf(std::uint32_t sphere) const {

@@ -113,7 +113,7 @@ struct AovImages {
 struct Snapshot {
     image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
     std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as Film::samples()
-    std::uint64_t leastSamples() const {
+    std::uint64_t minSamples() const {
         return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
     }
 };

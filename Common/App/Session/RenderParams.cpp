@@ -48,9 +48,9 @@ std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
 }
 
 // RenderParams::edgeRays: a power of two, which keeps Sobol's strata whole, and fewer where that would be more rays for
-// each of the image's samples than kMostEdgeRays in the mean.
+// each of the image's samples than kMaxEdgeRays in the mean.
 constexpr std::uint32_t kRaysAtEdge = 8;
-constexpr double kMostEdgeRays = 1.0;
+constexpr double kMaxEdgeRays = 1.0;
 
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
@@ -69,7 +69,7 @@ bool usesMis(const RenderSettings& settings) {
 
 // Whether lights are connected to by way of smooth spheres. What layers of partial opacity let through is not traced.
 bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    return settings.specularConnections && usesMis(settings) && !scene.smoothSpheres.empty() &&
+    return settings.specularConnections && usesMis(settings) && !scene.specularCasters.empty() &&
            !shared::has(scene.features, shared::kFeatureOpacity) && scattersWidely(scene);
 }
 
@@ -133,7 +133,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataX = settings.sampler == SamplerKind::SobolBlue ? logOfBlock(settings) : strata(settings).x;
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
-        params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
+        params.connectedSpheres = static_cast<std::uint32_t>(scene.specularCasters.size());
     params.pathReuse = pathReuse(scene, settings);
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
@@ -144,17 +144,17 @@ std::uint32_t dependentSide(shared::Features features) {
 }
 
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    return settings.edgeRays && scattersWidely(scene) && scene::mayHaveLightEdges(scene);
+    return settings.edgeRays && scattersWidely(scene) && scene::mayHaveSilhouettes(scene);
 }
 
-scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
-                               const RenderSettings& settings, shared::RenderParams& params) {
+scene::Silhouettes splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
+                                const RenderSettings& settings, shared::RenderParams& params) {
     params.edgeRays = 0;
     if (!mayHaveEdges(scene, settings)) return {};
-    scene::LightEdges edges = scene::findLightEdges(scene, camera, settings.width, settings.height);
+    scene::Silhouettes edges = scene::findSilhouettes(scene, camera, settings.width, settings.height);
     const double share = static_cast<double>(edges.count) / settings.width / settings.height;
     std::uint32_t rays = kRaysAtEdge;
-    while (rays > 0 && rays * share > kMostEdgeRays) rays /= 2;
+    while (rays > 0 && rays * share > kMaxEdgeRays) rays /= 2;
     if (edges.count == 0 || rays < 2) return {};
     params.edgeRays = rays;
     return edges;

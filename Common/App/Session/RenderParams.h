@@ -5,7 +5,7 @@
 #include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
 #include "Common/Scene/CompiledScene.h"
-#include "Common/Scene/LightEdges.h"
+#include "Common/Scene/Silhouettes.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::app {
@@ -19,8 +19,8 @@ std::uint32_t dependentSide(shared::Features features);
 // Whether any camera could have edges of lights in sight, at which its rays are to be split.
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings);
 // Where this camera's are; sets params.edgeRays. The camera is one of makeCamera(). No bits: nowhere.
-scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
-                               const RenderSettings& settings, shared::RenderParams& params);
+scene::Silhouettes splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
+                                const RenderSettings& settings, shared::RenderParams& params);
 
 // Whether they ask for an adaptive film and can have one: strata are made for a number of samples that is known.
 bool isAdaptive(const RenderSettings& settings);

@@ -16,7 +16,7 @@ using namespace shared;
 constexpr uint kNormals = 512; // of facets, in a Hammersley set
 constexpr uint kHeights = 48;  // of wi over sheen
 constexpr uint kTurns = 24;
-constexpr std::size_t kMostKept = 16; // tables of glass, 8 KiB each
+constexpr std::size_t kMaxKept = 16; // tables of glass, 8 KiB each
 
 // The direction in the plane y = 0. Grazing ones stay above the surface.
 vec3 outgoing(float cosine) {
@@ -50,7 +50,7 @@ vec2 facets(float cosine, float alpha) {
 
 float sheen(float cosine, float roughness) {
     const vec3 wo = outgoing(cosine);
-    const float exponent = 1.0f / square(std::max(roughness, kLeastSheenRoughness));
+    const float exponent = 1.0f / square(std::max(roughness, kMinSheenRoughness));
     float sum = 0.0f;
     for (uint i = 0; i < kHeights; ++i)
         for (uint k = 0; k < kTurns; ++k) {
@@ -117,7 +117,7 @@ std::vector<float> glassAlbedos(float ior) {
     }
     std::vector<float> table = makeGlassTable(ior); // whose loop may do other work that asks for a table meanwhile
     const std::scoped_lock lock(mutex);
-    if (kept.size() >= kMostKept) kept.clear();
+    if (kept.size() >= kMaxKept) kept.clear();
     kept.emplace(ior, table);
     return table;
 }

@@ -49,8 +49,8 @@ RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, ve
     float t = dot(light.normal, light.position - position) / cosine;
     if (!(t > 0.0f && t < kInfinity)) return c;
     vec2 at = edgeCoordinates(light, position + wi * t - light.position);
-    float most = light.kind == kLightTriangle ? at.x + at.y : max(at.x, at.y);
-    bool inside = at.x >= 0.0f && at.y >= 0.0f && most <= 1.0f;
+    float maximum = light.kind == kLightTriangle ? at.x + at.y : max(at.x, at.y);
+    bool inside = at.x >= 0.0f && at.y >= 0.0f && maximum <= 1.0f;
     if (inside) c.distance = t;
     return c;
 }

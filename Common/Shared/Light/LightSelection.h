@@ -29,7 +29,7 @@ RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
     LightChoice choice;
     choice.light = light.selection > 0.0f ? low : kNone;
     choice.probability = light.selection;
-    choice.u = light.selection > 0.0f ? stretch(u, light.cdf - light.selection, light.cdf) : 0.0f;
+    choice.u = light.selection > 0.0f ? remapSample(u, light.cdf - light.selection, light.cdf) : 0.0f;
     return choice;
 }
 
@@ -37,7 +37,7 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     LightChoice choice;
     choice.light = min(uint(u * float(count)), count - 1u);
     choice.probability = 1.0f / float(count);
-    choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
+    choice.u = remapSample(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
     return choice;
 }
 

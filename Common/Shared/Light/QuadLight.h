@@ -114,8 +114,8 @@ RT_FN vec4 cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighti
     float z = dot(normal, r.zAxis) * r.h;
     vec4 heights = vec4(u0 + v0 + z, u1 + v0 + z, u0 + v1 + z, u1 + v1 + z);
     vec4 cosines = heights * cornerReciprocals(r.x0, x1, r.y0, y1, r.h);
-    float most = max(max(max(cosines.x, cosines.y), max(cosines.z, cosines.w)), 0.01f);
-    return mix(vec4(most), max(cosines, vec4(0.1f * most)), weighting);
+    float maximum = max(max(max(cosines.x, cosines.y), max(cosines.z, cosines.w)), 0.01f);
+    return mix(vec4(maximum), max(cosines, vec4(0.1f * maximum)), weighting);
 }
 
 // By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly

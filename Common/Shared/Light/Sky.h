@@ -85,8 +85,8 @@ RT_FN LightSample sampleSkyTexel(SceneRef scene, uvec2 texel, vec2 u) {
     uint row = texel.y;
     uint column = texel.x;
     uint columns = skyColumns(image, row);
-    float inRow = stretch(u.y, loadSkyCdf(scene, row), loadSkyCdf(scene, row + 1u));
-    float inColumn = stretch(u.x, loadSkyCdf(scene, columns + column), loadSkyCdf(scene, columns + column + 1u));
+    float inRow = remapSample(u.y, loadSkyCdf(scene, row), loadSkyCdf(scene, row + 1u));
+    float inColumn = remapSample(u.x, loadSkyCdf(scene, columns + column), loadSkyCdf(scene, columns + column + 1u));
     float top = sinCos2Pi(0.5f * float(row) / float(image.height)).y;
     float bottom = sinCos2Pi(0.5f * float(row + 1u) / float(image.height)).y;
     float y = mix(top, bottom, inRow);

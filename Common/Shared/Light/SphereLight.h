@@ -16,7 +16,7 @@ RT_FN uint sphereLightStrategy(Features features, uint method, RT_IN(Light) ligh
     uint strategy = method == kShapeArea ? kStrategyArea : kStrategySolidAngle;
     if (method == kShapeAuto) {
         uint near = isSurface(normal) ? kStrategyVisibleCap : kStrategySolidAngle;
-        strategy = r2 >= kLeastCapSine2 * d2 ? near : kStrategySolidAngle;
+        strategy = r2 >= kMinCapSine2 * d2 ? near : kStrategySolidAngle;
     }
     if (wantsProjected(features, method, normal)) {
         strategy = r2 >= kTinyExtent * kTinyExtent * d2 ? kStrategyProjected : kStrategySolidAngle;

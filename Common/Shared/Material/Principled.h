@@ -2,7 +2,7 @@
 // glass; over them sheen and a clear coat. Here are the lobes that the layers come down to for one outgoing direction,
 // which PrincipledSurface.h finds.
 //
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_H
 #define RT_SHARED_PRINCIPLED_H
 #include "Common/Shared/Base/Random.h"
@@ -15,10 +15,10 @@ RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
     return false; // few are, and the choice among their lobes tells
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
-const float kLeastSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
-const float kCoatReflectance = 0.04f;     // of a clear coat at normal incidence
+const float kMinSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
+const float kCoatReflectance = 0.04f;   // of a clear coat at normal incidence
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -30,7 +30,7 @@ RT_FN float schlick(float cosine) {
 }
 
 RT_FN bool isMirror(float alpha) {
-    return alpha < kLeastAlpha;
+    return alpha < kMinAlpha;
 }
 
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
@@ -65,7 +65,7 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
     float cosine = wi.z * kInvPi;
     bool isAbove = min(wo.z, wi.z) > 0.0f;
 
-    float alpha = max(lobes.alpha, kLeastAlpha);
+    float alpha = max(lobes.alpha, kMinAlpha);
     float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
     vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
@@ -89,7 +89,7 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
     if (hasLobe(lobes.others, kLobeCoat)) {
         vec3 coatWo = toCoat(features, lobes, wo);
         vec3 coatWi = toCoat(features, lobes, wi);
-        float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
+        float coatAlpha = max(lobes.coatAlpha, kMinAlpha);
         float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(toCoat(features, lobes, h), coatAlpha);
         float coatFacets = coatDensity * smithVisibility(coatWo.z, coatWi.z, coatAlpha) * coatWi.z;
         coat = lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets;
@@ -144,8 +144,8 @@ RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
     bool isDiffuse = u.x < lobes.diffuseShare;
     bool isMirrored = isMirror(isDiffuse ? 1.0f : lobes.alpha); // GCC makes no vectors of && here
-    vec3 diffuse = sampleCosineHemisphere(vec2(stretch(u.x, 0.0f, lobes.diffuseShare), u.y));
-    vec3 h = sampleReflectionNormal(wo, lobes.alpha, vec2(stretch(u.x, lobes.diffuseShare, beyondDiffuse), u.y));
+    vec3 diffuse = sampleCosineHemisphere(vec2(remapSample(u.x, 0.0f, lobes.diffuseShare), u.y));
+    vec3 h = sampleReflectionNormal(wo, lobes.alpha, vec2(remapSample(u.x, lobes.diffuseShare, beyondDiffuse), u.y));
     vec3 glossy = h * (2.0f * dot(wo, h)) - wo;
     vec3 mirror = mix(lobes.f0, lobes.f90, schlick(wo.z)) / lobes.specularShare;
     BsdfSample s = absorbed();
@@ -171,12 +171,12 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
             vec3 reflected = fromCoat(features, lobes, vec3(-coatWo.x, -coatWo.y, coatWo.z));
             return mirrorSample(reflected, vec3(f), lobes.coatShare);
         }
-        vec2 v = vec2(stretch(u.x, beyondDiffuse, beyondSpecular), u.y);
+        vec2 v = vec2(remapSample(u.x, beyondDiffuse, beyondSpecular), u.y);
         vec3 h = sampleReflectionNormal(coatWo, lobes.coatAlpha, v);
         wi = fromCoat(features, lobes, h * (2.0f * dot(coatWo, h)) - coatWo);
     } else if (lobes.glassShare > 0.0f) {
         // Of rough glass the last digits choose between reflection and refraction, since all choose the normal.
-        float pick = stretch(u.x, beyondSpecular, 1.0f);
+        float pick = remapSample(u.x, beyondSpecular, 1.0f);
         float choice = isMirror(lobes.alpha) ? pick : pick * 4096.0f - floor(pick * 4096.0f);
         vec3 h = vec3(0.0f, 0.0f, 1.0f);
         if (!isMirror(lobes.alpha)) h = sampleVisibleNormal(wo, lobes.alpha, vec2(pick, u.y));

@@ -1,7 +1,7 @@
 // From a principled material and a hit to the lobes of Principled.h: textures, normal map, what the layers leave to
 // those below them, and the choice among lobes.
 //
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_SURFACE_H
 #define RT_SHARED_PRINCIPLED_SURFACE_H
 #include "Common/Shared/Material/Bsdf.h"
@@ -14,7 +14,7 @@ RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
     return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // ---- directional albedo --------------------------------------------------------------------------------------------
 
@@ -76,7 +76,7 @@ RT_FN float surfaceOpacity(Features features, SceneRef scene, RT_IN(Principled) 
 // ---- normal map ----------------------------------------------------------------------------------------------------
 
 // The least cosine with the geometric normal of the reflection at a bent shading normal.
-const float kLeastReflection = 0.01f;
+const float kMinReflection = 0.01f;
 
 // The normal n, bent back so far towards the geometric one that the mirror direction of wo stays above the surface:
 // otherwise bumps seen at grazing angles would be black.
@@ -84,9 +84,9 @@ RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
     vec3 reflected = n * (2.0f * dot(n, wo)) - wo;
     float above = dot(reflected, geometric);
     // At grazing angles the flat surface's own reflection is as low as wo.
-    float least = min(kLeastReflection, 0.5f * dot(wo, geometric));
-    if (above >= least) return n;
-    vec3 half_ = wo + normalize(reflected + geometric * (least - above));
+    float minimum = min(kMinReflection, 0.5f * dot(wo, geometric));
+    if (above >= minimum) return n;
+    vec3 half_ = wo + normalize(reflected + geometric * (minimum - above));
     return normalize(half_);
 }
 
@@ -135,7 +135,7 @@ RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN
     values.transmission = surfaceNumber(features, scene, p.transmission, s);
     values.clearcoat = surfaceNumber(features, scene, p.clearcoat, s);
     values.clearcoatRoughness = surfaceNumber(features, scene, p.clearcoatRoughness, s);
-    values.sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kLeastSheenRoughness);
+    values.sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kMinSheenRoughness);
     values.specularColor = surfaceColor(features, scene, p.specularColor, s);
     values.sheenColor = surfaceColor(features, scene, p.sheenColor, s);
     values.ior = p.ior;

@@ -15,12 +15,12 @@ const float kCountedApart = -1.0f;
 const float kEdgeRay = -2.0f;
 const float kBlurCountedApart = -3.0f;
 
-RT_FN bool isBehindBlur(Features features, RT_IN(PathState) s) {
+RT_FN bool isBehindGlossyHit(Features features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && has(features, kFeatureFuzz) && s.pdf == kBlurCountedApart;
 }
 
 RT_FN bool isCountedApart(Features features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindBlur(features, s));
+    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindGlossyHit(features, s));
 }
 
 RT_FN bool isEdgeRay(Features features, RT_IN(PathState) s) {

@@ -23,7 +23,7 @@ RT_FN vec2 lightSelectionSample(Features features, RT_IN(RenderParams) params, R
                                 RT_IN(VertexSamples) u) {
     vec2 selection = selectionSample(features, globals, u);
     if (has(features, kMethodMixture) && params.lightSampling == kSampleMixture) {
-        selection.x = stretch(selection.x, targetShare(globals), 1.0f);
+        selection.x = remapSample(selection.x, targetShare(globals), 1.0f);
     }
     return selection;
 }

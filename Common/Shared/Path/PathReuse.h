@@ -19,7 +19,7 @@ RT_SHARED_BEGIN
 const float kReuseSurvival = 0.6f;
 
 // Of the vertex that has drawn y, where rounding leaves none.
-const float kLeastReuseDensity = 1.0e-37f;
+const float kMinReuseDensity = 1.0e-37f;
 
 RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
     return has(features, kMethodReuse) && params.pathReuse != kPathReuseOff;
@@ -55,7 +55,7 @@ RT_FN float reuseDensity(vec3 x, vec3 n, vec3 y, vec3 nY) {
     vec3 d = y - x;
     float squared = dot(d, d);
     float cosine = dot(d, n);
-    bool sees = cosine > 0.0f && dot(d, nY) < 0.0f && squared > kLeastReuseDensity;
+    bool sees = cosine > 0.0f && dot(d, nY) < 0.0f && squared > kMinReuseDensity;
     return sees ? cosine / sqrt(squared) / squared : 0.0f;
 }
 
