@@ -16,10 +16,10 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/LargeArray.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/SamplePlan.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Scene/CameraRecord.h"
 #include "RayTracingCPU/KernelArgs.h"
 #include "RayTracingCPU/TileBatch.h"
 #include "RayTracingCPU/Workers.h"

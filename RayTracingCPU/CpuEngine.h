@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "Common/Accel/Traverse/RayQuery.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/Core/CpuFeatures.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::cpu {
 

@@ -1,7 +1,7 @@
 // Camera rays split at edges of lights, sixteen at a time. Included by one translation unit per instruction set; all it
 // defines has internal linkage.
 #pragma once
-#include "Common/Shared/Path/EdgeRays.h"
+#include "Common/Shared/Technique/EdgeRays.h"
 #include "RayTracingCPU/SampleLanes.h"
 #include "RayTracingCPU/ShadowRay.h"
 
@@ -68,14 +68,15 @@ class EdgeRays {
         const RenderParams& params = context_.params;
         for (;;) {
             const Hit hit = traceRay<kFeatures>(scene, smp, 2u * path.vertex, path.ray);
-            vec3 unusedPrefix;
+            TechniqueStep unused;
             Vertex v;
-            if (!arrive(kFeatures, scene, params, smp, hit, path, unusedPrefix, v)) break;
+            if (!shadeHit(kFeatures, scene, params, smp, hit, path, unused, v)) break;
             const VertexSamples u = vertexSamples(kFeatures, smp, v.index);
             const DirectLight direct =
                 splitsGlossyHit(kFeatures, params, v) ? sampleReflected(v, u, path) : noDirectLight();
             addUnshadowed(direct, path);
-            const bool goesOn = goOn(kFeatures, params, v, sampleScattering(kFeatures, v, u.bsdf), u.roulette.x, path);
+            const BsdfSample b = sampleScattering(kFeatures, v, u.bsdf);
+            const bool goesOn = continuePath(kFeatures, params, v, b, u.roulette.x, path);
             if (direct.distance > 0.0f) {
                 ++shadow_;
                 if (arrives<kFeatures>(scene, smp, path, direct)) addDirectLight(kFeatures, scene, direct, path);
@@ -86,7 +87,7 @@ class EdgeRays {
         return path.radiance;
     }
 
-    // A sample of the light that a blurred mirror reflects.
+    // A sample of the light that a glossy mirror reflects.
     DirectLight sampleReflected(const Vertex& v, const VertexSamples& u, PathState& path) {
         const CpuScene& scene = *context_.scene;
         const RenderParams& params = context_.params;

@@ -81,7 +81,7 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
 // What the kernels cover, from the leanest; the last covers everything, the one before all but what the books lack.
 constexpr Features kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
                                   kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
-                                  kFeatureQuadLights | kMethodReuse;
+                                  kFeatureQuadLights | kMethodReuse | kMethodAiming | kMethodEdgeRays;
 constexpr Features kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
                                       kFeatureDielectric | kFeatureSky | kFeatureThinLens;
 constexpr Features kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |

@@ -122,7 +122,7 @@ RT_FN BsdfSample diffuseSample(const PathLanes& lanes, uint i) {
     return b;
 }
 
-// A vertex as arrive() leaves it.
+// A vertex as shadeHit() leaves it.
 template <Features kFeatures>
 RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
     set(lanes.vertices, i, v);

@@ -158,7 +158,7 @@ class PathPacket {
     bool trace() {
         for (;;) {
             if (cancel_ != nullptr && cancel_->load(std::memory_order_relaxed)) return false;
-            ActiveSlots active = arriveAll();
+            ActiveSlots active = shadeHits();
             if (active.arrived == 0u) break;
             drawVertexSamples<kFeatures>(active.lit != 0u, lanes_);
             if (active.lit != 0u) sampleLights(active.lit);
@@ -167,7 +167,7 @@ class PathPacket {
             if (aimsPaths(kFeatures, params_)) active.aimed = aimScatterings();
             if (has(kFeatures, kFeaturePrincipled) && active.principled != 0u)
                 samplePrincipled<kFeatures>(active.layered, lanes_);
-            eachLane(active.arrived, [&](uint i) { goOnFrom(i, active); });
+            eachLane(active.arrived, [&](uint i) { continuePath(i, active); });
         }
         if constexpr (kConnects) addConnections();
         if constexpr (kReuses) shared_.finish(tasks_, radiances_, counters_);
@@ -180,7 +180,7 @@ class PathPacket {
     static constexpr bool kReuses = (kFeatures & kMethodReuse) != kFeatureNone;
 
     // Takes every path to its next vertex: one that ends on the way makes room for the next sample's.
-    ActiveSlots arriveAll() {
+    ActiveSlots shadeHits() {
         ActiveSlots active;
         for (uint i = 0u; i < kLanes; ++i) {
             PathSlot& slot = slots_[i];
@@ -188,7 +188,7 @@ class PathPacket {
             for (;;) {
                 if (slot.sample == kNone && !begin(slot, i)) break;
                 const Sampler smp = get(lanes_.samplers, i);
-                if (arriveAtNext(slot, smp, get(lanes_.hits, i), v)) break;
+                if (shadeNext(slot, smp, get(lanes_.hits, i), v)) break;
                 end(slot);
             }
             if (slot.sample == kNone) continue;
@@ -204,11 +204,12 @@ class PathPacket {
     }
 
     // False: the path has ended.
-    bool arriveAtNext(PathSlot& slot, const Sampler& smp, const Hit& hit, Vertex& v) {
+    bool shadeNext(PathSlot& slot, const Sampler& smp, const Hit& hit, Vertex& v) {
         const uint before = slot.path.reuse;
-        vec3 prefix;
-        if (!arrive(kFeatures, scene_, params_, smp, hit, slot.path, prefix, v)) return false;
-        if constexpr (kReuses) shared_.arrived(slot.sample, before, slot.path, prefix, v, radiances_[slot.sample]);
+        TechniqueStep step;
+        if (!shadeHit(kFeatures, scene_, params_, smp, hit, slot.path, step, v)) return false;
+        if constexpr (kReuses)
+            shared_.arrived(slot.sample, before, slot.path, step.part.prefix, v, radiances_[slot.sample]);
         return true;
     }
 
@@ -221,7 +222,7 @@ class PathPacket {
         slot.path = startPath(ray);
         const uint packed = context_.edgePart(pixel.y * params_.width + pixel.x);
         if (packed != 0u && edgeRays_.add(pixel, pixelPart(packed), get(lanes_.samplers, i), slot.sample))
-            slot.path.pdf = kCountedApart;
+            slot.path.emission = kEmissionApart;
         return true;
     }
 
@@ -235,8 +236,7 @@ class PathPacket {
     }
 
     bool choosesLight(const Vertex& v, const PathState& path) const {
-        return (usesNextEventEstimation(kFeatures, params_, scene_.globals, v) &&
-                !leavesGlossyHit(kFeatures, params_, v, path)) ||
+        return samplesLight(kFeatures, params_, scene_.globals, v, path) ||
                usesMixture(kFeatures, params_, scene_.globals, v);
     }
 
@@ -284,7 +284,7 @@ class PathPacket {
 
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
     // sampled.
-    void goOnFrom(uint i, const ActiveSlots& active) {
+    void continuePath(uint i, const ActiveSlots& active) {
         const bool isLit = (active.lit >> i & 1u) != 0u;
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;
@@ -302,8 +302,8 @@ class PathPacket {
             shared_.aimed(slot.sample, lanes_.aimedShare.at[i]);
             b = get(lanes_.aimed, i);
         }
-        if (has(kFeatures, kMethodConnections)) goOnChain(v, b, path);
-        if (goOn(kFeatures, params_, v, b, u.roulette.x, path)) {
+        if (has(kFeatures, kMethodConnections)) continueChain(v, b, path);
+        if (shared::continuePath(kFeatures, params_, v, b, u.roulette.x, path)) {
             set(lanes_.hits, i, traceOn(i, direct, path));
         } else {
             traceShadow(i, direct, path);

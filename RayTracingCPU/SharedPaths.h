@@ -5,7 +5,7 @@
 #include <span>
 
 #include "Common/Image/Film.h"
-#include "Common/Shared/Path/AimedScattering.h"
+#include "Common/Shared/Technique/AimedScattering.h"
 #include "RayTracingCPU/SceneAccess.h"
 
 namespace rt::cpu {

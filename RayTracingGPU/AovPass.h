@@ -1,6 +1,6 @@
 // First-hit features of an image.
 #pragma once
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 #include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"
 

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/FilmTiles.h"
+#include "Common/Render/Engine.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/EmbeddedShaders.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 #include "Common/Vulkan/DeviceSelection.h"
 
 namespace rt::gpu {

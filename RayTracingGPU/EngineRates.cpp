@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/Accel/GpuBvh.h"
-#include "Common/App/Options/Names.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Render/Names.h"
 
 namespace rt::gpu {
 namespace {

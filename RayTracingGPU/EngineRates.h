@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Vulkan/VulkanContext.h"
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Session/RenderParams.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/SamplePlan.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Vulkan/Check.h"
 #include "Common/Vulkan/PipelineCache.h"
@@ -82,7 +82,7 @@ class GpuEngine final : public app::Engine {
     void finishPaths();
     void endLaunch();
     void endLaunches();
-    bool sharesPaths() const { return params_.pathReuse != 0; }
+    bool sharesPaths() const { return shared::reusesPaths(features_, params_); }
     LaunchKernels launchKernels() const { return {*kernel_, reuse_.get()}; }
     void planSamples(const std::atomic<bool>* cancel);
     bool nextRegion();
@@ -144,8 +144,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     TraversalShape traversal = scene_->shape();
     traversal.groupSize = groupSize(context_, features_);
     const SpecializationConstants constants =
-        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount,
-                                    app::mayHaveEdges(scene_->compiled(), settings), traversal);
+        makeSpecializationConstants(features_, params_, scene_->compiled().globals.lightCount, traversal);
     if (!kernel_ || constants_ != constants || sharesPaths() != (reuse_ != nullptr)) {
         const app::Stopwatch watch;
         kernel_ = nullptr;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::gpu {

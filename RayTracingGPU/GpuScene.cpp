@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "Common/App/Session/Stopwatch.h"
+#include "Common/Render/Stopwatch.h"
 #include "RayTracingGPU/EngineChoice.h"
 
 namespace rt::gpu {

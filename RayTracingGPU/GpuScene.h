@@ -3,7 +3,7 @@
 #include <atomic>
 #include <memory>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Vulkan/StagingRing.h"
 #include "RayTracingGPU/AccelStructure.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"
 #include "RayTracingGPU/Kernel.h"

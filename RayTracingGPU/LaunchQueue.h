@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "Common/Shared/Path/PathReuse.h"
+#include "Common/Shared/Technique/PathReuse.h"
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/VulkanContext.h"

@@ -11,10 +11,10 @@
 
 #include "Common/App/Options/Options.h"
 #include "Common/App/Ranks/Ranks.h"
-#include "Common/App/Session/ForwardingEngine.h"
 #include "Common/App/Session/Session.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/RunMain.h"
+#include "Common/Render/ForwardingEngine.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/GpuEngine.h"
 #ifdef RT_HAS_WINDOW

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Session/ForwardingEngine.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/ForwardingEngine.h"
 #include "Common/Vulkan/Check.h"
 #include "RayTracingGPU/EngineChoice.h"
 #include "RayTracingGPU/EngineRates.h"

@@ -11,8 +11,8 @@
 #include <glm/matrix.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/Compiler/LightTable.h"
-#include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingGPU/EmbeddedShaders.h"
 #include "Shaders/SpecializationIds.h"

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 #include "Common/Vulkan/PipelineCache.h"
 #include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/StagingRing.h"

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 #include "Common/Vulkan/Buffer.h"
 #include "Common/Vulkan/Pipelines.h"
 #include "Common/Vulkan/VulkanContext.h"

@@ -25,9 +25,8 @@ constexpr std::array kEntries{
     entry(shared::kTriangleLightId, offsetof(SpecializationConstants, triangleLight)),
     entry(shared::kSamplerKindId, offsetof(SpecializationConstants, samplerKind)),
     entry(shared::kRussianRouletteId, offsetof(SpecializationConstants, russianRoulette)),
-    entry(shared::kPathReuseId, offsetof(SpecializationConstants, pathReuse)),
+    entry(shared::kMethodsInUseId, offsetof(SpecializationConstants, methods)),
     entry(shared::kLightCountId, offsetof(SpecializationConstants, lightCount)),
-    entry(shared::kHasEdgesId, offsetof(SpecializationConstants, hasEdges)),
     entry(shared::kGroupSizeId, kTraversal + offsetof(TraversalShape, groupSize)),
     entry(shared::kTreeDepthId, kTraversal + offsetof(TraversalShape, treeDepth)),
     entry(shared::kTreeIsWideId, kTraversal + offsetof(TraversalShape, treeIsWide)),
@@ -70,13 +69,20 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
 }
 
 SpecializationConstants makeSpecializationConstants(shared::Features features, const shared::RenderParams& params,
-                                                    std::uint32_t lights, bool hasEdges,
-                                                    const TraversalShape& traversal) {
+                                                    std::uint32_t lights, const TraversalShape& traversal) {
     const bool usesLights = params.lightSampling == shared::kSampleMixture || shared::samplesLights(features, params);
     const bool isWeighed = usesLights && lights <= shared::kContributionLights;
-    return {features,         params.lightSampling,   params.lightSelection, params.sphereLight,
-            params.quadLight, params.triangleLight,   params.samplerKind,    params.russianRoulette,
-            params.pathReuse, isWeighed ? lights : 0, hasEdges ? 1u : 0u,    traversal};
+    return {features,
+            params.lightSampling,
+            params.lightSelection,
+            params.sphereLight,
+            params.quadLight,
+            params.triangleLight,
+            params.samplerKind,
+            params.russianRoulette,
+            params.methods,
+            isWeighed ? lights : 0,
+            traversal};
 }
 
 VkSpecializationInfo specializationInfo(const SpecializationConstants& constants) {

@@ -38,17 +38,15 @@ struct SpecializationConstants {
     std::uint32_t triangleLight = 0;
     std::uint32_t samplerKind = 0;
     std::uint32_t russianRoulette = 0;
-    std::uint32_t pathReuse = 0;
+    std::uint32_t methods = 0;    // RenderParams::methods
     std::uint32_t lightCount = 0; // of a table that is weighed light by light, otherwise 0, if any is used
-    std::uint32_t hasEdges = 0;   // 1: camera rays may be split at edges of lights
     TraversalShape traversal;     // of the compute engine
     bool operator==(const SpecializationConstants&) const = default;
 };
 
 // `lights`: how many lights proper the scene has.
 SpecializationConstants makeSpecializationConstants(shared::Features features, const shared::RenderParams& params,
-                                                    std::uint32_t lights, bool hasEdges,
-                                                    const TraversalShape& traversal);
+                                                    std::uint32_t lights, const TraversalShape& traversal);
 
 // Of constants that must live as long as the result. Those that a shader does not have are ignored.
 VkSpecializationInfo specializationInfo(const SpecializationConstants& constants);

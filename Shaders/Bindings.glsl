@@ -20,9 +20,8 @@ layout(constant_id = kQuadLightId) const uint kQuadLight = kShapeAuto;
 layout(constant_id = kTriangleLightId) const uint kTriangleLight = kShapeAuto;
 layout(constant_id = kSamplerKindId) const uint kSamplerKind = kSamplerSobol;
 layout(constant_id = kRussianRouletteId) const uint kRussianRoulette = 1u;
-layout(constant_id = kPathReuseId) const uint kPathReuse = kPathReuseOff;
+layout(constant_id = kMethodsInUseId) const uint kMethodsInUse = 0u;
 layout(constant_id = kLightCountId) const uint kLightCount = 0u; // 0: as the scene says
-layout(constant_id = kHasEdgesId) const uint kHasEdges = 0u;     // 1: there may be edges of lights in sight
 
 layout(set = 0, binding = 1, scalar) uniform Constants { RenderConstants constants; };
 
@@ -36,7 +35,7 @@ RenderParams renderParams() {
     params.triangleLight = kTriangleLight;
     params.samplerKind = kSamplerKind;
     params.russianRoulette = kRussianRoulette;
-    params.pathReuse = kPathReuse;
+    params.methods = kMethodsInUse;
     return params;
 }
 

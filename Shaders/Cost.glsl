@@ -11,19 +11,18 @@
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
 uint tracePath(SceneRef scene, RenderParams params, Sampler smp, PathState path) {
     DirectLight direct = noDirectLight();
-    SpecularConnection connection = noConnection();
+    TechniqueStep step = beginTechniqueStep();
     uint rays = 0u;
     uint nonfinite = 0u;
     bool goesOn = true;
-    while (goesOn || isChecking(direct, connection)) {
-        bool checking = isChecking(direct, connection);
-        Hit hit = traceStep(smp, path, direct, connection, checking, nonfinite);
+    while (goesOn || isChecking(direct, step)) {
+        bool checking = isChecking(direct, step);
+        Hit hit = traceStep(smp, path, direct, step, checking, nonfinite);
         rays++;
         if (checking) {
-            endChecked(scene, hit, path, direct, connection);
+            endChecked(scene, hit, path, direct, step);
         } else {
-            SharedPart unusedPart;
-            goesOn = stepPath(kFeatures, scene, params, smp, hit, path, unusedPart, direct, connection);
+            goesOn = stepPath(kFeatures, scene, params, smp, hit, path, direct, step);
         }
     }
     return rays;
@@ -45,7 +44,7 @@ uint traceSample(SceneRef scene, RenderParams params, PixelSamples samples) {
         if (i > 0u) {
             path = startEdgeRay(params, part, ray, vec3(0.0f));
         } else if (count > 0u && isInPart(part, u.pixel)) {
-            path.pdf = kCountedApart;
+            path.emission = kEmissionApart;
         }
         rays += tracePath(scene, params, smp, path);
     }

@@ -3,7 +3,7 @@
 // time, whose rays are alike. When no sample is left, paths under way are put aside for the next launch: no launch
 // waits for its longest path either.
 //
-// The includer provides traceRay() and, both found by measuring, see docs/gpu-engine.md:
+// The includer provides traceRay() and, both found by measuring, see docs/measurements/gpu-engine.md:
 //   kRaysPerStep   2: a step traces the path's ray and, if it leaves one, the shadow's; 1: whichever is next
 //   tracesApart()  whether the program has two places that trace, one for each of the two rays of a step
 #extension GL_KHR_memory_scope_semantics : require
@@ -65,20 +65,20 @@ PathState beginPath(RenderParams params, Work work, bool isEdgeRay, vec3 radianc
     CameraSamples u = cameraSamples(kFeatures, work.smp);
     // In place of startEdgeRay(), which with what goes with it takes an H200 1.18 times as long in the glass box.
     float weight = 1.0f;
-    float pdf = 0.0f;
-    if (kHasEdges != 0u && work.edgeRays != 0u) {
+    uint emission = kEmissionWeighed;
+    if (hasEdges() && work.edgeRays != 0u) {
         PixelPart part = pixelPart(packedPart(work.pixel));
         if (isEdgeRay) {
             u.pixel = placeInPart(part, u.pixel);
             weight = edgeWeight(params, part);
-            pdf = kEdgeRay;
+            emission = kEmissionOfEdgeRay;
         } else if (isInPart(part, u.pixel)) {
-            pdf = kCountedApart;
+            emission = kEmissionApart;
         }
     }
     PathState path = startPath(cameraRay(kFeatures, params, constants.camera, work.pixel, u));
     path.throughput = vec3(weight);
-    path.pdf = pdf;
+    path.emission = emission;
     if (isEdgeRay) {
         path.radiance = radiance;
         path.reuse = kReuseNone;
@@ -104,7 +104,7 @@ void nextEdgeRay(RenderParams params, inout Work work) {
 
 // Goes on with the path of this number that the launch before left. False: there is none.
 bool resumePath(uint number, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
-                inout SpecularConnection connection, inout bool goesOn) {
+                inout TechniqueStep step, inout bool goesOn) {
     if (number >= launch.progressBefore.counters[kCounterLeft]) return false;
     UnfinishedPath unfinished = launch.progressBefore.left[number];
     work.number = unfinished.number;
@@ -113,17 +113,17 @@ bool resumePath(uint number, RenderParams params, inout Work work, inout PathSta
     work.smp.index = unfinished.index;
     work.smp.base = unfinished.base;
     work.pixel = unfinished.pixel;
-    if (kHasEdges != 0u) work.edgeRays = unfinished.edgeRays;
+    if (hasEdges()) work.edgeRays = unfinished.edgeRays;
     work.isResumed = true;
     path = unfinished.path;
     if (!has(kFeatures, kFeatureMovingSpheres)) path.ray.time = 0.0f; // as the compiler is to know
     direct = unfinished.direct;
-    if (has(kFeatures, kMethodConnections)) connection = unfinished.connection;
+    if (has(kFeatures, kMethodConnections)) step.connection = unfinished.connection;
     goesOn = unfinished.goesOn != 0u;
     return true;
 }
 
-void leavePath(Work work, PathState path, DirectLight direct, SpecularConnection connection, bool goesOn) {
+void leavePath(Work work, PathState path, DirectLight direct, TechniqueStep step, bool goesOn) {
     UnfinishedPath unfinished;
     unfinished.number = work.number;
     unfinished.key = work.smp.key;
@@ -134,7 +134,7 @@ void leavePath(Work work, PathState path, DirectLight direct, SpecularConnection
     unfinished.goesOn = goesOn ? 1u : 0u;
     unfinished.path = path;
     unfinished.direct = direct;
-    if (has(kFeatures, kMethodConnections)) unfinished.connection = connection;
+    if (has(kFeatures, kMethodConnections)) unfinished.connection = step.connection;
     launch.progress.left[atomicAdd(launch.progress.counters[kCounterLeft], 1u)] = unfinished;
 }
 
@@ -173,7 +173,7 @@ bool endShared(Work work, inout PathState path, inout uint nonfinite) {
     }
     keepEnd(sharedPathsOf(work), work.number, path.radiance, path.reuse);
     if (path.reuse != kReuseSuffix) return false;
-    if (kHasEdges != 0u && work.edgeRays > 1u) path.radiance = radiancesOf(work).at[work.number];
+    if (hasEdges() && work.edgeRays > 1u) path.radiance = radiancesOf(work).at[work.number];
     return true;
 }
 
@@ -189,12 +189,11 @@ void tellSamplesAreSpent() {
 
 // Takes the path a step further, given what its ray hits. False: it has ended.
 bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
-               inout SpecularConnection connection) {
+               inout TechniqueStep step) {
     uint before = path.reuse;
-    SharedPart part;
-    part.aimed = 0.0f;
-    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, part, direct, connection);
-    if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, part);
+    step.part.aimed = 0.0f;
+    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, direct, step);
+    if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, step.part);
     return goesOn;
 }
 
@@ -212,9 +211,9 @@ void tracePaths(uint invocation) {
     work.isResumed = false;
     PathState path;
     DirectLight direct = noDirectLight();
-    SpecularConnection connection = noConnection();
+    TechniqueStep step = beginTechniqueStep();
     bool goesOn = false; // the path has a next vertex
-    bool begins = !resumePath(invocation, params, work, path, direct, connection, goesOn);
+    bool begins = !resumePath(invocation, params, work, path, direct, step, goesOn);
     bool isSpent = false; // there is no sample to begin with
     for (;;) {
         // Read before it is needed: the time that it takes passes with the beginning of a path.
@@ -238,30 +237,30 @@ void tracePaths(uint invocation) {
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.film.slotCount != 0u) break;
         if (tracesApart()) {
-            Hit hit = traceStep(work.smp, path, direct, connection, false, nonfinite);
-            goesOn = stepAlong(scene, params, work, hit, path, direct, connection);
+            Hit hit = traceStep(work.smp, path, direct, step, false, nonfinite);
+            goesOn = stepAlong(scene, params, work, hit, path, direct, step);
             scattered += uint(goesOn);
-            while (isChecking(direct, connection)) {
-                hit = traceStep(work.smp, path, direct, connection, true, nonfinite);
-                endChecked(scene, hit, path, direct, connection);
+            while (isChecking(direct, step)) {
+                hit = traceStep(work.smp, path, direct, step, true, nonfinite);
+                endChecked(scene, hit, path, direct, step);
                 shadow++;
                 if (!has(kFeatures, kMethodConnections)) break;
             }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {
-                bool checking = isChecking(direct, connection);
+                bool checking = isChecking(direct, step);
                 if (i > 0u && !checking) break;
-                Hit hit = traceStep(work.smp, path, direct, connection, checking, nonfinite);
+                Hit hit = traceStep(work.smp, path, direct, step, checking, nonfinite);
                 if (checking) {
-                    endChecked(scene, hit, path, direct, connection);
+                    endChecked(scene, hit, path, direct, step);
                     shadow++;
                 } else {
-                    goesOn = stepAlong(scene, params, work, hit, path, direct, connection);
+                    goesOn = stepAlong(scene, params, work, hit, path, direct, step);
                     scattered += uint(goesOn);
                 }
             }
         }
-        begins = !goesOn && !isChecking(direct, connection);
+        begins = !goesOn && !isChecking(direct, step);
         bool isOwn = work.edgeRays == 0u || work.edgeRays > params.edgeRays;
         bool isKept = reusesPaths(kFeatures, params) && begins && isOwn && endShared(work, path, nonfinite);
         if (begins && work.edgeRays <= 1u) {
@@ -275,7 +274,7 @@ void tracePaths(uint invocation) {
             finished++;
         }
     }
-    if (!isSpent) leavePath(work, path, direct, connection, goesOn);
+    if (!isSpent) leavePath(work, path, direct, step, goesOn);
     uint line = counterLine(invocation);
     atomicAdd(launch.progress.counters[line + kCounterFinished], finished);
     atomicAdd(launch.progress.counters[line + kCounterScattered], scattered);

@@ -1,5 +1,5 @@
 // Adds to the samples of a launch what the paths of their neighbours have found, see
-// Common/Shared/Path/PathReuse.h: an invocation does so for the samples of one number of a group of pixels. The
+// Common/Shared/Technique/PathReuse.h: an invocation does so for the samples of one number of a group of pixels. The
 // includer provides traceRay().
 #extension GL_EXT_control_flow_attributes : require
 #include "SceneAccess.glsl"

@@ -183,7 +183,7 @@ struct FilmLaunch {
 struct PathLaunch {
     FilmLaunch film;
     PlannedSampleArray planned;  // in the order in which they are traced, if kIsPlanned
-    SharedPathArray sharedPaths; // of each sample, where params.pathReuse says so; see SharedPaths.glsl
+    SharedPathArray sharedPaths; // of each sample, where params.methods says so; see SharedPaths.glsl
     LaunchProgress progress;
     MutableVectorArray radianceBefore; // these three: of the launch before
     SharedPathArray sharedPathsBefore;

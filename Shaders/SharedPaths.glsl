@@ -1,7 +1,7 @@
 // What the paths of a launch's samples share, as they are kept: four vectors a sample, each written at once.
 //   first vertex, its normal | throughput behind it, SharedPart::aimed | second vertex, its normal
 //   | radiance, PathState::reuse
-#include "Common/Shared/Path/AimedScattering.h"
+#include "Common/Shared/Technique/AimedScattering.h"
 
 // On the octahedron around the origin, 16 bits a coordinate; within 3e-5.
 uint packNormal(vec3 n) {

@@ -16,9 +16,8 @@ const uint kQuadLightId = 4u;
 const uint kTriangleLightId = 5u;
 const uint kSamplerKindId = 6u;
 const uint kRussianRouletteId = 7u;
-const uint kPathReuseId = 22u;
+const uint kMethodsInUseId = 22u; // RenderParams::methods
 const uint kLightCountId = 8u;
-const uint kHasEdgesId = 20u;
 // Of compute shaders that trace rays, see Traverse.glsl.
 const uint kGroupSizeId = 9u;
 const uint kTreeDepthId = 10u;

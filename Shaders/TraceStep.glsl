@@ -32,27 +32,27 @@ Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
 
 #endif
 
-// What is found of the light at a vertex before the path goes on: segments of a passage first, then the shadow ray.
-bool isChecking(DirectLight direct, SpecularConnection connection) {
-    return direct.distance > 0.0f || connection.segments != 0u;
+// What is found of the light at a vertex before the path goes on: segments of a connection first, then the shadow ray.
+bool isChecking(DirectLight direct, TechniqueStep step) {
+    return direct.distance > 0.0f || step.connection.segments != 0u;
 }
 
 // The next of them.
-Ray checkedRay(PathState path, DirectLight direct, SpecularConnection connection, out float tMax) {
+Ray checkedRay(PathState path, DirectLight direct, TechniqueStep step, out float tMax) {
 #ifdef RT_HEAVY_FEATURES
-    if (has(kFeatures, kMethodConnections) && connection.segments != 0u) return connectionRay(connection, path.ray.time, tMax);
+    if (has(kFeatures, kMethodConnections) && step.connection.segments != 0u) return connectionRay(step.connection, path.ray.time, tMax);
 #endif
     tMax = direct.distance;
     return shadowRay(path, direct);
 }
 
 // What becomes of its light, and of the ray.
-void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout SpecularConnection connection) {
+void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout TechniqueStep step) {
 #ifdef RT_HEAVY_FEATURES
-    if (has(kFeatures, kMethodConnections) && connection.segments != 0u) {
+    if (has(kFeatures, kMethodConnections) && step.connection.segments != 0u) {
         float tMax;
-        Ray ray = connectionRay(connection, path.ray.time, tMax);
-        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, connection, path.radiance);
+        Ray ray = connectionRay(step.connection, path.ray.time, tMax);
+        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, step.connection, path.radiance);
         return;
     }
 #endif
@@ -62,10 +62,10 @@ void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight
 
 // What the path's next ray hits; when `checking`, whether the next ray of the light at its vertex hits anything. A ray
 // that cannot be traced is counted; it ends the path, or lets no light through.
-Hit traceStep(Sampler smp, PathState path, DirectLight direct, SpecularConnection connection, bool checking, inout uint nonfinite) {
+Hit traceStep(Sampler smp, PathState path, DirectLight direct, TechniqueStep step, bool checking, inout uint nonfinite) {
     Ray ray = path.ray;
     float tMax = kInfinity;
-    if (checking) ray = checkedRay(path, direct, connection, tMax);
+    if (checking) ray = checkedRay(path, direct, step, tMax);
     // Traced all the same, somewhere: a branch around the trace would cost all rays more.
     bool traceable = isTraceable(ray, tMax);
     if (!traceable) {

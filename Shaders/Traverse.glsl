@@ -274,7 +274,7 @@ uvec4 sortedChildren(WideTreeNode node, vec3 origin, vec3 inverse, float tMax) {
 // ---- trees ---------------------------------------------------------------------------------------------------------
 
 // A lane that has found a leaf waits until the others of its group have found one or visited so many nodes: leaves are
-// then tested by more lanes at a time. Found by measuring, see docs/gpu-engine.md.
+// then tested by more lanes at a time. Found by measuring, see docs/measurements/gpu-engine.md.
 uint nodesBetweenLeaves() {
     if (kTreeIsWide != 0u || has(kFeatures, kFeatureVolumes)) return 1u;
     return has(kFeatures, kFeatureLights) ? 4u : 3u;

@@ -4,9 +4,9 @@
 #include <sstream>
 #include <system_error>
 
-#include "Common/App/Options/Names.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Paths.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Session/Settings.h"
+#include "Common/Render/Settings.h"
 
 namespace rt::app {
 

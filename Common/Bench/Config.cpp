@@ -4,8 +4,8 @@
 #include <iterator>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
 #include "Common/App/Options/OptionValues.h"
+#include "Common/Render/Names.h"
 #include "Common/Shared/Base/Features.h"
 
 namespace rt::bench {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "Common/App/Session/Settings.h"
+#include "Common/Render/Settings.h"
 
 namespace rt::bench {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Config.h"
 #include "Common/Bench/Energy.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::bench {
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Session/FilmRun.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Image/Summary.h"
+#include "Common/Render/FilmRun.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::bench {
 namespace {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Config.h"
 #include "Common/Bench/Energy.h"
+#include "Common/Render/Engine.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::bench {

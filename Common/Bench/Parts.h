@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Document.h"
 #include "Common/Bench/Engines.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::bench {
 

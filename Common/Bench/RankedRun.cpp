@@ -1,3 +1,5 @@
+#include "Common/Bench/RankedRun.h"
+
 #include <chrono>
 #include <thread>
 
@@ -5,7 +7,6 @@
 
 #include "Common/App/OtherProgram.h"
 #include "Common/App/Platform.h"
-#include "Common/Bench/RankedRun.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OwnFolder.h"
 #include "Common/Core/Paths.h"

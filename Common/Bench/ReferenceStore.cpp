@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "Common/App/Session/FilmRun.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/FilmRun.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::bench {
 namespace {

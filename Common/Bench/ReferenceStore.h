@@ -9,9 +9,9 @@
 #include <span>
 #include <string>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/App/Session/ReferenceCache.h"
 #include "Common/Image/ErrorAnalysis.h"
+#include "Common/Render/Engine.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::bench {

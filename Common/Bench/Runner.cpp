@@ -11,11 +11,11 @@
 #include <tuple>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Bench/Analysis.h"
 #include "Common/Bench/Pictures.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::bench {
 namespace {

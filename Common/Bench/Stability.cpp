@@ -9,9 +9,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "Common/App/Session/FilmEstimate.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/FilmEstimate.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Bench/Document.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::bench {
 

@@ -11,7 +11,6 @@
 #include "Common/App/Platform.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/Panels/EnginePanel.h"
@@ -25,6 +24,7 @@
 #include "Common/Gui/Snapshot.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Render/Stopwatch.h"
 #include "Common/Vulkan/Instance.h"
 
 namespace rt::gui {

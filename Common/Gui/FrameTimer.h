@@ -3,7 +3,7 @@
 #include <deque>
 
 #include "Common/App/Session/Statistics.h"
-#include "Common/App/Session/Stopwatch.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::gui {
 

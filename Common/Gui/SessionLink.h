@@ -6,9 +6,9 @@
 #include <string>
 
 #include "Common/App/Options/Options.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Gui.h"
 #include "Common/Gui/Presenter.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::gui {
 

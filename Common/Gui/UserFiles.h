@@ -6,8 +6,8 @@
 #include "Common/App/Interactive/GuiSettings.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/ReferenceCache.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Gui/Window.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::gui {
 

@@ -5,7 +5,7 @@
 
 #include <imgui.h>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 
 namespace rt::gui {
 

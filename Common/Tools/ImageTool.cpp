@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "Common/App/Options/Names.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
@@ -19,6 +18,7 @@
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/MergeCheckpoints.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/Names.h"
 
 namespace {
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "Common/App/Session/Interrupt.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Comparison.h"
 #include "Common/Bench/Machine.h"
@@ -22,6 +21,7 @@
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/RunMain.h"
+#include "Common/Render/Stopwatch.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "tests/bench/EmbreeCeiling.h"
 #ifdef RT_HAS_GPU

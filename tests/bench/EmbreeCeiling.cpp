@@ -31,7 +31,7 @@ double EmbreeRays::trace(std::size_t) {
 #include <embree3/rtcore.h>
 
 #include "Common/Core/Parallel.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 
 namespace rt::bench {

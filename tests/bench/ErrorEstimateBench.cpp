@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Summary.h"
+#include "Common/Render/Names.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "tests/image/EstimateRatios.h"

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Parallel.h"
 #include "Common/Core/RunMain.h"
 #include "Common/Image/Summary.h"
+#include "Common/Render/Stopwatch.h"
 #include "RayTracingCPU/CpuEngine.h"
 #include "tests/bench/EmbreeCeiling.h"
 

@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::test {
 

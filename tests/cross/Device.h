@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::test {

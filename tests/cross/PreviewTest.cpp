@@ -12,7 +12,7 @@
 
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Shared/Base/Features.h"
 #include "RayTracingGPU/GpuEngine.h"

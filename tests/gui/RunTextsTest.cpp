@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Options/Names.h"
 #include "Common/Gui/Panels/RunTexts.h"
+#include "Common/Render/Names.h"
 
 namespace rt::gui {
 namespace {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <sstream>
 
-#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/SamplePlan.h"
+#include "Common/Render/FilmRun.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
 #include "tests/unit/Statistics.h"

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ImageEquivalence.h"
+#include "Common/Render/Names.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
 

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ImageEquivalence.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/LightsInSpheres.h"
 #include "Common/Scene/Silhouettes.h"
-#include "Common/Shared/Path/EdgeRays.h"
+#include "Common/Shared/Technique/EdgeRays.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
 

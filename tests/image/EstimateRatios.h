@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "Common/App/Session/Engine.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Image/ErrorEstimate.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::test {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Bench/Stability.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/RenderParams.h"
 #include "tests/image/AnalyticScenes.h"
 
 namespace rt::test {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"
 

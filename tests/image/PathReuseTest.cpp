@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/image/AnalyticScenes.h"
@@ -15,6 +15,14 @@
 
 namespace rt::test {
 namespace {
+
+// Of the methods in use those that have to do with shared paths.
+constexpr shared::uint kReuseScattered = shared::kMethodReuse.methods;
+constexpr shared::uint kReuseAimed = kReuseScattered | shared::kMethodAiming.methods;
+
+shared::uint methodsOf(const scene::CompiledScene& scene, const app::RenderSettings& settings) {
+    return app::makeRenderParams(scene, settings).methods & kReuseAimed;
+}
 
 using namespace rt::scene;
 using app::PathReuse;
@@ -126,8 +134,7 @@ TEST(PathReuse, AimsAtGlass) {
     settings.spp = 64;
     const auto images = [&](bool aims, std::uint32_t firstSeed) {
         settings.specularConnections = aims;
-        EXPECT_EQ(app::makeRenderParams(*scene, settings).pathReuse,
-                  aims ? shared::kPathReuseAimed : shared::kPathReuseScattered);
+        EXPECT_EQ(methodsOf(*scene, settings), aims ? kReuseAimed : kReuseScattered);
         return independentImages(*engine, *scene, settings, firstSeed);
     };
     const auto aimed = images(true, 100), scattered = images(false, 1000);
@@ -140,16 +147,16 @@ TEST(PathReuse, AimsAtGlass) {
 // Where the light at vertices is known, to compare what comes by way of the ball with.
 TEST(PathReuse, AimsWhereItKnowsTheLight) {
     const auto reuse = [](const char* id, app::RenderSettings settings) {
-        return app::makeRenderParams(*compiledScene(id), settings).pathReuse;
+        return methodsOf(*compiledScene(id), settings);
     };
     app::RenderSettings settings = smallSettings(16, 16);
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseAimed);
-    EXPECT_EQ(reuse("rest-of-life-cornell-box", settings), shared::kPathReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), kReuseAimed);
+    EXPECT_EQ(reuse("rest-of-life-cornell-box", settings), kReuseScattered);
     settings.lightSelection = app::LightSelection::Power;
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), kReuseScattered);
     settings = smallSettings(16, 16);
     settings.lightSampling = app::LightSampling::Bsdf;
-    EXPECT_EQ(reuse("cornell-box-lights", settings), shared::kPathReuseScattered);
+    EXPECT_EQ(reuse("cornell-box-lights", settings), kReuseScattered);
 }
 
 // Where indirect light makes the noise. What moves, is in a medium or drawn by Shirley's mixture is never shared.
@@ -159,7 +166,7 @@ TEST(PathReuse, IsChosenWhereItGains) {
         app::RenderSettings settings = smallSettings(16, 16);
         settings.pathReuse = reuse;
         settings.lightSampling = sampling;
-        const bool isShared = app::makeRenderParams(*scene, settings).pathReuse != 0;
+        const bool isShared = methodsOf(*scene, settings) != 0;
         EXPECT_EQ(shared::has(app::renderFeatures(*scene, scene->camera, settings), shared::kMethodReuse), isShared);
         return isShared;
     };

@@ -24,7 +24,7 @@ bug 'weight of multiple importance sampling' Sampling.h 's/square\(pdfB \/ pdfA\
 bug 'Russian roulette without its weight' PathStep.h 's/s\.throughput \/= probability;//' image.Furnace
 bug 'the side on which light reflected inside glass comes back' ConnectionChain.h 's/ \|\| side \* dot\(moment/ || dot(moment/' unit.Connection
 bug 'weight of rays in a part of a pixel' EdgeRays.h 's/part\.size\.x \* part\.size\.y/part.size.x/' image.EdgeRays
-bug 'light in a blurred mirror counted twice' PathStep.h 's/if \(leaves\) s\.pdf = kBlurCountedApart;//' image.EdgeRays
+bug 'light in a glossy mirror counted twice' EdgeRayPaths.h 's/return kEmissionApartBehindGlossy;/return kEmissionWeighed;/' image.EdgeRays
 bug 'direct light through a medium' DirectLight.h 's/return transmittance\(depth\);/return transmittance(0.5f * depth);/' image.Transmittance
 
 # ---- materials, media, textures --------------------------------------------------------------------------------------

@@ -22,14 +22,15 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Common/Scene", {"Common/Core", "Common/Shared"}},
     {"Common/Accel", {"Common/Core", "Common/Shared"}},
     {"Common/Image", {"Common/Core", "Common/Shared"}},
-    {"Common/App", {"Common/Scene", "Common/Image"}},
+    {"Common/Render", {"Common/Scene", "Common/Image"}},
+    {"Common/App", {"Common/Render"}},
     {"Common/Bench", {"Common/App"}},
     {"Common/Tools", {"Common/App"}},
     {"Common/Mpi", {"Common/App"}},
     {"Common/Vulkan", {"Common/Core"}},
     {"Common/Gui", {"Common/App", "Common/Vulkan", "Shaders"}},
-    {"RayTracingCPU", {"Common/App", "Common/Accel"}},
-    {"RayTracingGPU", {"Common/App", "Common/Accel", "Common/Vulkan", "Shaders"}},
+    {"RayTracingCPU", {"Common/Render", "Common/Accel"}},
+    {"RayTracingGPU", {"Common/Render", "Common/Accel", "Common/Vulkan", "Shaders"}},
     {"Shaders", {"Common/Shared"}},
 };
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Scene/Compiler/SceneCompiler.h"
-#include "Common/Shared/Path/AimedScattering.h"
+#include "Common/Shared/Technique/AimedScattering.h"
 #include "tests/unit/CompilerScenes.h"
 #include "tests/unit/Oracles.h"
 #include "tests/unit/Statistics.h"

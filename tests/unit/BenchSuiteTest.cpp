@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Options/Names.h"
 #include "Common/Bench/BenchOptions.h"
 #include "Common/Bench/Suite.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/Names.h"
 #include "tests/unit/JsonSchema.h"
 
 namespace rt::bench {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Interactive/CameraController.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 
 namespace rt::app {
 namespace {

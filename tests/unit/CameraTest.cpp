@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 #include "tests/unit/Statistics.h"
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/RenderParams.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Shared/Path/PathStep.h"
 #include "tests/ConnectedScene.h"

@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "Common/App/Session/Engine.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

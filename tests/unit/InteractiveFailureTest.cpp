@@ -5,9 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/FilmRun.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Render/FilmRun.h"
 #include "tests/FileBytes.h"
 #include "tests/unit/InteractiveFixture.h"
 

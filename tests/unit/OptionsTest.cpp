@@ -317,7 +317,9 @@ TEST_F(OptionsTest, FeatureNames) {
     for (const std::string& name : featureNames(shared::kFeatureAll)) {
         const shared::Features bits = parseFeatures(name);
         EXPECT_NE(bits, shared::kFeatureNone) << name;
-        if (name != "textures") EXPECT_EQ(featureNames(bits).back(), name);
+        if (name != "textures") {
+            EXPECT_EQ(featureNames(bits).back(), name);
+        }
     }
 }
 

@@ -7,11 +7,11 @@
 #include <gtest/gtest.h>
 
 #include "Common/Accel/CpuAccel.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Scene/CompiledScene.h"
-#include "Common/Scene/Json/CameraRecord.h"
 #include "Common/Shared/Texture/Color.h"
 #include "RayTracingCPU/PathPacket.h"
 #include "tests/ConnectedScene.h"
@@ -54,15 +54,14 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
     vec3 connected(0.0f); // summed apart, as packets do
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
-        SpecularConnection connection = noConnection();
+        TechniqueStep step = beginTechniqueStep();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
-        SharedPart unusedPart;
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPart, direct, connection);
-        while (connection.segments != 0u) {
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, direct, step);
+        while (step.connection.segments != 0u) {
             ++counters.shadow;
             float tMax;
-            const Ray ray = connectionRay(connection, path.ray.time, tMax);
-            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, connection, connected);
+            const Ray ray = connectionRay(step.connection, path.ray.time, tMax);
+            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, step.connection, connected);
         }
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;
@@ -96,7 +95,7 @@ bool hasSameBits(vec3 a, vec3 b) {
 
 void comparePaths(const TracedScene& scene, const app::RenderSettings& settings) {
     KernelContext context = scene.context(settings);
-    context.params.pathReuse = 0u; // which has a test of its own
+    context.params.methods &= ~kMethodReuse.methods; // which has a test of its own
     TileTask tasks[2];
     tasks[0].x = 11;
     tasks[0].y = 17;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/Progress.h"
+#include "Common/Render/Progress.h"
 
 namespace rt::app {
 namespace {

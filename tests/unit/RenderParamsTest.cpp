@@ -1,8 +1,8 @@
 // What a render needs beyond its scene.
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
+#include "Common/Render/RenderParams.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "Common/Shared/Base/Features.h"
 

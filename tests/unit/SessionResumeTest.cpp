@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Options/Names.h"
 #include "Common/Image/Checkpoint.h"
+#include "Common/Render/Names.h"
 #include "tests/unit/SessionFixture.h"
 
 namespace rt::app {

@@ -3,13 +3,13 @@
 #include <exception>
 
 #include "Common/App/Interactive/CameraController.h"
-#include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/Outputs.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/ImageIo.h"
+#include "Common/Render/FilmEstimate.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 

@@ -6,8 +6,8 @@
 #include "Common/App/Interactive/FilmReference.h"
 #include "Common/App/Interactive/PublishedState.h"
 #include "Common/App/Interactive/RunHistory.h"
-#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/SceneLoader.h"
+#include "Common/Render/FilmRun.h"
 
 namespace rt::app {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "Common/App/Session/RenderParams.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 namespace {

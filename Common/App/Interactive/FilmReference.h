@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveState.h"
-#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/ReferenceCache.h"
 #include "Common/Image/Image.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/FilmRun.h"
 
 namespace rt::app {
 

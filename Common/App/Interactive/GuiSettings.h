@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveSession.h"
-#include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 

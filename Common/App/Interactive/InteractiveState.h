@@ -10,14 +10,14 @@
 
 #include "Common/App/Interactive/RunHistory.h"
 #include "Common/App/Interactive/ViewImage.h"
-#include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/App/Session/FileFingerprint.h"
 #include "Common/App/Session/ReferenceCache.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/App/Session/Settings.h"
 #include "Common/App/Session/Statistics.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/Settings.h"
 
 namespace rt::app {
 

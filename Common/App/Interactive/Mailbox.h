@@ -13,7 +13,7 @@
 
 #include "Common/App/Interactive/InteractiveState.h"
 #include "Common/App/Session/SceneLoader.h"
-#include "Common/App/Session/Stopwatch.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 

@@ -10,13 +10,13 @@
 
 #include "Common/App/Interactive/CameraController.h"
 #include "Common/App/Interactive/FilmFiles.h"
-#include "Common/App/Options/Names.h"
 #include "Common/App/OtherProgram.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OwnFolder.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 namespace {

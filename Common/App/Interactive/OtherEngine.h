@@ -12,8 +12,8 @@
 
 #include "Common/App/Interactive/RunHistory.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/App/Session/Settings.h"
 #include "Common/Image/Image.h"
+#include "Common/Render/Settings.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "Common/App/Interactive/Draft.h"
-#include "Common/App/Session/FilmEstimate.h"
-#include "Common/App/Session/RenderParams.h"
+#include "Common/Render/FilmEstimate.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 namespace {

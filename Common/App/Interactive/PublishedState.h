@@ -6,7 +6,7 @@
 #include <string>
 
 #include "Common/App/Interactive/InteractiveState.h"
-#include "Common/App/Session/Stopwatch.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 

@@ -11,11 +11,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Platform.h"
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 namespace {

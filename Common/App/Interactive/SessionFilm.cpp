@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/Image.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 #include "Common/Shared/Camera.h"
 #include "Common/Shared/Medium/Media.h"
 #include "Common/Shared/Shape/Shapes.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 
 namespace rt::app {
 

@@ -6,10 +6,10 @@
 
 #include "Common/App/Options/FlagSet.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 

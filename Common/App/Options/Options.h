@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/Settings.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/Settings.h"
 
 namespace rt::app {
 

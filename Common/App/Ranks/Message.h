@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Common/App/Ranks/Communicator.h"
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

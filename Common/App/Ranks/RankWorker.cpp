@@ -4,7 +4,7 @@
 #include <deque>
 #include <utility>
 
-#include "Common/App/Session/Stopwatch.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 namespace {

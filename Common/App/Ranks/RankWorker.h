@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "Common/App/Ranks/Message.h"
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

@@ -8,11 +8,11 @@
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/Ranks.h"
 #include "Common/App/Ranks/TilePool.h"
-#include "Common/App/Session/RenderParams.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Image/SamplePlan.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 namespace {

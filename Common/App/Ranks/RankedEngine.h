@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "Common/App/Ranks/Communicator.h"
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

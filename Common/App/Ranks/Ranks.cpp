@@ -10,10 +10,10 @@
 
 #include "Common/App/Platform.h"
 #include "Common/App/Ranks/Message.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Paths.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 namespace {

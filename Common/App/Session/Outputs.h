@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "Common/App/Options/Options.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <optional>
 
-#include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/Settings.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::app {

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "Common/App/Options/Options.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/Engine.h"
 #include "Common/Scene/SceneDesc.h"
 
 namespace rt::app {

@@ -6,12 +6,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/Hash.h"
 #include "Common/Core/Log.h"
 #include "Common/Image/Checkpoint.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 namespace {

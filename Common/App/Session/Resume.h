@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
-#include "Common/App/Session/Engine.h"
-#include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/Settings.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Interruption.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 namespace {

@@ -11,7 +11,6 @@
 #include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
@@ -19,12 +18,13 @@
 #include "Common/App/Session/Resume.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Statistics.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/NewFile.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
+#include "Common/Render/FilmRun.h"
+#include "Common/Render/Stopwatch.h"
 #include "Common/Scene/Json/SceneJson.h"
 
 namespace rt::app {

@@ -5,8 +5,8 @@
 
 #include "Common/App/Options/Options.h"
 #include "Common/App/Ranks/Communicator.h"
-#include "Common/App/Session/Engine.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

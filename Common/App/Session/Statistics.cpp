@@ -4,10 +4,10 @@
 
 #include "Common/App/Platform.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/FilmEstimate.h"
 #include "Common/App/Session/ImagePart.h"
-#include "Common/App/Session/RenderParams.h"
 #include "Common/Core/Hash.h"
+#include "Common/Render/FilmEstimate.h"
+#include "Common/Render/RenderParams.h"
 
 namespace rt::app {
 namespace {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "Common/App/Options/Options.h"
-#include "Common/App/Session/Engine.h"
-#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/Metrics.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/FilmRun.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "Common/App/Interactive/RunGroups.h"
-#include "Common/App/Options/Names.h"
+#include "Common/Render/Names.h"
 
 namespace rt::gui {
 

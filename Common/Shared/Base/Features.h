@@ -58,11 +58,15 @@
 //   Projected    lights by projected solid angle
 //   Connections  lights connected to by way of smooth spheres
 //   Reuse        pixels share what their paths bring
+//   EdgeRays     several camera rays a sample where a light's edge crosses a pixel
+//   Aiming       paths that are shared also scatter towards a sphere of glass
 #define RT_METHODS(METHOD)                        \
     METHOD(Mixture, 0u, "mixture")                \
     METHOD(Projected, 1u, "projected")            \
     METHOD(Connections, 2u, "connections")        \
-    METHOD(Reuse, 3u, "path-reuse")
+    METHOD(Reuse, 3u, "path-reuse")               \
+    METHOD(EdgeRays, 4u, "edge-rays")             \
+    METHOD(Aiming, 5u, "aimed-scattering")
 // clang-format on
 
 RT_SHARED_BEGIN

@@ -349,9 +349,6 @@ const uint kSamplerStratified = 1u;
 const uint kSamplerSobol = 2u;
 const uint kSamplerSobolBlue = 3u; // one sequence for all pixels, near ones next to each other
 
-const uint kPathReuseOff = 0u;
-const uint kPathReuseScattered = 1u; // what the bsdf alone has drawn
-const uint kPathReuseAimed = 2u;     // also what is aimed at a sphere of glass, see AimedScattering.h
 // How many pixels a group has, whose samples of one number share: as many across and down.
 const uint kReuseSide = 2u;
 const uint kReuseGroup = kReuseSide * kReuseSide;
@@ -373,7 +370,7 @@ struct RenderParams {
     uint connectedSpheres; // of specularCasters: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
     uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
-    uint pathReuse;        // kPathReuse...: whether pixels share what their paths bring, see PathReuse.h
+    uint methods;          // Features::methods in use: kernels may know more than a render asks for
 };
 
 // ---- rays ----------------------------------------------------------------------------------------------------------
@@ -434,6 +431,12 @@ const uint kReuseSuffix = 2u; // it is behind its second, whose light it finds
 const uint kReuseEnded = 3u;  // its first vertex is shared, but there was no second one
 const uint kReuseNone = 4u;   // nothing is
 
+// How emission counts that a path's ray finds, see EdgeRays.h.
+const uint kEmissionWeighed = 0u;           // against the light sampling of the vertex before
+const uint kEmissionApart = 1u;             // not at all: edge rays count it
+const uint kEmissionApartBehindGlossy = 2u; // nor behind a glossy mirror, whose reflected light they sample as well
+const uint kEmissionOfEdgeRay = 3u;         // in full: the path is an edge ray
+
 // What a step settles of a path that is shared.
 struct SharedPart {
     vec3 prefix;     // at its second vertex: the radiance that it had brought before
@@ -446,11 +449,13 @@ struct PathState {
     Ray ray;
     vec3 throughput;
     vec3 radiance;
-    float pdf;           // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;         // surfaces and collisions met so far
-    LightContext last;   // where ray starts, for the weights of multiple importance sampling
+    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;       // surfaces and collisions met so far
+    LightContext last; // where ray starts, for the weights of multiple importance sampling
+    // Of techniques, see Techniques.h:
     SpecularChain chain; // where it scattered, for the weights against connections
     uint reuse;          // kReuse...
+    uint emission;       // kEmission...
 };
 
 // What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes
@@ -477,6 +482,12 @@ struct SpecularConnection {
     vec3 leave[2]; // on the light's side: inside, outside
     vec3 end;      // at the light
     uint segments; // kSegment... that have yet to be found free; 0: there is no connection
+};
+
+// What techniques leave behind a step of a path, for the engine to deal with.
+struct TechniqueStep {
+    SharedPart part;
+    SpecularConnection connection;
 };
 
 RT_SHARED_END

@@ -9,24 +9,6 @@
 
 RT_SHARED_BEGIN
 
-// In place of densities, up to the first vertex that is no mirror and no glass, see EdgeRays.h: of a path whose
-// emission is counted apart, and of the rays that count it. And of such a path behind that vertex, a blurred mirror.
-const float kCountedApart = -1.0f;
-const float kEdgeRay = -2.0f;
-const float kBlurCountedApart = -3.0f;
-
-RT_FN bool isBehindGlossyHit(Features features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && has(features, kFeatureFuzz) && s.pdf == kBlurCountedApart;
-}
-
-RT_FN bool isCountedApart(Features features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindGlossyHit(features, s));
-}
-
-RT_FN bool isEdgeRay(Features features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && s.pdf == kEdgeRay;
-}
-
 RT_FN bool usesMis(RT_IN(RenderParams) params) {
     return params.lightSampling >= kSampleMis;
 }
@@ -38,16 +20,15 @@ RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDen
                                                      : powerHeuristic(pdf, lightDensity);
 }
 
-// `chainWeight`: against what else may have found it.
-RT_FN void addSky(Features features, SceneRef scene, RT_IN(RenderParams) params, float chainWeight,
-                  RT_INOUT(PathState) s) {
-    if (!has(features, kFeatureSky) || isCountedApart(features, s)) return;
-    float weight = chainWeight;
+// `share`: of the sky's light that is left to the path, see techniqueSkyShare().
+RT_FN void addSky(Features features, SceneRef scene, RT_IN(RenderParams) params, float share, RT_INOUT(PathState) s) {
+    if (!has(features, kFeatureSky) || share == 0.0f) return;
+    float weight = share;
     if (has(features, kFeatureSkyImage)) {
         RT_IN(SceneGlobals) globals = loadGlobals(scene);
         if (globals.skyLight != kNone && usesMis(params) && s.pdf > 0.0f) {
             float probability = lightProbability(features, scene, globals.lightCount, globals.skyLight, s.last);
-            weight = emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
+            weight *= emissionWeight(params, s.pdf, probability * skyPdf(scene, s.ray.direction));
         }
     }
     s.radiance += s.throughput * skyRadiance(features, scene, s.ray.direction) * weight;
@@ -61,19 +42,19 @@ RT_FN vec3 emittedRadiance(Features features, SceneRef scene, RT_IN(Material) ma
            vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));
 }
 
-// `chainWeight`: against what else may have found it.
+// `share`: of the emission that is left to the path, see techniqueEmissionShare().
 RT_FN void addEmission(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
-                       RT_IN(Material) material, float distance, float chainWeight, RT_INOUT(PathState) s) {
+                       RT_IN(Material) material, float distance, float share, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
-    if ((!front && material.emissionSides != kSidesBoth) || isCountedApart(features, s)) return;
+    if ((!front && material.emissionSides != kSidesBoth) || share == 0.0f) return;
     vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv, surface.uv2);
-    float weight = chainWeight;
+    float weight = share;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
         float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
         float density = lightPdf(features, params, loadLight(scene, surface.light), s.last.position, s.last.normal,
                                  s.ray.time, s.ray.direction, distance, surface.normal);
-        weight = emissionWeight(params, s.pdf, probability * density);
+        weight *= emissionWeight(params, s.pdf, probability * density);
     }
     s.radiance += s.throughput * emitted * weight;
 }

@@ -1,4 +1,4 @@
-#include "Common/App/Session/Progress.h"
+#include "Common/Render/Progress.h"
 
 #include <algorithm>
 #include <cmath>

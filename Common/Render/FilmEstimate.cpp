@@ -1,4 +1,4 @@
-#include "Common/App/Session/FilmEstimate.h"
+#include "Common/Render/FilmEstimate.h"
 
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/Metrics.h"

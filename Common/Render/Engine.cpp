@@ -1,4 +1,4 @@
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

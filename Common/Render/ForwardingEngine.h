@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "Common/App/Session/Engine.h"
+#include "Common/Render/Engine.h"
 
 namespace rt::app {
 

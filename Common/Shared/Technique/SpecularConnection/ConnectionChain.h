@@ -3,7 +3,7 @@
 // In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHAIN_H
 #define RT_SHARED_CONNECTION_CHAIN_H
-#include "Common/Shared/Path/Connection.h"
+#include "Common/Shared/Technique/SpecularConnection/Connection.h"
 
 RT_SHARED_BEGIN
 
@@ -20,13 +20,13 @@ RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit
 }
 
 // A path arrives at a surface, or in a medium, where hit.t < 0.
-RT_FN void arriveChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
+RT_FN void followChain(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit, RT_INOUT(PathState) s) {
     bool isSought = s.chain.state >= kChainScattered && s.chain.state < kChainBeyond;
     s.chain.sphere = isSought ? connectedSphere(scene, params, hit) : kNone;
 }
 
 // And goes on from there.
-RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
+RT_FN void continueChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s) {
     uint state = kChainNone;
     if (b.delta == 0u) {
         if (b.transmitted == 0u && s.chain.rate > 0.0f) state = kChainScattered;

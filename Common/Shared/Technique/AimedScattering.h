@@ -6,7 +6,7 @@
 #ifndef RT_SHARED_AIMED_SCATTERING_H
 #define RT_SHARED_AIMED_SCATTERING_H
 #include "Common/Shared/Light/Projected/VisibleCap.h"
-#include "Common/Shared/Path/PathReuse.h"
+#include "Common/Shared/Technique/PathReuse.h"
 
 RT_SHARED_BEGIN
 
@@ -14,7 +14,7 @@ RT_SHARED_BEGIN
 const float kMaxAimed = 0.7f;
 
 RT_FN bool aimsPaths(Features features, RT_IN(RenderParams) params) {
-    return has(features, kMethodReuse) && params.pathReuse == kPathReuseAimed;
+    return uses(features, params, kMethodAiming);
 }
 
 // Share of the directions from x that are drawn towards the sphere; `direct` is LightContext::total there.

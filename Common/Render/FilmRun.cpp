@@ -1,12 +1,13 @@
+#include "Common/Render/FilmRun.h"
+
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "Common/App/Session/FilmEstimate.h"
-#include "Common/App/Session/FilmRun.h"
-#include "Common/App/Session/RenderParams.h"
-#include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
+#include "Common/Render/FilmEstimate.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
 
 namespace rt::app {
 namespace {

@@ -11,8 +11,8 @@
 #include "Common/Shared/Light/SkyPatches.h"
 #include "Common/Shared/Light/SphereRefraction.h"
 #include "Common/Shared/Material/Dielectric.h"
-#include "Common/Shared/Path/ConnectionChoice.h"
 #include "Common/Shared/Path/DirectLight.h"
+#include "Common/Shared/Technique/SpecularConnection/ConnectionChoice.h"
 
 RT_SHARED_BEGIN
 

@@ -12,6 +12,7 @@
 #define RT_SHARED_PATH_REUSE_H
 #include "Common/Shared/Path/DirectLight.h"
 #include "Common/Shared/Path/Vertex.h"
+#include "Common/Shared/Technique/Methods.h"
 
 RT_SHARED_BEGIN
 
@@ -22,7 +23,7 @@ const float kReuseSurvival = 0.6f;
 const float kMinReuseDensity = 1.0e-37f;
 
 RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
-    return has(features, kMethodReuse) && params.pathReuse != kPathReuseOff;
+    return uses(features, params, kMethodReuse);
 }
 
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and

@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <string>
 
-#include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
+#include "Common/Render/Settings.h"
 #include "Common/Scene/CompiledScene.h"
 #include "Common/Scene/Silhouettes.h"
 #include "Common/Shared/Base/Types.h"

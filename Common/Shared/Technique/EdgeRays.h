@@ -1,7 +1,7 @@
 // Camera rays that are split where the edge of a light crosses a pixel (Silhouettes.h). In sight a light adds all of its
 // radiance to a sample or nothing, and against that noise only camera rays help, a small part of what a path costs. So
 // there RenderParams::edgeRays rays of the sample's own tell what is emitted at the first vertex and behind mirrors and
-// glass, by their mean, and the path counts what comes after it. Where that vertex is a blurred mirror, they tell the
+// glass, by their mean, and the path counts what comes after it. Where that vertex is a glossy mirror, they tell the
 // light that it reflects as well. They are spread over the part of the pixel that holds the light; a path through the
 // rest of it counts everything itself. Splitting: Arvo & Kirk, "Particle Transport and Image Synthesis", 1990.
 #ifndef RT_SHARED_EDGE_RAYS_H
@@ -27,7 +27,7 @@ struct PixelPart {
     vec2 size;
 };
 
-// From LightEdges::parts, of a pixel that has one.
+// From Silhouettes::parts, of a pixel that has one.
 RT_FN PixelPart pixelPart(uint packed) {
     const float kStep = 1.0f / 255.0f;
     PixelPart part;
@@ -51,12 +51,12 @@ RT_FN float edgeWeight(RT_IN(RenderParams) params, RT_IN(PixelPart) part) {
 }
 
 // The path of an edge ray, which ends at its first vertex that is no mirror and no glass, or at the one behind a
-// blurred mirror. `radiance` is what the sample has brought before.
+// glossy mirror. `radiance` is what the sample has brought before.
 RT_FN PathState startEdgeRay(RT_IN(RenderParams) params, RT_IN(PixelPart) part, RT_IN(Ray) ray, vec3 radiance) {
     PathState s = startPath(ray);
     s.throughput = vec3(edgeWeight(params, part));
     s.radiance = radiance;
-    s.pdf = kEdgeRay;
+    s.emission = kEmissionOfEdgeRay;
     s.reuse = kReuseNone;
     return s;
 }

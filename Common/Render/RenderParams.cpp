@@ -1,4 +1,4 @@
-#include "Common/App/Session/RenderParams.h"
+#include "Common/Render/RenderParams.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 #include "Common/Image/SamplePlan.h"
 #include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Material/Bsdf.h"
-#include "Common/Shared/Path/PathReuse.h"
+#include "Common/Shared/Technique/PathReuse.h"
 
 namespace rt::app {
 namespace {
@@ -22,7 +22,7 @@ shared::uvec2 strata(const RenderSettings& settings) {
     return {columns, (samples + columns - 1) / columns};
 }
 
-// RenderParams::russianRoulette, by error times time (docs/light-sampling.md). Paths in rooms go on more often than
+// RenderParams::russianRoulette, by error times time (docs/measurements/light-sampling.md). Paths in rooms go on more often than
 // their throughput says: indirect light makes most of the noise. Where there are many lamps their edges make it. Most
 // paths under a plain sky soon leave for it, which no light sampling has done for them: ending bright ones by chance
 // saves little and triples the variance.
@@ -60,8 +60,7 @@ bool scattersWidely(const scene::CompiledScene& scene) {
 }
 constexpr shared::Features kLightSampling =
     shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
-    shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
-    shared::kMethodMixture | shared::kMethodProjected;
+    shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights;
 
 bool usesMis(const RenderSettings& settings) {
     return settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;
@@ -82,7 +81,7 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
            shared::has(scene.features, shared::kFeatureLambertian) && !shared::has(scene.features, kPrevents);
 }
 
-// Whether that gains more than it costs, by error times time (docs/light-sampling.md): where indirect light makes the
+// Whether that gains more than it costs, by error times time (docs/measurements/light-sampling.md): where indirect light makes the
 // noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
 bool gainsByReuse(const scene::CompiledScene& scene) {
     constexpr shared::Features kOtherNoise =
@@ -102,9 +101,22 @@ bool aimsPaths(const scene::CompiledScene& scene, const RenderSettings& settings
            settings.lightSelection == LightSelection::Contribution && scene.globals.aimed.gain > 0;
 }
 
-shared::uint pathReuse(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    if (!reusesPaths(scene, settings)) return shared::kPathReuseOff;
-    return aimsPaths(scene, settings) ? shared::kPathReuseAimed : shared::kPathReuseScattered;
+// What the settings ask for and the scene has a use for.
+shared::Features methodsOf(const scene::CompiledScene& scene, const RenderSettings& settings) {
+    shared::Features methods;
+    const auto use = [&](bool used, shared::Features method) {
+        if (used) methods |= method;
+    };
+    const bool mixes = settings.lightSampling == LightSampling::Mixture;
+    use(mixes && scattersWidely(scene) && scene.globals.lightCount + scene.globals.targetCount > 0,
+        shared::kMethodMixture);
+    for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
+        use(shape == ShapeSampling::Projected && scattersWidely(scene), shared::kMethodProjected);
+    use(connectsLights(scene, settings), shared::kMethodConnections);
+    use(reusesPaths(scene, settings), shared::kMethodReuse);
+    use(reusesPaths(scene, settings) && aimsPaths(scene, settings), shared::kMethodAiming);
+    use(mayHaveEdges(scene, settings), shared::kMethodEdgeRays);
+    return methods;
 }
 
 // Of the samples that a pixel takes: a power of two that covers them, if the image leaves so many of 2^32.
@@ -134,7 +146,7 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
         params.connectedSpheres = static_cast<std::uint32_t>(scene.specularCasters.size());
-    params.pathReuse = pathReuse(scene, settings);
+    params.methods = methodsOf(scene, settings).methods;
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
 }
@@ -183,15 +195,9 @@ shared::Features renderFeatures(const scene::CompiledScene& scene, const scene::
     // The camera may have been given another lens than the scene's.
     shared::Features features = scene.features & ~shared::kFeatureThinLens;
     if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
-    if (settings.lightSampling == LightSampling::Mixture && scene.globals.lightCount + scene.globals.targetCount > 0)
-        features |= shared::kMethodMixture;
-    if (connectsLights(scene, settings)) features |= shared::kMethodConnections;
-    if (reusesPaths(scene, settings)) features |= shared::kMethodReuse;
-    for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
-        if (shape == ShapeSampling::Projected) features |= shared::kMethodProjected;
     // Mirrors, glass and emitters alone leave light sampling nothing to do.
     if (!scattersWidely(scene)) features &= ~kLightSampling;
-    return features | settings.features.value_or(shared::kFeatureNone);
+    return features | methodsOf(scene, settings) | settings.features.value_or(shared::kFeatureNone);
 }
 
 std::string describeLightShapes(const RenderSettings& settings, shared::Features features) {

@@ -1,4 +1,4 @@
-#include "Common/Scene/Json/CameraRecord.h"
+#include "Common/Scene/CameraRecord.h"
 
 #include <cmath>
 #include <numbers>

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/FilmTiles.h"
+#include "Common/Render/Settings.h"
 #include "Common/Scene/CompiledScene.h"
 
 namespace rt::app {

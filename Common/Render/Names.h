@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "Common/App/Session/Settings.h"
+#include "Common/Render/Settings.h"
 #include "Common/Shared/Tonemap.h"
 
 namespace rt::app {

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "Common/App/Options/Names.h"
-#include "Common/App/Session/Engine.h"
-#include "Common/App/Session/Progress.h"
+#include "Common/Render/Engine.h"
+#include "Common/Render/Names.h"
+#include "Common/Render/Progress.h"
 
 namespace rt::app {
 
