@@ -28,7 +28,7 @@ vec3 surfaceRadiance(SceneRef scene, Surface surface, vec3 wo) {
     vec3 normal = isFront ? surface.shading : -surface.shading;
     vec3 radiance = vec3(0.0f);
     if (has(kFeatures, kFeatureEmissive) && (isFront || material.emissionSides == kSidesBoth)) {
-        radiance = emittedRadiance(kFeatures, scene, material, surface.position, surface.uv, surface.uv2);
+        radiance = surfaceEmission(kFeatures, scene, material, surface);
     }
     if (material.kind == kMaterialEmitter) return radiance;
     vec3 albedo = surfaceAlbedo(kFeatures, scene, material, surface);

@@ -51,11 +51,15 @@ bool ReadsBelow::allows(const std::filesystem::path& path) const {
     return place == file_ || std::any_of(folders_.begin(), folders_.end(), isBelow);
 }
 
+bool mayRead(const std::filesystem::path& path) {
+    return confinement == nullptr || confinement->allows(path);
+}
+
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit) {
     const auto fail = [&path](const std::string& reason) {
         throw InputError("cannot read " + path.string() + ": " + reason);
     };
-    if (confinement != nullptr && !confinement->allows(path)) fail("--assets-below does not allow it");
+    if (!mayRead(path)) fail("--assets-below does not allow it");
     std::error_code error;
     const std::filesystem::file_status status = std::filesystem::status(path, error);
     if (!std::filesystem::exists(status)) fail(error ? error.message() : std::generic_category().message(ENOENT));

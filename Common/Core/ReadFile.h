@@ -25,6 +25,9 @@ class ReadsBelow {
     const ReadsBelow* outer_;
 };
 
+// Whether nothing on this thread keeps readFile() from the file; whether it exists is another question.
+bool mayRead(const std::filesystem::path& path);
+
 // Of a regular file alone, in memory for its size. Throws InputError, naming the file and the reason, when it cannot be
 // read or holds more than `limit` bytes or than its size says.
 std::vector<std::byte> readFile(const std::filesystem::path& path, std::uint64_t limit);

@@ -112,11 +112,14 @@ enum class Sides { Front, Both };
 // A number, or a number times a channel of an image texture.
 enum class Channel { Red, Green, Blue, Alpha };
 struct NumberOrTexture {
-    double factor = 1;
+    double factor = 1;   // negative, only with a texture: 1 + factor times channel
     std::string texture; // empty: none
     Channel channel = Channel::Red;
     bool operator==(const NumberOrTexture&) const = default;
 };
+
+// The largest index of refraction: facets of it reflect all but half a thousandth.
+inline constexpr double kLargestIor = 1e4;
 
 // What a principled material has beyond MaterialDesc, whose albedo is its base colour: Principled.h explains.
 struct PrincipledDesc {
@@ -135,6 +138,7 @@ struct PrincipledDesc {
     std::string clearcoatNormalTexture;        // of the clear coat alone, which else is smooth
     double clearcoatNormalScale = 1;
     std::optional<double> alphaCutoff; // opacity below it is 0, else 1; unset: opacity is a probability
+    bool emitsColors = false;          // vertex colours multiply emission, too; light sampling leaves such surfaces out
     bool operator==(const PrincipledDesc&) const = default;
 };
 

@@ -114,13 +114,21 @@ void writeGltf(Seeds& seeds) {
                  {{"clearcoatFactor", 1}, {"clearcoatTexture", texture}, {"clearcoatNormalTexture", texture}}},
                 {"KHR_materials_sheen", {{"sheenColorFactor", {1, 0, 1}}}},
                 {"KHR_materials_emissive_strength", {{"emissiveStrength", 5}}}}}});
+    full.add("materials",
+             {{"extensions",
+               {{"KHR_materials_pbrSpecularGlossiness",
+                 {{"diffuseTexture", texture}, {"specularGlossinessTexture", texture}, {"glossinessFactor", 0.5}}}}}});
+    full.add("materials", {{"extensions", {{"KHR_materials_unlit", json::object()}}}});
     full.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}});
+    full.add("cameras",
+             {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 1}, {"zfar", 9}}}});
     full.json["extensions"]["KHR_lights_punctual"]["lights"] = {
         {{"type", "spot"}, {"intensity", 5}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
         {{"type", "directional"}}};
     const int child = full.add("nodes", {{"mesh", full.addMesh(primitive)}, {"rotation", {0, 0, 0, 1}}});
     full.addNode({{"children", {child}}, {"scale", {2, 2, 2}}});
     full.addNode({{"camera", 0}, {"translation", {0, 0, 5}}});
+    full.addNode({{"camera", 1}, {"scale", {-1, 1, 1}}});
     full.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     full.json["scene"] = 0;
 

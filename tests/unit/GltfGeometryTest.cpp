@@ -9,8 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Core/ReadFile.h"
-#include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Gltf/GltfLoader.h"
 #include "Common/Scene/Json/SceneJson.h"
 #include "tests/TempFolder.h"
@@ -240,28 +238,6 @@ TEST_F(Gltf, GpuInstancing) {
     EXPECT_EQ(rows[3], 20);
 }
 
-TEST_F(Gltf, CamerasByNameAndTheFirstIsTheView) {
-    placeTriangle();
-    const json lens = {
-        {"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}, {"aspectRatio", 1.5}}}};
-    gltf.add("cameras", lens);
-    gltf.add("cameras",
-             {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 2}, {"znear", 1}}}});
-    gltf.addNode({{"camera", 0}, {"translation", {0, 0, 4}}});
-    gltf.addNode({{"camera", 0}, {"rotation", {0, 1, 0, 0}}, {"translation", {0, 0, -4}}});
-    gltf.addNode({{"camera", 1}});
-    scene = load();
-    ASSERT_EQ(scene.cameras.size(), 2u);
-    EXPECT_EQ(scene.camera, scene.cameras.at("eye"));
-    EXPECT_EQ(scene.camera.lookFrom, glm::dvec3(0, 0, 4));
-    EXPECT_NEAR(scene.camera.verticalFov, 180 / glm::pi<double>(), 1e-9);
-    EXPECT_EQ(scene.camera.lookAt, glm::dvec3(0, 0, 0));
-    EXPECT_EQ(scene.render.aspect, 1.5);
-    const CameraDesc& back = scene.cameras.at("eye (2)");
-    EXPECT_GT(back.lookAt.z, back.lookFrom.z);
-    EXPECT_NE(scene.notices.front().find("orthographic"), std::string::npos);
-}
-
 TEST_F(Gltf, PunctualLights) {
     placeTriangle();
     gltf.json["extensions"]["KHR_lights_punctual"]["lights"] = {
@@ -286,59 +262,6 @@ TEST_F(Gltf, PunctualLights) {
     EXPECT_EQ(scene.background, Background(ConstantBackground{}));
     gltf.addNode({{"extensions", {{"KHR_lights_punctual", {{"light", 3}}}}}});
     EXPECT_THROW(load(), InputError);
-}
-
-TEST(FramingCamera, IsOneThatASceneFileMayHave) {
-    for (const double size : {0.0, 1e-300, 1e-12, 1e-9, 1.0, 1e9, 1e18, 1e300})
-        for (const double offset : {0.0, 1e-9, 1.0, 1e6, 1e9, 1e18}) {
-            Bounds bounds;
-            bounds.add(glm::dvec3(offset, 0, -offset));
-            bounds.add(glm::dvec3(offset + size, size, size - offset));
-            SceneDesc framed;
-            framed.camera = framingCamera(bounds);
-            EXPECT_EQ(parseScene(toJson(framed), "a.json", {}).camera, framed.camera) << size << " at " << offset;
-        }
-}
-
-TEST_F(Gltf, WithoutACameraAllIsInSight) {
-    placeTriangle();
-    scene = load();
-    EXPECT_TRUE(scene.cameras.empty());
-    const glm::dvec3 view = glm::normalize(scene.camera.lookAt - scene.camera.lookFrom);
-    const double limit = std::cos(glm::radians(scene.camera.verticalFov / 2));
-    for (const glm::dvec3& corner : {glm::dvec3(0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)})
-        EXPECT_GT(glm::dot(glm::normalize(corner - scene.camera.lookFrom), view), limit);
-    EXPECT_TRUE(std::holds_alternative<GradientBackground>(scene.background)); // it brings no light
-}
-
-TEST_F(Gltf, BuffersMayLieBesideOrInTheText) {
-    placeTriangle();
-    scene = load();
-    SceneDesc beside =
-        loadGltfScene(gltf.saveWithBuffer(folder / "b.gltf", "the%20buffer.bin", folder / "the buffer.bin"));
-    EXPECT_EQ(beside.objects, scene.objects);
-    GltfBuilder text;
-    text.json = gltf.json;
-    text.json["buffers"] = {{{"byteLength", 36},
-                             {"uri",
-                              "data:application/octet-stream;base64,"
-                              "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}};
-    text.json["bufferViews"] = {{{"buffer", 0}, {"byteLength", 36}}};
-    text.json["accessors"] = {{{"bufferView", 0}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 3}}};
-    text.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
-    GltfBuilder::write(folder / "c.gltf", text.json.dump());
-    const SceneDesc inside = loadGltfScene(folder / "c.gltf");
-    EXPECT_EQ(std::get<Boxed<MeshData>>(std::get<MeshDesc>(inside.objects.at(0).shape).source)->positions,
-              (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
-}
-
-TEST_F(Gltf, BuffersElsewhereAreRefusedWhereFilesAreConfined) {
-    placeTriangle();
-    std::filesystem::create_directories(folder / "in");
-    const auto file = gltf.saveWithBuffer(folder / "in/a.gltf", "../a.bin", folder / "a.bin");
-    EXPECT_NO_THROW(loadGltfScene(file));
-    const ReadsBelow confined(folder / "in", file);
-    EXPECT_THROW(loadGltfScene(file), InputError);
 }
 
 } // namespace

@@ -24,7 +24,7 @@ bool letsRaysThrough(const shared::Principled& p) {
 
 // Of its own, as the surface below has a map of normals or the coat itself.
 bool hasCoatNormal(const shared::Principled& p) {
-    return p.clearcoat.factor > 0 && (p.normalTexture != shared::kNone || p.coatTexture != shared::kNone);
+    return p.clearcoat.factor != 0 && (p.normalTexture != shared::kNone || p.coatTexture != shared::kNone);
 }
 
 Features ofTexture(const shared::Texture& texture) {

@@ -82,7 +82,8 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
         number.texture = textures_.resolve(source.texture, color);
         if (number.texture == shared::kNone) {
             constant = shared::vec4(color, 1.0f);
-            number.factor *= constant[static_cast<int>(source.channel)];
+            number.factor = (number.factor < 0 ? 1.0f : 0.0f) +
+                            number.factor * constant[static_cast<int>(source.channel)];
         }
         return number;
     };
@@ -95,7 +96,7 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.ior = static_cast<float>(desc.ior);
     p.thin = desc.isThin ? 1u : 0u;
     p.glass = shared::kNone;
-    if (desc.transmission.factor > 0 && !desc.isThin) {
+    if (desc.transmission.factor != 0 && !desc.isThin) {
         const auto [entry, isNew] = glass_.try_emplace(p.ior, static_cast<std::uint32_t>(out_.glassAlbedos.size()));
         if (isNew) {
             const std::vector<float> albedos = glassAlbedos(p.ior);
@@ -112,6 +113,7 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     p.coatTexture = normalMap(desc.clearcoatNormalTexture);
     p.coatScale = static_cast<float>(desc.clearcoatNormalScale);
     p.alphaCutoff = desc.alphaCutoff ? static_cast<float>(*desc.alphaCutoff) : -1.0f;
+    p.emitsColors = desc.emitsColors ? 1u : 0u;
     out_.principled.resize(out_.materials.size());
     out_.principled.push_back(p);
 }

@@ -97,7 +97,9 @@ const MaterialDesc& PrimitiveSink::materialOf(const std::string& name, const Pla
 }
 
 bool PrimitiveSink::isLight(std::uint32_t material, bool wanted) const {
-    return wanted && luminance(materials_.meanEmission(material)) > 0;
+    // Light sampling knows no vertex colours.
+    const bool isColored = material < out_.principled.size() && out_.principled[material].emitsColors != 0;
+    return wanted && !isColored && luminance(materials_.meanEmission(material)) > 0;
 }
 
 std::uint32_t PrimitiveSink::appendLight(shared::Light light, std::uint32_t material) {

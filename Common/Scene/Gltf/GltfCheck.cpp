@@ -7,16 +7,18 @@
 #include <string_view>
 
 #include "Common/Core/Printable.h"
+#include "Common/Scene/Gltf/GltfValues.h"
 
 namespace rt::scene {
 
 namespace {
 
 constexpr std::array kSupported = {
-    "KHR_lights_punctual",    "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_ior",
-    "KHR_materials_sheen",    "KHR_materials_specular",  "KHR_materials_transmission",      "KHR_materials_unlit",
-    "KHR_materials_variants", "KHR_materials_volume",    "KHR_mesh_quantization",           "KHR_texture_transform",
-    "EXT_mesh_gpu_instancing"};
+    "KHR_lights_punctual",    "KHR_materials_clearcoat", "KHR_materials_emissive_strength",
+    "KHR_materials_ior",      "KHR_materials_sheen",     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_specular", "KHR_materials_unlit",     "KHR_materials_transmission",
+    "KHR_materials_variants", "KHR_materials_volume",    "KHR_mesh_quantization",
+    "KHR_texture_transform",  "EXT_mesh_gpu_instancing"};
 
 // Without a buffer view the values of an accessor are zeros, which cost a file nothing.
 constexpr std::uint64_t kMaxImplicit = 1'000'000;
@@ -24,6 +26,10 @@ constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40; // of offsets and le
 
 bool isSupported(const std::string& extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
+}
+
+std::string indexInto(const std::string& array, std::size_t count) {
+    return "an index into " + array + ", of which there " + (count == 1 ? "is " : "are ") + std::to_string(count);
 }
 
 std::uint64_t whole(const JsonNode& node) {
@@ -42,8 +48,7 @@ class Checker {
     explicit Checker(const JsonNode& root) : root_(root) {}
 
     std::vector<std::string> run() {
-        const std::string version = root_.at("asset").at("version").string();
-        if (version.rfind("2.", 0) != 0) root_.at("asset").at("version").failValue("2.0");
+        checkVersion(root_.at("asset"));
         std::vector<std::string> notices = extensions();
         buffers();
         accessors();
@@ -52,6 +57,14 @@ class Checker {
     }
 
   private:
+    // Files of later versions of 2 can be read as one of 2.0, unless they say that they cannot.
+    static void checkVersion(const JsonNode& asset) {
+        const JsonNode version = asset.at("version");
+        if (version.string().rfind("2.", 0) != 0) version.failValue("2.0");
+        const auto least = asset.find("minVersion");
+        if (least && least->string() != "2.0") least->failValue("2.0, the version that this program reads");
+    }
+
     std::vector<std::string> extensions() const {
         if (const auto required = root_.find("extensionsRequired"))
             required->forEachElement([](const JsonNode& name) {
@@ -74,7 +87,7 @@ class Checker {
         const std::size_t count = elements ? elements->arraySize() : 0;
         const nlohmann::json& value = index.value();
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() >= count)
-            index.failValue("an index into " + std::string(array) + ", of which there are " + std::to_string(count));
+            index.failValue(indexInto(array, count));
         function(elements->element(value.get<std::size_t>()));
     }
     void reference(const JsonNode& index, const char* array) const {
@@ -94,7 +107,7 @@ class Checker {
 
     void buffers() const {
         forEach("buffers", [](const JsonNode& buffer) {
-            if (whole(buffer.at("byteLength")) == 0) buffer.at("byteLength").failValue("at least 1");
+            whole(buffer.at("byteLength")); // also 0, of which no view can be
         });
         forEach("bufferViews", [this](const JsonNode& view) {
             const std::uint64_t end = whole(view, "byteOffset", 0) + whole(view.at("byteLength"));
@@ -116,8 +129,8 @@ class Checker {
             const std::uint64_t stride = whole(view, "byteStride", bytes);
             const std::uint64_t length = whole(view.at("byteLength"));
             if (count > length || offset + stride * (count - 1) + bytes > length)
-                owner.fail("its " + std::to_string(count) + " elements end beyond the " + std::to_string(length) +
-                           " bytes of the buffer view");
+                owner.fail("its " + counted(count, "element ends", "elements end") + " beyond the " +
+                           counted(length, "byte", "bytes") + " of the buffer view");
         });
     }
 
@@ -181,7 +194,7 @@ class Checker {
                     attributes(instancing->at("attributes"));
                 if (const auto light = extensions->find("KHR_lights_punctual"))
                     if (const JsonNode index = light->at("light"); whole(index) >= lightCount())
-                        index.failValue("an index into lights, of which there are " + std::to_string(lightCount()));
+                        index.failValue(indexInto("lights", lightCount()));
             }
         });
         forEach("skins", [this](const JsonNode& skin) {
@@ -219,7 +232,7 @@ class Checker {
         });
         animation.at("channels").forEachElement([&](const JsonNode& channel) {
             if (const JsonNode index = channel.at("sampler"); whole(index) >= count)
-                index.failValue("an index into samplers, of which there are " + std::to_string(count));
+                index.failValue(indexInto("samplers", count));
             reference(channel.at("target"), "node", "nodes");
         });
     }

@@ -1,16 +1,19 @@
 #include "Common/Scene/Gltf/GltfFile.h"
 
-#include <algorithm>
 #include <cstring>
 #include <exception>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Gltf/GltfCheck.h"
+#include "Common/Scene/Gltf/GltfUri.h"
+#include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonText.h"
 
 namespace rt::scene {
@@ -20,77 +23,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxGlbBytes = std::numeric_limits<std::uint32_t>::max(); // of .glb, by its header
+constexpr std::size_t kGlbHeader = 20;                                            // with that of the first chunk
 
-// "%20" is a space.
-std::string decodedUri(const std::string& uri) {
-    const auto digit = [](char c) -> int {
-        if (c >= '0' && c <= '9') return c - '0';
-        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-        return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-    };
-    std::string text;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool isEscape = uri[i] == '%' && i + 2 < uri.size() && digit(uri[i + 1]) >= 0 && digit(uri[i + 2]) >= 0;
-        text += isEscape ? static_cast<char>(16 * digit(uri[i + 1]) + digit(uri[i + 2])) : uri[i];
-        if (isEscape) i += 2;
-    }
-    return text;
-}
-
-// What the parser asks for while it runs; it knows no exceptions.
-struct FileReader {
-    fs::path path;
-    std::uint64_t bytes = 0;
-    std::exception_ptr error;
-};
-
-bool readBuffer(std::vector<unsigned char>* out, std::string* message, const std::string& file, void* user) {
-    FileReader& reader = *static_cast<FileReader*>(user);
-    try {
-        const std::vector<std::byte> content = readFile(file, kMaxGlbBytes);
-        out->resize(content.size());
-        std::memcpy(out->data(), content.data(), content.size());
-        reader.bytes += content.size();
-        return true;
-    } catch (...) {
-        reader.error = std::current_exception();
-        *message += "cannot be read";
-        return false;
-    }
-}
-
-// Images stay as they are encoded: those of buffer views there, those of data URIs here.
-bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, int, const unsigned char* bytes,
-                 int size, void*) {
-    if (image->bufferView < 0) image->image.assign(bytes, bytes + size);
-    image->as_is = true;
-    return true;
-}
-
-// Later versions ask for the size as well.
-template <typename Callbacks>
-void setSizeCallback(Callbacks& callbacks) {
-    if constexpr (requires { callbacks.GetFileSizeInBytes; })
-        callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& file, void*) {
-            std::error_code error;
-            *size = static_cast<std::size_t>(fs::file_size(file, error));
-            return !error;
-        };
-}
-
-tinygltf::FsCallbacks callbacksFor(FileReader& reader) {
-    tinygltf::FsCallbacks callbacks{};
-    // The parser also looks in the working directory, which is no place for a scene's files.
-    callbacks.FileExists = [](const std::string& file, void*) { return fs::path(file).is_absolute(); };
-    callbacks.ExpandFilePath = [](const std::string& file, void*) { return file; };
-    callbacks.ReadWholeFile = readBuffer;
-    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
-        return false;
-    };
-    setSizeCallback(callbacks);
-    callbacks.user_data = &reader;
-    return callbacks;
-}
+using Content = std::shared_ptr<const std::vector<std::byte>>;
 
 std::uint32_t wordAt(std::span<const std::byte> bytes, std::size_t at) {
     std::uint32_t value = 0;
@@ -106,22 +41,123 @@ bool isBinary(std::span<const std::byte> bytes) {
 std::string_view textOf(std::span<const std::byte> bytes, const std::string& file) {
     const auto* text = reinterpret_cast<const char*>(bytes.data());
     if (!isBinary(bytes)) return {text, bytes.size()};
-    constexpr std::size_t kHeader = 20;
     constexpr std::uint32_t kJson = 0x4e4f534a;
-    if (bytes.size() < kHeader) throw InputError(file + ": ends within the header of a .glb file");
+    if (bytes.size() < kGlbHeader) throw InputError(file + ": ends within the header of a .glb file");
     if (const std::uint32_t version = wordAt(bytes, 4); version != 2)
         throw InputError(file + ": version " + std::to_string(version) + " of the .glb format: must be 2");
     if (const std::uint32_t length = wordAt(bytes, 8); length > bytes.size())
         throw InputError(file + ": has " + std::to_string(bytes.size()) + " bytes of the " + std::to_string(length) +
                          " that its header states");
     const std::uint32_t length = wordAt(bytes, 12);
-    if (wordAt(bytes, 16) != kJson || length > bytes.size() - kHeader)
+    if (wordAt(bytes, 16) != kJson || length > bytes.size() - kGlbHeader)
         throw InputError(file + ": the first chunk is not JSON of a length that the file has");
-    return {text + kHeader, length};
+    return {text + kGlbHeader, length};
 }
+
+// The first BIN chunk behind the JSON of a .glb file, if there is one; chunks of other kinds are for other programs.
+std::optional<std::span<const std::byte>> binaryChunk(std::span<const std::byte> bytes, const std::string& file) {
+    constexpr std::uint32_t kBinary = 0x004e4942;
+    constexpr std::size_t kChunkHeader = 8;
+    const std::size_t end = wordAt(bytes, 8);
+    for (std::size_t at = kGlbHeader + wordAt(bytes, 12); at + kChunkHeader <= end;) {
+        const std::size_t length = wordAt(bytes, at), start = at + kChunkHeader;
+        if (length > end - start)
+            throw InputError(file + ": the chunk at byte " + std::to_string(at) + " ends beyond the file");
+        if (wordAt(bytes, at + 4) == kBinary) return bytes.subspan(start, length);
+        at = start + length;
+    }
+    return std::nullopt;
+}
+
+// ---- buffers and images --------------------------------------------------------------------------------------------
+
+// What buffers are made of.
+class BufferReader {
+  public:
+    BufferReader(const fs::path& path, Content content) : path_(path), content_(std::move(content)) {
+        bytes_ = content_->size();
+        if (isBinary(*content_)) chunk_ = binaryChunk(*content_, path.string());
+    }
+
+    GltfBuffer read(const JsonNode& buffer, bool isFirst) {
+        const auto uri = buffer.find("uri");
+        GltfBuffer read;
+        std::string holder;
+        if (uri && isDataUri(uri->string())) {
+            holder = "the data URI";
+            read.content = std::make_shared<const std::vector<std::byte>>(bytesOfDataUri(*uri));
+            read.bytes = *read.content;
+        } else if (uri) {
+            holder = '"' + printable(uri->string(), 200) + '"';
+            read.content = fileBeside(uri->string());
+            read.bytes = *read.content;
+        } else if (isFirst && chunk_) {
+            holder = "the binary chunk";
+            read.content = content_;
+            read.bytes = *chunk_;
+        } else {
+            return read; // extensions may have other ideas of what it is
+        }
+        const JsonNode length = buffer.at("byteLength");
+        if (length.value().get<std::uint64_t>() > read.bytes.size())
+            length.failValue("at most what " + holder + " has, " + counted(read.bytes.size(), "byte", "bytes"));
+        read.bytes = read.bytes.first(length.value().get<std::size_t>());
+        return read;
+    }
+
+    std::uint64_t bytes() const { return bytes_; } // that were read
+
+  private:
+    // Many buffers may lie in one file.
+    Content fileBeside(const std::string& uri) {
+        const fs::path path = besideGltf(path_, uri);
+        Content& content = files_[path];
+        if (!content) {
+            content = std::make_shared<const std::vector<std::byte>>(readFile(path, kMaxGlbBytes));
+            bytes_ += content->size();
+        }
+        return content;
+    }
+
+    const fs::path& path_;
+    const Content content_; // of the file itself
+    std::optional<std::span<const std::byte>> chunk_;
+    std::map<fs::path, Content> files_;
+    std::uint64_t bytes_ = 0;
+};
+
+// The image stays encoded.
+GltfImage readImage(const JsonNode& node) {
+    GltfImage image;
+    if (const auto name = node.find("name")) image.name = name->string();
+    const auto uri = node.find("uri");
+    if (const auto view = node.find("bufferView"))
+        image.bufferView = view->value().get<int>();
+    else if (uri && isDataUri(uri->string()))
+        image.content = bytesOfDataUri(*uri);
+    else if (uri)
+        image.uri = uri->string();
+    return image;
+}
+
+// ---- the rest ------------------------------------------------------------------------------------------------------
 
 std::string firstLine(const std::string& message) {
     return printable(message.substr(0, message.find('\n')));
+}
+
+// `text`: JSON without buffers and images, of which the library has its own ideas.
+void parseRest(const std::string& text, const std::string& file, tinygltf::Model& model) {
+    tinygltf::TinyGLTF parser;
+    std::string errors, warnings;
+    bool isRead = false;
+    try {
+        isRead = parser.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()),
+                                            std::string());
+    } catch (const std::exception& error) { // of its containers, at what it does not check
+        throw InputError(file + ": not a valid file of glTF: " + firstLine(error.what()));
+    }
+    if (!isRead) throw InputError(file + ": " + firstLine(errors));
 }
 
 } // namespace
@@ -132,71 +168,49 @@ void GltfFile::fail(const std::string& place, const std::string& message) const 
 
 std::span<const std::byte> GltfFile::view(int bufferView) const {
     const tinygltf::BufferView& view = model.bufferViews[static_cast<std::size_t>(bufferView)];
-    const std::vector<unsigned char>& data = model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    return std::as_bytes(std::span(data)).subspan(view.byteOffset, view.byteLength);
-}
-
-fs::path besideGltf(const fs::path& path, const std::string& uri) {
-    const std::string text = decodedUri(uri);
-    const fs::path name(text);
-    const bool hasScheme = text.find(':') != text.npos; // also a drive's letter
-    if (text.empty() || hasScheme || text.find('\0') != text.npos || name.is_absolute())
-        throw InputError(path.string() + ": \"" + printable(uri, 200) + "\": must be the relative path of a file");
-    return (fs::absolute(path).parent_path() / name).lexically_normal();
+    return buffers[static_cast<std::size_t>(view.buffer)].bytes.subspan(view.byteOffset, view.byteLength);
 }
 
 GltfFile readGltf(const fs::path& path) {
     GltfFile file;
     file.path = path;
     const std::string name = path.string();
-    const std::vector<std::byte> content = readFile(path, kMaxGlbBytes);
-    const std::string_view text = textOf(content, name);
+    const auto content = std::make_shared<const std::vector<std::byte>>(readFile(path, kMaxGlbBytes));
+    std::string rest;
     {
-        const nlohmann::json document = parseJson(text, name);
+        nlohmann::json document = parseJson(textOf(*content, name), name);
         const JsonNode root(document, name);
         file.notices = checkGltf(root);
+        BufferReader reader(path, content);
         if (const auto buffers = root.find("buffers"))
-            buffers->forEachElement([&](const JsonNode& buffer) {
-                const auto uri = buffer.find("uri");
-                if (uri && uri->string().rfind("data:", 0) != 0) besideGltf(path, uri->string());
-            });
+            buffers->forEachElement(
+                [&](const JsonNode& buffer) { file.buffers.push_back(reader.read(buffer, file.buffers.empty())); });
+        if (const auto images = root.find("images"))
+            images->forEachElement([&](const JsonNode& image) { file.images.push_back(readImage(image)); });
+        file.bytes = reader.bytes();
+        document.erase("buffers");
+        document.erase("images");
+        rest = document.dump();
     }
-    FileReader reader{path, content.size(), nullptr};
-    tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks(callbacksFor(reader));
-    parser.SetImageLoader(keepEncoded, nullptr);
-    const std::string folder = fs::absolute(path).parent_path().string();
-    std::string errors, warnings;
-    bool isRead = false;
-    try {
-        const auto* bytes = reinterpret_cast<const unsigned char*>(content.data());
-        isRead = isBinary(content) ? parser.LoadBinaryFromMemory(&file.model, &errors, &warnings, bytes,
-                                                                 static_cast<unsigned>(content.size()), folder)
-                                   : parser.LoadASCIIFromString(&file.model, &errors, &warnings, text.data(),
-                                                                static_cast<unsigned>(text.size()), folder);
-    } catch (const std::exception& error) { // of its containers, at what it does not check
-        throw InputError(name + ": not a valid file of glTF: " + firstLine(error.what()));
-    }
-    if (reader.error) std::rethrow_exception(reader.error);
-    if (!isRead) throw InputError(name + ": " + firstLine(errors));
+    parseRest(rest, name, file.model);
     // checkGltf() compared with the lengths as stated.
-    const auto buffers = file.model.buffers.size();
-    for (const tinygltf::BufferView& view : file.model.bufferViews)
-        if (static_cast<std::size_t>(view.buffer) >= buffers ||
-            view.byteOffset + view.byteLength > file.model.buffers[static_cast<std::size_t>(view.buffer)].data.size())
-            throw InputError(name + ": /bufferViews: one ends beyond its buffer");
-    file.bytes = reader.bytes;
+    for (std::size_t i = 0; i < file.model.bufferViews.size(); ++i) {
+        const tinygltf::BufferView& view = file.model.bufferViews[i];
+        if (view.byteOffset + view.byteLength > file.buffers[static_cast<std::size_t>(view.buffer)].bytes.size())
+            file.fail("/bufferViews/" + std::to_string(i),
+                      "its buffer has no uri, and there is no binary chunk for it");
+    }
     return file;
 }
 
 std::span<const std::byte> GltfImages::encoded(std::uint32_t image) const {
     const std::string place = "/images/" + std::to_string(image);
-    if (image >= file_.model.images.size())
-        file_.fail(place, "there are " + std::to_string(file_.model.images.size()) + " images");
-    const tinygltf::Image& source = file_.model.images[image];
+    if (image >= file_.images.size())
+        file_.fail(place, "the file has " + counted(file_.images.size(), "image", "images"));
+    const GltfImage& source = file_.images[image];
     if (source.bufferView >= 0) return file_.view(source.bufferView);
-    if (source.image.empty()) file_.fail(place, "lies in a file of its own");
-    return std::as_bytes(std::span(source.image));
+    if (source.content.empty()) file_.fail(place, "is not inside the file");
+    return source.content;
 }
 
 } // namespace rt::scene

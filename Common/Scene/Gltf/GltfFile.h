@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,12 +12,27 @@
 
 namespace rt::scene {
 
+// As long as its byteLength says; empty where no file, data URI or chunk holds it, and then nothing refers to it.
+struct GltfBuffer {
+    std::shared_ptr<const std::vector<std::byte>> content; // which others may share
+    std::span<const std::byte> bytes;                      // of the content
+};
+
+// At most one of three says where it is; none: it is missing.
+struct GltfImage {
+    std::string name;
+    int bufferView = -1;
+    std::string uri; // of a file of its own
+    std::vector<std::byte> content;
+};
+
 struct GltfFile {
     std::filesystem::path path;
-    // What checkGltf() promises holds, and every buffer is as long as it says.
-    tinygltf::Model model;
+    tinygltf::Model model; // but for buffers and images; what checkGltf() promises holds
+    std::vector<GltfBuffer> buffers;
+    std::vector<GltfImage> images;
     std::vector<std::string> notices; // one line each
-    std::uint64_t bytes = 0;          // of the file and its buffers
+    std::uint64_t bytes = 0;          // of the file and those of its buffers
 
     // Throws the InputError "FILE: /ARRAY/INDEX: MESSAGE".
     [[noreturn]] void fail(const std::string& place, const std::string& message) const;
@@ -28,9 +44,6 @@ struct GltfFile {
 // Reads .gltf and .glb, which the first bytes tell apart, and buffers in other files, as readFile() allows. Throws
 // InputError naming file and place.
 GltfFile readGltf(const std::filesystem::path& path);
-
-// The file that a URI beside `path` names; throws InputError for what is no relative path.
-std::filesystem::path besideGltf(const std::filesystem::path& path, const std::string& uri);
 
 // The images inside a file of glTF.
 class GltfImages {

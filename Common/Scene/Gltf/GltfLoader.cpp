@@ -17,14 +17,15 @@
 #include "Common/Core/Printable.h"
 #include "Common/Scene/Affine.h"
 #include "Common/Scene/Compiler/Bounds.h"
-#include "Common/Scene/FramingCamera.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfBudget.h"
+#include "Common/Scene/Gltf/GltfCameras.h"
 #include "Common/Scene/Gltf/GltfFile.h"
 #include "Common/Scene/Gltf/GltfMaterials.h"
 #include "Common/Scene/Gltf/GltfMesh.h"
 #include "Common/Scene/Gltf/GltfNodes.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
+#include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
 
 namespace rt::scene {
@@ -60,7 +61,7 @@ class Importer {
     SceneDesc run() {
         addMeshes();
         addLights();
-        addCameras();
+        addCameras(file_, nodes_, bounds_, scene_);
         addBackground();
         addNotices();
         return std::move(scene_);
@@ -212,45 +213,7 @@ class Importer {
         for (const Affine& toWorld : where) scene_.objects.push_back({InstanceDesc{name, toTransform(toWorld), {}}});
     }
 
-    // ---- cameras and light ------------------------------------------------------------------------------------------
-
-    void addCameras() {
-        UniqueNames names;
-        bool isFirst = true;
-        scene_.camera = framingCamera(bounds_);
-        for (const GltfNodes::Placed& placed : nodes_.placed()) {
-            const tinygltf::Node& node = file_.model.nodes[placed.node];
-            if (node.camera < 0) continue;
-            const auto number = static_cast<std::size_t>(node.camera);
-            const tinygltf::Camera& source = file_.model.cameras[number];
-            if (source.type != "perspective") {
-                scene_.notices.push_back("camera " + std::to_string(number) + " is orthographic and left out");
-                continue;
-            }
-            const double fov = glm::degrees(source.perspective.yfov);
-            if (!(fov > 0 && fov < 180))
-                file_.fail("/cameras/" + std::to_string(number) + "/perspective/yfov", "must be between 0 and pi");
-            CameraDesc camera;
-            camera.verticalFov = fov;
-            camera.lookFrom = placed.toWorld.offset;
-            const glm::dvec3 view = placed.toWorld.vector({0, 0, -1}), up = placed.toWorld.vector({0, 1, 0});
-            if (!(glm::length(glm::cross(view, up)) > 1e-9 * glm::length(view) * glm::length(up)))
-                file_.fail(placeOfNode(placed.node), "its transform leaves the camera no direction");
-            const glm::dvec3 direction = glm::normalize(view);
-            camera.up = glm::normalize(up);
-            // What it looks at is turned around in a window: as far away as the middle of the scene.
-            const double distance = glm::dot(bounds_.center() - camera.lookFrom, direction);
-            camera.focusDistance = distance > 1e-6 * bounds_.radius() && distance > 1e-6 ? distance : 1;
-            camera.lookAt = camera.lookFrom + camera.focusDistance * direction;
-            if (isFirst) {
-                scene_.camera = camera;
-                const double aspect = source.perspective.aspectRatio;
-                if (aspect > 1 / kLargest && aspect < kLargest) scene_.render.aspect = aspect;
-            }
-            isFirst = false;
-            scene_.cameras[names.unique(source.name.empty() ? node.name : source.name, "camera", number)] = camera;
-        }
-    }
+    // ---- light ------------------------------------------------------------------------------------------------------
 
     void addLights() {
         for (const GltfNodes::Placed& placed : nodes_.placed()) {
@@ -296,19 +259,20 @@ class Importer {
         std::vector<std::string>& notices = scene_.notices;
         notices.insert(notices.end(), file_.notices.begin(), file_.notices.end());
         if (withoutTriangles_ > 0)
-            notices.push_back(std::to_string(withoutTriangles_) +
-                              " primitives of points, lines or no triangle are left out");
+            notices.push_back(counted(withoutTriangles_, "primitive", "primitives") +
+                              " of points, lines or no triangle " + (withoutTriangles_ == 1 ? "is" : "are") +
+                              " left out");
         if (flattened_ > 0)
-            notices.push_back(std::to_string(flattened_) + (flattened_ == 1 ? " mesh is" : " meshes are") +
+            notices.push_back(counted(flattened_, "mesh is", "meshes are") +
                               " left out: the transform of the node cannot be inverted");
         if (withoutJoints_ > 0)
-            notices.push_back(std::to_string(withoutJoints_) + (withoutJoints_ == 1 ? " skin is" : " skins are") +
-                              " left out: vertices have no joints");
+            notices.push_back(counted(withoutJoints_, "skin is", "skins are") + " left out: vertices have no joints");
         if (const auto& animations = file_.model.animations; !animations.empty()) {
-            const std::string& name = animations.front().name;
-            notices.push_back("animations stand still: this is the start of " +
-                              (name.empty() ? "the first" : '"' + printable(name) + '"') + " of " +
-                              std::to_string(animations.size()));
+            const std::string name = '"' + printable(animations.front().name) + '"';
+            notices.push_back(animations.size() == 1 ? "the animation stands still: this is its start"
+                                                     : "animations stand still: this is the start of " +
+                                                           (name == "\"\"" ? "the first" : name) + " of " +
+                                                           std::to_string(animations.size()));
         }
         if (file_.model.scenes.size() > 1) notices.push_back("scenes other than the default one are left out");
     }

@@ -1,12 +1,13 @@
 // Materials and textures of a glTF file as those of a scene.
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "Common/Scene/Gltf/GltfFile.h"
+#include "Common/Scene/Gltf/GltfTextures.h"
 #include "Common/Scene/SceneDesc.h"
 #include "Common/Scene/UniqueNames.h"
 
@@ -30,21 +31,22 @@ class GltfMaterials {
     bool emitsAsLight() const { return emitsAsLight_; } // some material is brighter than white
 
   private:
-    struct Slot; // a texture as a material refers to it
-
     void add(std::size_t index);
-    std::string texture(const Slot& slot, ColorSpace space, const glm::dvec3& tint, const std::string& place);
-    NumberOrTexture number(double factor, const Slot& slot, Channel channel, const std::string& place);
-    ColorOrTexture color(const glm::dvec3& factor, const Slot& slot, const std::string& place);
-    void addExtensions(const tinygltf::Material& source, const std::string& place, MaterialDesc& material);
-    void leaveOut(const std::string& what);
+    MaterialDesc unlit(const tinygltf::Material& source);
+    MaterialDesc lit(const tinygltf::Material& source);
+    static void setOpacity(double factor, const std::string& texture, MaterialDesc& material);
+    double addMetallicRoughness(const tinygltf::Material& source, MaterialDesc& material);
+    double addSpecularGlossiness(const tinygltf::Value& source, MaterialDesc& material);
+    void addClearcoat(const tinygltf::Value& coat, PrincipledDesc& p);
+    void addDielectric(const tinygltf::ExtensionMap& extensions, PrincipledDesc& p);
+    void addSpecular(const tinygltf::Value& specular, PrincipledDesc& p);
 
     const GltfFile& file_;
     SceneDesc& scene_;
     UniqueNames names_;
+    GltfTextures textures_;
     std::vector<Use> uses_;
     std::optional<Use> plain_;
-    std::map<std::string, int> leftOut_;
     bool emitsAsLight_ = false;
 };
 

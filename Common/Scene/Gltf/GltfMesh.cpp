@@ -13,6 +13,7 @@
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Gltf/GltfAccessor.h"
 #include "Common/Scene/Gltf/GltfSkin.h"
+#include "Common/Scene/Gltf/GltfValues.h"
 #include "Common/Scene/Json/JsonNode.h"
 #include "Common/Scene/Tangents.h"
 
@@ -98,8 +99,9 @@ class VertexReader {
                             const std::string& folder) const {
         const std::optional<int> accessor = attribute(attributes, name);
         if (accessor && accessorCount(file_, *accessor) != count_)
-            file_.fail(place_ + folder + name, "has " + std::to_string(accessorCount(file_, *accessor)) +
-                                                   " elements: must be those of POSITION, " + std::to_string(count_));
+            file_.fail(place_ + folder + name, "has " +
+                                                   counted(accessorCount(file_, *accessor), "element", "elements") +
+                                                   ": must be those of POSITION, " + std::to_string(count_));
         return accessor;
     }
 
@@ -123,8 +125,8 @@ std::vector<std::uint32_t> readCorners(const GltfFile& file, const tinygltf::Pri
     corners = readIndices(file, primitive.indices);
     for (const std::uint32_t corner : corners)
         if (corner >= count)
-            file.fail(place + "/indices",
-                      "index " + std::to_string(corner) + ": there are " + std::to_string(count) + " vertices");
+            file.fail(place + "/indices", "index " + std::to_string(corner) +
+                                              ": must be below the number of vertices, " + std::to_string(count));
     return corners;
 }
 

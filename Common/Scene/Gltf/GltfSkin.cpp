@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 
 #include "Common/Scene/Gltf/GltfAccessor.h"
+#include "Common/Scene/Gltf/GltfValues.h"
 
 namespace rt::scene {
 
@@ -30,8 +31,8 @@ std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& 
         const int numbers = primitive.attributes.at(jointsName), shares = primitive.attributes.at(weightsName);
         for (const std::string& name : {jointsName, weightsName})
             if (const std::size_t given = accessorCount(file, primitive.attributes.at(name)); given != vertices)
-                file.fail(place + "/attributes/" + name, "has " + std::to_string(given) +
-                                                             " elements: must be those of POSITION, " +
+                file.fail(place + "/attributes/" + name, "has " + counted(given, "element", "elements") +
+                                                             ": must be those of POSITION, " +
                                                              std::to_string(vertices));
         const std::vector<glm::dvec4> number = readVectors<4>(file, numbers, elements);
         const std::vector<glm::dvec4> weight = readVectors<4>(file, shares, elements);
@@ -40,7 +41,7 @@ std::vector<Affine> vertexMaps(const GltfFile& file, const tinygltf::Primitive& 
                 if (!(weight[i][c] > 0)) continue; // fills the set up
                 if (!(number[i][c] >= 0 && number[i][c] < double(joints.size())))
                     file.fail(place + "/attributes/" + jointsName, "element " + std::to_string(i) + ": the skin has " +
-                                                                       std::to_string(joints.size()) + " joints");
+                                                                       counted(joints.size(), "joint", "joints"));
                 const Affine& joint = joints[static_cast<std::size_t>(number[i][c])];
                 maps[i].linear += weight[i][c] * joint.linear;
                 maps[i].offset += weight[i][c] * joint.offset;

@@ -44,7 +44,7 @@ class ParameterReader {
         value.texture = references_.name(node.at("texture"), "textures");
         value.channel = enumeration<Channel>(node.at("channel"), channelNames());
         const auto factor = node.find("factor");
-        value.factor = factor ? factor->within(0, 1) : 1;
+        value.factor = factor ? factor->within(-1, 1) : 1;
     }
     void read(const SceneParameter& p, std::string& value) const {
         value = p.choices   ? readChoice(at(p), p.choices())

@@ -12,7 +12,7 @@ void forEachPrincipledParameter(const Visit& visit) {
     visit(SceneParameter{"metallic", false, "0: dielectric, 1: metal of the base colour"}, &D::metallic);
     visit(SceneParameter{"roughness", false, "its square is the width of the GGX distribution; 0: smooth"},
           &D::roughness);
-    visit(SceneParameter{"ior", false, "index of refraction, inside over outside", 1, 10}, &D::ior);
+    visit(SceneParameter{"ior", false, "index of refraction, inside over outside", 1, kLargestIor}, &D::ior);
     visit(SceneParameter{"specular", false, "scales the reflection of the dielectric"}, &D::specular);
     visit(SceneParameter{"specular_color", false, "tints it at normal incidence"}, &D::specularColor);
     visit(SceneParameter{"transmission", false, "share of the dielectric that lets light through"}, &D::transmission);
@@ -28,7 +28,7 @@ void forEachPrincipledParameter(const Visit& visit) {
                          .help = "a name from textures: normals of the clear coat alone, which else is smooth",
                          .section = "textures"},
           &D::clearcoatNormalTexture);
-    visit(SceneParameter{"clearcoat_normal_scale", false, "of their x and y", -100, 100}, &D::clearcoatNormalScale);
+    visit(SceneParameter{"clearcoat_normal_scale", false, "of their x and y"}, &D::clearcoatNormalScale);
     visit(SceneParameter{"sheen_color", false, "of the fibres of cloth"}, &D::sheenColor);
     visit(SceneParameter{"sheen_roughness", false}, &D::sheenRoughness);
     visit(SceneParameter{.name = "normal_texture",
@@ -36,9 +36,10 @@ void forEachPrincipledParameter(const Visit& visit) {
                          .help = "a name from textures: tangent-space normals, 2 rgb - 1",
                          .section = "textures"},
           &D::normalTexture);
-    visit(SceneParameter{"normal_scale", false, "of their x and y", -100, 100}, &D::normalScale);
+    visit(SceneParameter{"normal_scale", false, "of their x and y"}, &D::normalScale);
     visit(SceneParameter{"opacity", false, "share of rays that meet the surface"}, &D::opacity);
-    visit(SceneParameter{"alpha_cutoff", false, "opacity below it is 0, else 1", 0, 1}, &D::alphaCutoff);
+    visit(SceneParameter{"alpha_cutoff", false, "opacity below it is 0, else 1", 0}, &D::alphaCutoff);
+    visit(SceneParameter{"emission_vertex_colors", false, "vertex colours multiply emission, too"}, &D::emitsColors);
 }
 
 inline const std::vector<std::string>& channelNames() {

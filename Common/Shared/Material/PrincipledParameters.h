@@ -23,7 +23,7 @@
 RT_SHARED_BEGIN
 
 struct ScaledChannel {
-    float factor;
+    float factor; // negative, only with a texture: 1 + factor times channel, as roughness is of a map of gloss
     uint texture; // kNone: factor alone
     uint channel; // of the texture, 0 to 3: red, green, blue, opacity
 };
@@ -50,6 +50,7 @@ struct Principled {
     uint coatTexture;   // such normals of the clear coat, which has nothing of the surface's; kNone: it is smooth
     float coatScale;
     float alphaCutoff; // opacity below it is 0, else 1; negative: opacity is a probability
+    uint emitsColors;  // 1: vertex colours multiply emission, too
 };
 
 RT_SHARED_END

@@ -58,7 +58,8 @@ RT_FN float surfaceNumber(Features features, SceneRef scene, RT_IN(ScaledChannel
     vec4 texel = surfaceTexture(features, scene, number.texture, s);
     float high = number.channel == 2u ? texel.z : texel.w;
     float low = number.channel == 0u ? texel.x : texel.y;
-    return clamp(number.factor * (number.channel < 2u ? low : high), 0.0f, 1.0f);
+    float usual = number.factor < 0.0f ? 1.0f : 0.0f;
+    return clamp(usual + number.factor * (number.channel < 2u ? low : high), 0.0f, 1.0f);
 }
 
 RT_FN vec3 surfaceColor(Features features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {

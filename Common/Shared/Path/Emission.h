@@ -4,6 +4,7 @@
 #include "Common/Shared/Light/LightSelection.h"
 #include "Common/Shared/Light/Lights.h"
 #include "Common/Shared/Light/Sky.h"
+#include "Common/Shared/Material/PrincipledSurface.h"
 #include "Common/Shared/Shape/Surface.h"
 #include "Common/Shared/Texture/Textures.h"
 
@@ -42,13 +43,21 @@ RT_FN vec3 emittedRadiance(Features features, SceneRef scene, RT_IN(Material) ma
            vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));
 }
 
+// Emitted radiance where a ray meets the surface, with vertex colours if they count.
+RT_FN vec3 surfaceEmission(Features features, SceneRef scene, RT_IN(Material) material, RT_IN(Surface) s) {
+    vec3 emitted = emittedRadiance(features, scene, material, s.position, s.uv, s.uv2);
+    if (!has(features, kFeatureVertexAttributes) || !isPrincipled(features, material)) return emitted;
+    if (loadPrincipled(scene, s.material).emitsColors == 0u) return emitted;
+    return emitted * vec3(s.color);
+}
+
 // `share`: of the emission that is left to the path, see techniqueEmissionShare().
 RT_FN void addEmission(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
                        RT_IN(Material) material, float distance, float share, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;
     if ((!front && material.emissionSides != kSidesBoth) || share == 0.0f) return;
-    vec3 emitted = emittedRadiance(features, scene, material, surface.position, surface.uv, surface.uv2);
+    vec3 emitted = surfaceEmission(features, scene, material, surface);
     float weight = share;
     if (has(features, kFeatureLights) && surface.light != kNone && usesMis(params) && s.pdf > 0.0f) {
         float probability = lightProbability(features, scene, loadGlobals(scene).lightCount, surface.light, s.last);
