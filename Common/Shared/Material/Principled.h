@@ -17,8 +17,9 @@ RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
 
 #ifdef RT_FULL
 
-const float kLeastSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
-const float kCoatReflectance = 0.04f;     // of a clear coat at normal incidence
+const float kLeastRoughness = 0.0316227766f; // square root of kLeastAlpha
+const float kLeastSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
+const float kCoatReflectance = 0.04f;        // of a clear coat at normal incidence
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -31,6 +32,14 @@ RT_FN float schlick(float cosine) {
 
 RT_FN bool isMirror(float alpha) {
     return alpha < kLeastAlpha;
+}
+
+// Below this difference of 1 to a ratio of indices glass does not bend what it transmits: refracted directions would
+// lie so near each other, however rough it is, that floats could not tell by which facet one came.
+const float kLeastBend = 2.0e-4f;
+
+RT_FN bool isStraight(RT_IN(PrincipledLobes) lobes) {
+    return lobes.thin == 0u && abs(lobes.eta - 1.0f) < kLeastBend;
 }
 
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
@@ -108,7 +117,7 @@ RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes,
 // the other side. Radiance is not scaled by the indices, as in Dielectric.h.
 RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
-    if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha)) return vec4(0.0f);
+    if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha) || isStraight(lobes)) return vec4(0.0f);
     vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
     vec3 h = lobes.thin != 0u ? wo + mirrored : wo * lobes.eta + wi;
     h = normalize(h) * (h.z < 0.0f ? -1.0f : 1.0f);
@@ -189,7 +198,9 @@ RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u
             wi = lobes.thin != 0u ? h * (2.0f * c) - wo : h * (lobes.eta * c - f.y) - wo * lobes.eta;
             if (lobes.thin != 0u) wi.z = -wi.z;
         }
-        if (isMirror(lobes.alpha)) {
+        bool goesStraight = transmitted != 0u && isStraight(lobes);
+        if (goesStraight) wi = -wo;
+        if (goesStraight || isMirror(lobes.alpha)) {
             BsdfSample s = mirrorSample(wi, vec3(lobes.glass), lobes.glassShare);
             s.transmitted = transmitted;
             if (transmitted != 0u) s.weight *= m.albedo;

@@ -14,6 +14,8 @@ RT_SHARED_BEGIN
 const float kCountedApart = -1.0f;
 const float kEdgeRay = -2.0f;
 const float kBlurCountedApart = -3.0f;
+// And of a path that max depth has ended, though it would have gone on.
+const float kCutOff = -4.0f;
 
 RT_FN bool isBehindBlur(uint features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && has(features, kFeatureFuzz) && s.pdf == kBlurCountedApart;
@@ -25,6 +27,13 @@ RT_FN bool isCountedApart(uint features, RT_IN(PathState) s) {
 
 RT_FN bool isEdgeRay(uint features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && s.pdf == kEdgeRay;
+}
+
+// Of a path that has been cut off: what it would have gone on with, the mean of the channels. Times what came `before`
+// where throughput has begun anew.
+RT_FN float cutOffThroughput(RT_IN(PathState) s, vec3 before) {
+    vec3 throughput = s.throughput * before;
+    return (throughput.x + throughput.y + throughput.z) * (1.0f / 3.0f);
 }
 
 RT_FN bool usesMis(RT_IN(RenderParams) params) {

@@ -132,6 +132,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
     s.vertex++;
     if (has(features, kFeatureVolumes) && medium != kNone) {
+        if (s.vertex >= params.maxDepth) s.pdf = kCutOff;
         if (s.vertex >= params.maxDepth || isEdgeRay(features, s)) return false;
         placeInMedium(features, scene, s, t, medium, v);
     } else {
@@ -144,7 +145,11 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
         if (isPrincipled(features, material)) absorbInside(scene, surface, hit.t, s);
         float chainWeight = weighChain(features, scene, params, hit, surface, s);
         addEmission(features, scene, params, surface, material, hit.t, chainWeight, s);
-        if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
+        if (material.kind == kMaterialEmitter) return false;
+        if (s.vertex >= params.maxDepth) {
+            s.pdf = kCutOff;
+            return false;
+        }
         placeOnSurface(features, scene, s, surface, material, v);
         if (isEdgeRay(features, s) && !isDelta(features, v.bsdf) && !splitsBlur(features, params, v)) return false;
         if (reusesPaths(features, params)) followReuse(features, surface, v, s, prefix);
