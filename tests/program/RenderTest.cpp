@@ -101,6 +101,7 @@ TEST_F(Render, StatisticsAreThoseOfTheContract) {
                             "mean_radiance",
                             "standard_error",
                             "nonfinite_samples",
+                            "cut_off_share",
                             "estimated_relmse",
                             "estimated_relmse_interval",
                             "error_is",

@@ -113,7 +113,7 @@ double principledSentOut(const PrincipledLobes& lobes, const vec3& wo) {
     return sum;
 }
 
-vec3 inPlane(double cosine) {
+vec3 withoutY(double cosine) {
     return vec3(float(std::sqrt((1 - cosine) * (1 + cosine))), 0, float(cosine));
 }
 
@@ -129,7 +129,7 @@ TEST(Principled, NothingMakesEnergy) {
                 Principled p = principledOf(which, roughness);
                 p.clearcoatRoughness.factor = p.sheenRoughness.factor = above;
                 for (const double cosine : cosines) {
-                    const vec3 wo = inPlane(cosine);
+                    const vec3 wo = withoutY(cosine);
                     for (const bool front : {true, false}) {
                         if (!front && !(which.transmission > 0)) continue;
                         EXPECT_LE(principledSentOut(bsdfOf(p, vec3(1), wo, front).lobes, wo), 1.001)
@@ -143,7 +143,7 @@ TEST(Principled, NothingMakesEnergy) {
 TEST(Principled, SheenIsBoundedByWhatArrives) {
     for (const float roughness : {0.0f, 0.1f, 0.15f, 0.2f, 0.3f})
         for (const double cosine : {1e-3, 0.01, 0.05}) {
-            const vec3 wo = inPlane(cosine);
+            const vec3 wo = withoutY(cosine);
             Principled p = principledOf({"sheen", 0, 0, 0, 1}, 1);
             p.sheenRoughness.factor = roughness;
             p.specular.factor = 0;

@@ -16,9 +16,9 @@ namespace {
 
 using namespace shared;
 
-constexpr uint kFacetNormals = 512; // in a Hammersley set
-constexpr uint kGlassNormals = 1024;
-constexpr uint kHeights = 48; // of wi over sheen
+constexpr uint kNormals = 512;        // in a Hammersley set
+constexpr uint kNormalsInside = 1024; // of glass seen from inside: of little that leaves it the error must be less
+constexpr uint kHeights = 48;         // of wi over sheen
 constexpr uint kTurns = 24;
 constexpr float kQuadratureError = 1.0e-3f;
 constexpr uint kFineSteps = 2 * kAlbedoSteps - 1; // with what is between the entries
@@ -35,7 +35,7 @@ struct WeighedNormal {
     vec3 h;
     float weight;
 };
-WeighedNormal normalOf(const vec3& wo, float alpha, uint i, uint count) {
+WeighedNormal visibleNormal(const vec3& wo, float alpha, uint i, uint count) {
     const float t = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
     const vec2 u(t * t * (3.0f - 2.0f * t), static_cast<float>(bitfieldReverse(i)) * 0x1p-33f);
     return {sampleVisibleNormal(wo, alpha, u), 6.0f * t * (1.0f - t) / static_cast<float>(count)};
@@ -51,8 +51,8 @@ float shadowing(const vec3& wo, const vec3& wi, float alpha) {
 vec2 facets(float cosine, float alpha) {
     const vec3 wo = outgoing(cosine);
     vec2 sum(0.0f);
-    for (uint i = 0; i < kFacetNormals; ++i) {
-        const auto [h, part] = normalOf(wo, alpha, i, kFacetNormals);
+    for (uint i = 0; i < kNormals; ++i) {
+        const auto [h, part] = visibleNormal(wo, alpha, i, kNormals);
         const float c = std::min(dot(wo, h), 1.0f);
         const float weight = part * shadowing(wo, h * (2.0f * c) - wo, alpha);
         sum += vec2(1.0f - schlick(c), schlick(c)) * weight;
@@ -78,9 +78,10 @@ float sheen(float cosine, float roughness) {
 
 float glass(float cosine, float alpha, float eta) {
     const vec3 wo = outgoing(cosine);
+    const uint count = eta > 1.0f ? kNormalsInside : kNormals;
     float sum = 0.0f;
-    for (uint i = 0; i < kGlassNormals; ++i) {
-        const auto [h, part] = normalOf(wo, alpha, i, kGlassNormals);
+    for (uint i = 0; i < count; ++i) {
+        const auto [h, part] = visibleNormal(wo, alpha, i, count);
         const float c = std::min(dot(wo, h), 1.0f);
         const vec2 f = fresnel(c, eta);
         const vec3 refracted = h * (eta * c - f.y) - wo * eta;
