@@ -51,7 +51,7 @@ struct ConnectionLanes {
     FloatLanes u; // draws one of the paths
     RecordLanes<LightEnd> ends;
     RecordLanes<ConnectionPair> pairs;
-    Vec2Lanes least; // intervals, then angles
+    Vec2Lanes minimum; // intervals, then angles
     RecordLanes<RefractionRoots> roots;
     Vec2Lanes angles;
     RecordLanes<SpherePath> paths[kRefractedPaths];
@@ -62,7 +62,7 @@ RT_CALL void addWeights(const CpuScene& scene, const RenderParams& params, const
     const Vec3Lanes& positions = lanesOf<&Vertex::origin>(lanes.vertices);
     totals = FloatLanes{};
     for (uint k = 0u; k < params.connectedSpheres; ++k) {
-        const SmoothSphere& sphere = scene.smoothSpheres[k];
+        const SpecularCaster& sphere = scene.specularCasters[k];
         Vec3Lanes along;
         FloatLanes near;
         Vec2Lanes reach;
@@ -78,8 +78,8 @@ RT_CALL void addWeights(const CpuScene& scene, const RenderParams& params, const
         if (any == 0u) continue;
         for (uint i = 0u; i < kLanes; ++i) set(reach, i, reachAt(sphere, near.at[i]));
         FloatLanes sums{};
-        for (uint l = 0u; l < sphere.reachCount; ++l) {
-            const SphereReach light = scene.sphereReaches[sphere.firstReach + l];
+        for (uint l = 0u; l < sphere.lightCount; ++l) {
+            const CasterLight light = scene.casterLights[sphere.firstLight + l];
             for (uint i = 0u; i < kLanes; ++i) {
                 SphereView view{};
                 view.along = get(along, i);
@@ -107,18 +107,18 @@ RT_FN void findAngles(uint kind, ConnectionLanes& c) {
 RT_FN void findRoots(ConnectionLanes& c) {
     uint falling = 0u;
     for (uint i = 0u; i < kLanes; ++i) {
-        set(c.least, i, vec2(0.0f, 1.0f));
+        set(c.minimum, i, vec2(0.0f, 1.0f));
         falling |= risesThroughout(get(lanesOf<&ConnectionPair::angles>(c.pairs), i)) ? 0u : 1u;
     }
-    for (uint k = 0u; k < kLeastSteps && falling != 0u; ++k) {
+    for (uint k = 0u; k < kMinSteps && falling != 0u; ++k) {
         for (uint i = 0u; i < kLanes; ++i) {
             const RefractionPair p = get(lanesOf<&ConnectionPair::angles>(c.pairs), i);
-            set(c.least, i, halvedLeast(p, get(c.least, i)));
+            set(c.minimum, i, halvedMin(p, get(c.minimum, i)));
         }
     }
     for (uint i = 0u; i < kLanes; ++i) {
         const RefractionPair p = get(lanesOf<&ConnectionPair::angles>(c.pairs), i);
-        set(c.roots, i, refractionRoots(p, leastWithin(p, get(c.least, i))));
+        set(c.roots, i, refractionRoots(p, minWithin(p, get(c.minimum, i))));
     }
 }
 
@@ -143,11 +143,11 @@ RT_CALL void findPaths(ConnectionLanes& c) {
 }
 
 // Probabilities of connections from all vertices, and their rates. Returns the paths that attempt one.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, FloatLanes& totals,
                           FloatLanes& chances, FloatLanes& rates) {
     addWeights(scene, params, lanes, totals);
-    const float typical = scene.globals.litSpheres;
+    const float typical = scene.globals.maxCasterIrradiance;
     UintLanes attempts;
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = get(lanes.vertices, i);
@@ -165,14 +165,14 @@ RT_CALL uint drawAttempts(const CpuScene& scene, const RenderParams& params, con
 
 // Adds a connection of the path in lane i to those that wait, up to the light's end. False: there is nothing to connect
 // to after all.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, const PathLanes& lanes, uint i,
                            float target, float rate, ConnectionLanes& c) {
     const Vertex v = vertexIn<kFeatures>(lanes, i);
     const float time = lanes.time.at[i];
     const ConnectionChoice choice = chooseConnection(scene, params, v.origin, time, target);
     if (!(choice.weight > 0.0f)) return false;
-    const SmoothSphere& sphere = scene.smoothSpheres[choice.sphere];
+    const SpecularCaster& sphere = scene.specularCasters[choice.sphere];
     if (!isInTime(params, sphere, v)) return false;
     const SphereView view = viewSphere(sphere, v.origin, time);
     const LightEnd end = sampleEnd(kFeatures, scene, params, choice, view.center, time, rate,
@@ -193,7 +193,7 @@ RT_CALL bool addConnection(const CpuScene& scene, const RenderParams& params, co
 }
 
 // Of kernels without connections.
-template <uint kFeatures, bool kConnects = (kFeatures & kFeatureConnections) != 0u>
+template <Features kFeatures, bool kConnects = (kFeatures & kMethodConnections) != kFeatureNone>
 class Connections {
   public:
     Connections(const CpuScene&, const RenderParams&, KernelCounters&) {}
@@ -204,7 +204,7 @@ constexpr uint kConnectionEntries = 2u * kBatchSamples;
 
 // The connections of the samples of a packet. What they bring to an entry is summed apart from its path, in the order
 // of its vertices: the sum does not depend on how long a connection waits for others.
-template <uint kFeatures>
+template <Features kFeatures>
 class Connections<kFeatures, true> {
   public:
     Connections(const CpuScene& scene, const RenderParams& params, KernelCounters& counters)
@@ -241,13 +241,15 @@ class Connections<kFeatures, true> {
   private:
     // Adds what comes along the path if its segments are free.
     void trace(uint i, const SpherePath& path) {
-        Passage passage = weighPassage(kFeatures, params_, scene_.smoothSpheres[c_.sphere[i]], get(c_.centers, i), path,
-                                       get(c_.ends, i), c_.vertex[i], c_.throughput[i]);
-        while (passage.segments != 0u) {
+        SpecularConnection connection =
+            weighConnection(kFeatures, params_, scene_.specularCasters[c_.sphere[i]], get(c_.centers, i), path,
+                            get(c_.ends, i), c_.vertex[i], c_.throughput[i]);
+        while (connection.segments != 0u) {
             ++counters_.shadow;
             float tMax;
-            const Ray ray = passageRay(passage, c_.time[i], tMax);
-            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, passage, radiances_[c_.entry[i]]);
+            const Ray ray = connectionRay(connection, c_.time[i], tMax);
+            endSegment(kFeatures, scene_, !isOccluded(scene_, ray, tMax), ray, tMax, connection,
+                       radiances_[c_.entry[i]]);
         }
     }
 

@@ -57,12 +57,16 @@ std::span<const Kernel> kernelTable(InstructionSet set) {
     }
 }
 
+int count(shared::Features features) {
+    return std::popcount(features.scene) + std::popcount(features.materials) + std::popcount(features.methods);
+}
+
 // The leanest kernel that covers the features. The last one of a table covers all.
-const Kernel& chooseKernel(std::span<const Kernel> kernels, std::uint32_t features) {
+const Kernel& chooseKernel(std::span<const Kernel> kernels, shared::Features features) {
     const Kernel* best = &kernels.back();
     for (const Kernel& kernel : kernels) {
-        const bool covers = (features & ~kernel.features) == 0;
-        if (covers && std::popcount(kernel.features) < std::popcount(best->features)) best = &kernel;
+        const bool covers = (features & ~kernel.features) == shared::kFeatureNone;
+        if (covers && count(kernel.features) < count(best->features)) best = &kernel;
     }
     return *best;
 }
@@ -332,9 +336,9 @@ class CpuEngine final : public app::Engine {
 
     std::unique_ptr<PreparedScene> scene_;
     app::RenderSettings settings_;
-    std::uint32_t features_ = 0;
+    shared::Features features_;
     const Kernel* kernel_ = nullptr;
-    scene::LightEdges edges_;
+    scene::Silhouettes edges_;
     KernelContext context_;
 
     Film film_;

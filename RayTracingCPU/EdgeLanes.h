@@ -11,7 +11,7 @@ namespace {
 using namespace rt::shared;
 
 // The edge rays of a kernel's samples.
-template <uint kFeatures>
+template <Features kFeatures>
 class EdgeRays {
   public:
     explicit EdgeRays(const KernelContext& context) : context_(context) {}
@@ -72,7 +72,8 @@ class EdgeRays {
             Vertex v;
             if (!arrive(kFeatures, scene, params, smp, hit, path, unusedPrefix, v)) break;
             const VertexSamples u = vertexSamples(kFeatures, smp, v.index);
-            const DirectLight direct = splitsBlur(kFeatures, params, v) ? sampleReflected(v, u, path) : noDirectLight();
+            const DirectLight direct =
+                splitsGlossyHit(kFeatures, params, v) ? sampleReflected(v, u, path) : noDirectLight();
             addUnshadowed(direct, path);
             const bool goesOn = goOn(kFeatures, params, v, sampleScattering(kFeatures, v, u.bsdf), u.roulette.x, path);
             if (direct.distance > 0.0f) {

@@ -77,7 +77,7 @@ struct KernelContext {
 
 // One specialisation. A kernel renders every scene whose features it covers.
 struct Kernel {
-    std::uint32_t features;
+    shared::Features features;
     const char* name;
     // At most kBatchSamples in all tasks. False: cancelled, the tasks' sums are not usable.
     bool (*renderTiles)(const KernelContext&, std::span<const TileTask>, const std::atomic<bool>* cancel,

@@ -100,7 +100,7 @@ RT_CALL void chooseOneByOne(const CpuScene& scene, uint policy, uint lit, PathLa
 }
 
 // chooseLight() for the paths `lit`: lanes.choices, lanes.total.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void chooseLights(const CpuScene& scene, const RenderParams& params, uint lit, PathLanes& lanes) {
     const uint count = scene.globals.lightCount;
     for (uint i = 0u; i < kLanes; ++i) {
@@ -129,9 +129,9 @@ RT_CALL void sampleQuads(PathLanes& lanes) {
         const uint isQuad = light.kind == kLightQuad ? 1u : 0u;
         light.kind = kLightQuad;
         const Vertex v = get(lanes.vertices, i);
-        const QuadView view = viewQuad(0u, kShapeAuto, light, v.origin, v.shading);
+        const QuadView view = viewQuad(kFeatureNone, kShapeAuto, light, v.origin, v.shading);
         LightSample s = sampleQuadApart(view, light, v.origin, get(lanes.position, i));
-        s = completeSample(0u, light, v.shading, s);
+        s = completeSample(kFeatureNone, light, v.shading, s);
         s.pdf = isLit(light, v.origin) ? s.pdf : 0.0f;
         set(lanes.lightSamples, i, s);
         lanes.isSampled.at[i] = view.strategy != kStrategySolidAngle ? isQuad : 0u;
@@ -151,7 +151,7 @@ RT_FN LightSample selectSample(bool first, LightSample a, LightSample b) {
 }
 
 // Samples of spheres under the automatic method, from outside.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL void sampleSpheres(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         Light light = get(lanes.lights, i);
@@ -160,9 +160,9 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         const Vertex v = get(lanes.vertices, i);
         const vec2 u = get(lanes.position, i);
         const vec3 center = sphereLightCenter(kFeatures, light, lanes.time.at[i]);
-        const uint strategy = sphereLightStrategy(0u, kShapeAuto, light, center - v.origin, v.shading);
+        const uint strategy = sphereLightStrategy(kFeatureNone, kShapeAuto, light, center - v.origin, v.shading);
         LightSample s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, v.origin, v.shading, u);
-        s = completeSample(0u, light, v.shading, s);
+        s = completeSample(kFeatureNone, light, v.shading, s);
         set(lanes.lightSamples, i, selectSample(isSphere, s, get(lanes.lightSamples, i)));
         const uint outside = strategy != kStrategyInside ? 1u : 0u;
         const uint before = lanes.isSampled.at[i];
@@ -172,10 +172,10 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
 
 // ---- weighing it ---------------------------------------------------------------------------------------------------
 
-const uint kOtherSurfaces = kFeatureLambertian | kFeatureMetal | kFeatureDielectric;
+constexpr Features kOtherSurfaces = kFeatureLambertian | kFeatureMetal | kFeatureDielectric;
 
 // kOthers: lobes of principled materials that are not left out.
-template <uint kFeatures, uint kOthers>
+template <Features kFeatures, uint kOthers>
 RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& direct, const PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const float probability = lanesOf<&LightChoice::probability>(lanes.choices).at[i];
@@ -190,7 +190,7 @@ RT_CALL void weighSamples(const RenderParams& params, RecordLanes<DirectLight>& 
 
 // Principled materials apart from the others, and those of few lobes apart from those of all: each of the loops has one
 // formula to evaluate, and runs where some path needs it.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) {
     uint principled = 0u;
     uint others = 0u;
@@ -204,7 +204,7 @@ RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) 
     }
     if (principled != lit) weighSamples<kFeatures & ~kFeaturePrincipled, 0u>(params, lanes.direct, lanes);
     if (!has(kFeatures, kFeaturePrincipled) || principled == 0u) return;
-    constexpr uint kPrincipled = (kFeatures & ~kOtherSurfaces) | kFeaturePrincipled;
+    constexpr Features kPrincipled = (kFeatures & ~kOtherSurfaces) | kFeaturePrincipled;
     RecordLanes<DirectLight> direct;
     if (others == 0u) {
         weighSamples<kPrincipled, 0u>(params, direct, lanes);
@@ -215,7 +215,7 @@ RT_FN void weighSamples(const RenderParams& params, uint lit, PathLanes& lanes) 
 }
 
 // sampleDirectLight() for the paths `lit`: lanes.direct.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& params, uint lit, PathLanes& lanes) {
     const UintLanes& chosen = lanesOf<&LightChoice::light>(lanes.choices);
     for (uint i = 0u; i < kLanes; ++i) {

@@ -37,7 +37,7 @@ void addRadiances(const TileTask& task, const vec3*& radiances, KernelCounters& 
     }
 }
 
-template <std::uint32_t kFeatures>
+template <Features kFeatures>
 bool renderTiles(const KernelContext& context, std::span<const TileTask> tasks, const std::atomic<bool>* cancel,
                  KernelCounters& counters) {
     vec3 radiances[kBatchSamples];
@@ -49,7 +49,7 @@ bool renderTiles(const KernelContext& context, std::span<const TileTask> tasks, 
 
 // Not worth a specialisation: one first hit a sample.
 void renderAovs(const KernelContext& context, const AovTask& task) {
-    constexpr std::uint32_t kFeatures = kFeatureAll;
+    constexpr Features kFeatures = kFeatureAll;
     const CpuScene& scene = *context.scene;
     for (std::uint32_t x = 0; x < context.params.width; ++x) {
         vec3 albedo(0.0f), normal(0.0f);
@@ -79,28 +79,28 @@ void renderAovs(const KernelContext& context, const AovTask& task) {
 }
 
 // What the kernels cover, from the leanest; the last covers everything, the one before all but what the books lack.
-constexpr std::uint32_t kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
-                                       kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
-                                       kFeatureQuadLights | kFeatureReuse;
-constexpr std::uint32_t kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
-                                           kFeatureDielectric | kFeatureSky | kFeatureThinLens;
-constexpr std::uint32_t kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
-                                        kFeatureTriangleLights | kFeatureManyLights | kFeatureProjected;
+constexpr Features kBoxFeatures = kFeatureSpheres | kFeatureQuads | kFeatureLambertian | kFeatureMetal |
+                                  kFeatureDielectric | kFeatureEmissive | kFeatureLights | kFeatureSphereLights |
+                                  kFeatureQuadLights | kMethodReuse;
+constexpr Features kSpheresFeatures = kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
+                                      kFeatureDielectric | kFeatureSky | kFeatureThinLens;
+constexpr Features kMeshFeatures = kBoxFeatures | kSpheresFeatures | kFeatureTriangles | kFeatureSmoothNormals |
+                                   kFeatureTriangleLights | kFeatureManyLights | kMethodProjected;
 
-constexpr std::uint32_t kAssetFeatures =
-    kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
-constexpr std::uint32_t kBookFeatures =
-    kFeatureAll & ~(kFeaturePrincipled | kFeatureOpacity | kFeatureCoatNormal | kFeaturePunctualLights);
+constexpr Features kAssetFeatures = kMeshFeatures | kFeatureInstances | kFeaturePrincipled | kFeatureVertexAttributes |
+                                    kFeatureImages | kFeatureSkyImage | kFeaturePunctualLights;
+constexpr Features kBookFeatures = kFeatureAll & ~(kFeaturePrincipled | kFeatureVertexAttributes | kFeatureOpacity |
+                                                   kFeatureCoatNormal | kFeaturePunctualLights);
 
-template <std::uint32_t kFeatures>
+template <Features kFeatures>
 constexpr Kernel makeKernel(const char* name) {
     return {kFeatures, name, &renderTiles<kFeatures>, &renderAovs};
 }
 
 constexpr Kernel kKernels[kKernelCount] = {
     makeKernel<kBoxFeatures>("box"),
-    makeKernel<kBoxFeatures | kFeatureMixture | kFeatureProjected>("box+mixture+projected"),
-    makeKernel<kBoxFeatures | kFeatureConnections>("box+connections"),
+    makeKernel<kBoxFeatures | kMethodMixture | kMethodProjected>("box+mixture+projected"),
+    makeKernel<kBoxFeatures | kMethodConnections>("box+connections"),
     makeKernel<kSpheresFeatures>("spheres"),
     makeKernel<kMeshFeatures>("mesh"),
     makeKernel<kAssetFeatures>("assets"),

@@ -105,7 +105,7 @@ struct PathLanes {
 };
 
 // The vertex in a lane, with all of its bsdf.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN Vertex vertexIn(const PathLanes& lanes, uint i) {
     Vertex v = get(lanes.vertices, i);
     if (has(kFeatures, kFeaturePrincipled)) read(lanes.lobes, i, v.bsdf.lobes);
@@ -123,7 +123,7 @@ RT_FN BsdfSample diffuseSample(const PathLanes& lanes, uint i) {
 }
 
 // A vertex as arrive() leaves it.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void keepVertex(PathLanes& lanes, uint i, const Vertex& v) {
     set(lanes.vertices, i, v);
     if (!isPrincipled(kFeatures, v.bsdf)) return;

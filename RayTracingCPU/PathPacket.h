@@ -42,7 +42,7 @@ RT_CALL void sampleDiffuse(PathLanes& lanes) {
 
 // completeVertex() for the principled vertices: in lanes as if there were diffuse and specular reflection only, then
 // one by one where there is more.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL void completeVertices(const CpuScene& scene, uint principled, uint layered, PathLanes& lanes) {
     FloatLanes cosines;
     Vec3Lanes albedos{};
@@ -72,7 +72,7 @@ RT_CALL void completeVertices(const CpuScene& scene, uint principled, uint layer
 }
 
 // Proposals for all vertices as if there were diffuse and specular reflection only, in the frame of the normal.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL void proposeReflections(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
@@ -88,7 +88,7 @@ RT_CALL void proposeReflections(PathLanes& lanes) {
 }
 
 // Proposals of vertices with other lobes, one by one; what is transmitted is weighed at once.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_CALL void proposeLayers(uint layered, PathLanes& lanes) {
     eachLane(layered, [&](uint i) {
         const Vertex v = vertexIn<kFeatures>(lanes, i);
@@ -101,7 +101,7 @@ RT_CALL void proposeLayers(uint layered, PathLanes& lanes) {
 }
 
 // Weighs the proposals of lobes that are among kOthers, and takes all to the world.
-template <uint kFeatures, uint kOthers>
+template <Features kFeatures, uint kOthers>
 RT_CALL void weighProposals(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
         Vertex v = vertexIn<kFeatures>(lanes, i);
@@ -109,7 +109,7 @@ RT_CALL void weighProposals(PathLanes& lanes) {
         const Frame frame = makeFrame(v.shading);
         BsdfSample s = get(lanes.principled, i);
         vec4 f = evalPrincipledReflection(kFeatures, v.bsdf.lobes, toLocal(frame, v.wo), s.wi);
-        if (has(kOthers, kLobeGlass)) f.w = s.transmitted == 0u ? f.w : 0.0f;
+        if (hasLobe(kOthers, kLobeGlass)) f.w = s.transmitted == 0u ? f.w : 0.0f;
         weighProposal(f, s);
         s.wi = normalize(toWorld(frame, s.wi));
         set(lanes.principled, i, s);
@@ -117,7 +117,7 @@ RT_CALL void weighProposals(PathLanes& lanes) {
 }
 
 // samplePrincipled() for all vertices, in lanes but for proposals of lobes that few materials have.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void samplePrincipled(uint layered, PathLanes& lanes) {
     proposeReflections<kFeatures>(lanes);
     if (layered == 0u) {
@@ -128,7 +128,7 @@ RT_FN void samplePrincipled(uint layered, PathLanes& lanes) {
     }
 }
 
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& v) {
     const bool inMedium = has(kFeatures, kFeatureVolumes) && v.inMedium != 0u;
     if (!inMedium && isPrincipled(kFeatures, v.bsdf)) return get(lanes.principled, i);
@@ -136,7 +136,7 @@ RT_FN BsdfSample sampleScattering(const PathLanes& lanes, uint i, const Vertex& 
     return diffuseSample(lanes, i);
 }
 
-template <uint kFeatures>
+template <Features kFeatures>
 class PathPacket {
   public:
     // radiances: of the tasks' samples, in the order of TileSamples.
@@ -176,8 +176,8 @@ class PathPacket {
     }
 
   private:
-    static constexpr bool kConnects = (kFeatures & kFeatureConnections) != 0u;
-    static constexpr bool kReuses = (kFeatures & kFeatureReuse) != 0u;
+    static constexpr bool kConnects = (kFeatures & kMethodConnections) != kFeatureNone;
+    static constexpr bool kReuses = (kFeatures & kMethodReuse) != kFeatureNone;
 
     // Takes every path to its next vertex: one that ends on the way makes room for the next sample's.
     ActiveSlots arriveAll() {
@@ -238,7 +238,7 @@ class PathPacket {
 
     bool choosesLight(const Vertex& v, const PathState& path) const {
         return (usesNextEventEstimation(kFeatures, params_, scene_.globals, v) &&
-                !leavesBlur(kFeatures, params_, v, path)) ||
+                !leavesGlossyHit(kFeatures, params_, v, path)) ||
                usesMixture(kFeatures, params_, scene_.globals, v);
     }
 
@@ -304,7 +304,7 @@ class PathPacket {
             shared_.aimed(slot.sample, lanes_.aimedShare.at[i]);
             b = get(lanes_.aimed, i);
         }
-        if (has(kFeatures, kFeatureConnections)) goOnChain(v, b, path);
+        if (has(kFeatures, kMethodConnections)) goOnChain(v, b, path);
         if (goOn(kFeatures, params_, v, b, u.roulette.x, path)) {
             set(lanes_.hits, i, traceOn(i, direct, path));
         } else {

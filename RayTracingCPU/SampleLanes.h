@@ -21,7 +21,7 @@ RT_CALL void drawDimension(const RecordLanes<Sampler>& samplers, const UintLanes
 }
 
 // cameraSamples() of each sample.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void drawCameraSamples(const RecordLanes<Sampler>& samplers, RecordLanes<CameraSamples>& u) {
     const auto draw = [&](uint dimension, Vec2Lanes& lanes) {
         if (!cameraUses(kFeatures, dimension)) return;
@@ -35,7 +35,7 @@ RT_FN void drawCameraSamples(const RecordLanes<Sampler>& samplers, RecordLanes<C
 }
 
 // vertexSamples() of each path; those for lights only where some path samples one.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN void drawVertexSamples(bool samplesLights, PathLanes& lanes) {
     const auto draw = [&](uint dimension, Vec2Lanes& u) {
         if (!vertexUses(kFeatures, dimension)) return;

@@ -27,7 +27,7 @@ RT_FN bool isOccluded(const cpu::CpuScene& scene, const Ray& ray, float tMax) {
 
 // What a ray of the path of a sample hits, but for layers that it goes through; `number` as for goesThrough(). Its
 // distance is from ray.origin.
-template <uint kFeatures>
+template <Features kFeatures>
 RT_FN Hit traceRay(const cpu::CpuScene& scene, const Sampler& smp, uint number, const Ray& ray,
                    float tMax = kInfinity) {
     Hit hit = scene.tracer.closest(scene.accel, ray, tMax);

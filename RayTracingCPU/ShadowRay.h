@@ -10,7 +10,7 @@ namespace {
 using namespace rt::shared;
 
 // `direct` was sampled from the last vertex of a sample's path, and has a shadow ray.
-template <uint kFeatures>
+template <Features kFeatures>
 bool arrives(const CpuScene& scene, const Sampler& smp, const PathState& path, const DirectLight& direct) {
     const Ray ray = shadowRay(path, direct);
     if (!has(kFeatures, kFeatureOpacity)) return !isOccluded(scene, ray, direct.distance);

@@ -32,7 +32,7 @@ struct ReuseGroup {
 };
 
 // What the paths of a kernel's samples share, in the order of TileSamples.
-template <uint kFeatures>
+template <Features kFeatures>
 class SharedPaths {
   public:
     explicit SharedPaths(const KernelContext& context)
@@ -104,14 +104,14 @@ class SharedPaths {
     void share(const TileTask& task, const PixelSamples* ofTask, uint x, uint y, vec3* radiances,
                KernelCounters& counters) {
         PixelSamples pixels[kReuseGroup];
-        uint pixelCount = 0u, most = 0u;
+        uint pixelCount = 0u, maximum = 0u;
         for (uint row = y; row < std::min(y + kReuseSide, task.height); ++row) {
             for (uint column = x; column < std::min(x + kReuseSide, task.width); ++column) {
                 pixels[pixelCount] = ofTask[row * task.width + column];
-                most = std::max(most, pixels[pixelCount++].count);
+                maximum = std::max(maximum, pixels[pixelCount++].count);
             }
         }
-        for (uint i = 0u; i < most; ++i) {
+        for (uint i = 0u; i < maximum; ++i) {
             ReuseGroup group;
             for (uint p = 0u; p < pixelCount; ++p) {
                 const uint sample = pixels[p].first + i;
@@ -143,7 +143,7 @@ class SharedPaths {
     // With which a path's first vertex could have drawn the second of another, or of itself; > 0 then.
     float density(const SharedPath& path, const SharedPath& suffix, bool isItself, KernelCounters& counters) const {
         const float density = reuseDensity(path.first, path.firstNormal, suffix.second, suffix.secondNormal);
-        if (isItself) return max(density, kLeastReuseDensity);
+        if (isItself) return max(density, kMinReuseDensity);
         if (density == 0.0f) return 0.0f;
         ++counters.reuse;
         float tMax;

@@ -21,7 +21,7 @@ class TileSamples {
 
     // The index of the next sample, with its camera ray and pixel; its sampler and what the ray hits in a lane. kNone:
     // none is left.
-    template <uint kFeatures>
+    template <Features kFeatures>
     uint next(PathLanes& lanes, uint lane, Ray& ray, uvec2& pixel) {
         if (next_ == count_) return kNone;
         const uint i = next_ % kLanes;
@@ -38,7 +38,7 @@ class TileSamples {
 
   private:
     // Of the samples from next_ on.
-    template <uint kFeatures>
+    template <Features kFeatures>
     void generateRays() {
         for (uint i = 0u; i < kLanes; ++i) {
             const bool isSample = next_ + i < count_; // those behind the last stay in its pixel
@@ -64,7 +64,7 @@ class TileSamples {
     }
 
     // One after the other: they are alike, and do not wait for each other.
-    template <uint kFeatures>
+    template <Features kFeatures>
     void traceRays() {
         const uint count = min(kLanes, count_ - next_);
         for (uint i = 0u; i < count; ++i) {

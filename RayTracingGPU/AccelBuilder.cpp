@@ -100,14 +100,14 @@ AccelStorage AccelBuilder::allocate(VkAccelerationStructureTypeKHR type, std::sp
 // its size.
 VkDeviceSize AccelBuilder::placeScratch(std::span<Build> builds) {
     VkDeviceSize used = 0;
-    VkDeviceSize most = 0;
+    VkDeviceSize maximum = 0;
     for (Build& build : builds) {
         if (used + build.scratchBytes > kScratchBytes) used = 0;
         build.scratchOffset = used;
         used += build.scratchBytes;
-        most = std::max(most, used);
+        maximum = std::max(maximum, used);
     }
-    return most;
+    return maximum;
 }
 
 void AccelBuilder::record(VkCommandBuffer commands, std::span<const Build> builds) const {

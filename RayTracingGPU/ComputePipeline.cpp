@@ -7,7 +7,7 @@
 namespace rt::gpu {
 namespace {
 
-std::string describe(std::uint32_t features, bool queries, bool isLinear) {
+std::string describe(shared::Features features, bool queries, bool isLinear) {
     std::string name = queries ? "queries" : isLinear ? "list" : "tree";
     if (shared::has(features, shared::kFeatureTriangles)) name += "+triangles";
     if (shared::has(features, shared::kFeatureQuads)) name += "+quads";

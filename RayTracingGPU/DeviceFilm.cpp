@@ -254,8 +254,7 @@ std::uint64_t DeviceFilm::samplesOf(const shared::FilmLaunch& launch) const {
 
 std::uint32_t DeviceFilm::numbersOf(const shared::FilmLaunch& launch) const {
     if (!hasPlan()) return shared::sampleAt(launch, launch.slotCount, 0, 0);
-    return static_cast<std::uint32_t>(
-        sumOverSlots(launch, [this](auto... slot) { return numbersBetween(slot...); }));
+    return static_cast<std::uint32_t>(sumOverSlots(launch, [this](auto... slot) { return numbersBetween(slot...); }));
 }
 
 // Of the slot's pixels inside of the image, of the indices from `from` to `to`, that excluded.
@@ -292,8 +291,7 @@ std::uint64_t DeviceFilm::stepSamples() const {
 void DeviceFilm::advance(const shared::FilmLaunch& launch) {
     for (std::uint32_t i = 0; i < launch.slotCount; ++i) {
         const std::uint32_t slot = shared::launchSlot(launch, i);
-        if (slot < slotCount())
-            samples_[slot] = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
+        if (slot < slotCount()) samples_[slot] = shared::samplesAfter(launch, slot % launch.replicates, samples_[slot]);
     }
 }
 

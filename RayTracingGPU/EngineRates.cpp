@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 
 constexpr int kVersion = 1;
 constexpr std::uint64_t kLargestFile = 1u << 20;
-constexpr std::size_t kMostKeys = 1000; // a user's scenes hardly fall into so many classes
+constexpr std::size_t kMaxKeys = 1000; // a user's scenes hardly fall into so many classes
 
 bool isEngine(const std::string& name) {
     for (const auto& row : app::kGpuEngines)
@@ -70,8 +70,8 @@ std::string ratesKey(const vulkan::VulkanContext& context, const scene::Compiled
     const vulkan::DeviceLimits& limits = context.limits();
     const std::string device = std::to_string(limits.vendor) + ":" + std::to_string(limits.deviceId) + ":" +
                                context.info().name + ":" + context.info().driver;
-    return hexText(hashBytes(std::as_bytes(std::span(device)))) + "-" + hexText(scene.features) + "-" +
-           std::to_string(sizeClass(scene));
+    return hexText(hashBytes(std::as_bytes(std::span(device)))) + "-" + hexText(scene.features.scene) +
+           hexText(scene.features.materials) + "-" + std::to_string(sizeClass(scene));
 }
 
 std::vector<app::EngineRate> EngineRates::find(const std::string& key) const {
@@ -83,7 +83,7 @@ std::vector<app::EngineRate> EngineRates::keep(const std::string& key,
     if (file_.empty()) return rates;
     Json all = readRates(file_);
     if (auto others = ratesIn(all, key); !others.empty()) return others;
-    if (all.size() >= kMostKeys) all = Json::object();
+    if (all.size() >= kMaxKeys) all = Json::object();
     Json own = Json::object();
     for (const app::EngineRate& rate : rates) own[rate.engine] = rate.raysPerSecond;
     all[key] = std::move(own);

@@ -103,7 +103,7 @@ class GpuEngine final : public app::Engine {
     std::optional<PreviewPass> preview_; // of the scene, once it was asked for
     app::RenderSettings settings_;
     shared::RenderParams params_{};
-    std::uint32_t features_ = 0;
+    shared::Features features_;
     std::unique_ptr<Kernel> kernel_;
     std::unique_ptr<Kernel> reuse_;     // if samples share their paths
     std::unique_ptr<Kernel> firstHits_; // once it was asked for
@@ -179,7 +179,7 @@ void GpuEngine::uploadConstants(const scene::CameraDesc& camera) {
     constants.tree = scene_->tree();
     constants.globals = s.globals;
     constants.camera = scene::makeCamera(camera, settings_.width, settings_.height, s.origin);
-    const scene::LightEdges edges = app::splitAtEdges(s, constants.camera, settings_, params_);
+    const scene::Silhouettes edges = app::splitAtEdges(s, constants.camera, settings_, params_);
     edges_ = vulkan::deviceArray<std::uint32_t>(context_, edges.bits(), "edges of lights");
     constants.edges = edges_.address();
     edgeParts_ = vulkan::deviceArray<std::uint32_t>(context_, edges.parts, "parts of pixels with edges");

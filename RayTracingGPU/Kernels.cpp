@@ -24,10 +24,10 @@ struct Shaders {
     }
 };
 
-// What only the full shaders have, see RT_FULL in Common/Shared/Base/Shim.h.
-constexpr std::uint32_t kFeaturesOfFull = shared::kFeatureProjected | shared::kFeaturePrincipled |
-                                          shared::kFeatureOpacity | shared::kFeatureCoatNormal |
-                                          shared::kFeatureConnections;
+// What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
+constexpr shared::Features kFeaturesOfFull = shared::kMethodProjected | shared::kFeaturePrincipled |
+                                             shared::kFeatureOpacity | shared::kFeatureCoatNormal |
+                                             shared::kMethodConnections;
 
 Shaders shadersFor(KernelPurpose purpose, bool full) {
     switch (purpose) {
@@ -67,7 +67,7 @@ std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan:
 // Of NVIDIA's shaders with lights 512 invocations have all registers of a multiprocessor between them, which take
 // an H100 0.87 times as long as eight groups of 64 through lists and 0.97 to 0.99 through trees. Without lights, where
 // more groups fit, they take 1.12 times as long.
-std::uint32_t groupSize(const vulkan::VulkanContext& context, std::uint32_t features) {
+std::uint32_t groupSize(const vulkan::VulkanContext& context, shared::Features features) {
     constexpr std::uint32_t kNvidia = 0x10de, kLarge = 512;
     const bool isMeasured = context.limits().vendor == kNvidia && shared::has(features, shared::kFeatureLights) &&
                             !shared::has(features, kFeaturesOfFull);

@@ -26,7 +26,7 @@ std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan:
                                    const SpecializationConstants& constants);
 
 // Invocations of a work group of compute shaders that have these features, as measured.
-std::uint32_t groupSize(const vulkan::VulkanContext& context, std::uint32_t features);
+std::uint32_t groupSize(const vulkan::VulkanContext& context, shared::Features features);
 
 // That share the work of a launch, at most: enough to fill the largest devices.
 std::uint32_t maxInvocations(const vulkan::VulkanContext& context, app::GpuEngineKind engine);

@@ -31,14 +31,14 @@ VkDeviceSize progressBytes(std::uint64_t invocations) {
 
 // Where it is too small, without its contents; larger by a factor then, if there is memory, since launches grow until
 // they are as long as they may be.
-void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSize bytes, VkDeviceSize most) {
+void reserve(vulkan::VulkanContext& context, vulkan::Buffer& buffer, VkDeviceSize bytes, VkDeviceSize maximum) {
     constexpr VkDeviceSize kGrowth = 4;
     if (buffer.bytes() >= bytes) return;
     buffer = {}; // its memory may be needed for the next one
     const auto make = [&](VkDeviceSize size) {
         buffer = vulkan::Buffer(context.memory(), size, 0, Memory::Device, "a launch");
     };
-    const VkDeviceSize ample = std::max(bytes, std::min(kGrowth * bytes, most));
+    const VkDeviceSize ample = std::max(bytes, std::min(kGrowth * bytes, maximum));
     try {
         make(ample);
     } catch (const RenderError&) {
@@ -83,8 +83,7 @@ bool LaunchQueue::hasRoom(const shared::FilmLaunch& launch, bool isShared) const
     if (isEmpty()) return true;
     const Launch& next = numbered(begun_);
     return begun_ - ended_ < launches_.size() && radianceBytes(launch) <= next.radiance.bytes() &&
-           sharedBytes(launch, isShared) <= next.sharedPaths.bytes() &&
-           plannedBytes(launch) <= next.planned.bytes() &&
+           sharedBytes(launch, isShared) <= next.sharedPaths.bytes() && plannedBytes(launch) <= next.planned.bytes() &&
            progressBytes(invocationsFor(launch)) <= next.progress.bytes();
 }
 

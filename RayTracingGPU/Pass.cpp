@@ -15,16 +15,16 @@ constexpr std::uint64_t kRegionRounds = 8; // of blocks in a pass where regions 
 // the pass before. Where they take them few samples or not even one, more launches share a pass, so that none is much
 // shorter than it may be. Large films go on by whole blocks.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
-              std::uint64_t wanted, std::uint64_t most) {
+              std::uint64_t wanted, std::uint64_t maximum) {
     const std::uint64_t replicates = region.replicates();
     const std::uint64_t stepSamples = region.stepSamples();
     const std::uint64_t round = shared::kBlock * replicates; // samples per pixel
     std::uint64_t end = (begun / round + kRegionRounds) * round;
     if (region.isWhole()) {
-        const std::uint64_t mostSteps = std::max<std::uint64_t>(std::min(fitting, most) / region.columnSamples(), 1);
+        const std::uint64_t maxSteps = std::max<std::uint64_t>(std::min(fitting, maximum) / region.columnSamples(), 1);
         std::uint64_t steps =
             std::max(std::max(2 * fitting, wanted) / stepSamples, std::min(begun / kPassPart, kMaxPass) / replicates);
-        end = begun + std::clamp<std::uint64_t>(steps, 1, mostSteps) * replicates;
+        end = begun + std::clamp<std::uint64_t>(steps, 1, maxSteps) * replicates;
     }
     end = std::min(end, spp);
     return {.end = static_cast<std::uint32_t>(end),
@@ -32,7 +32,8 @@ Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, 
             .stepSamples = stepSamples};
 }
 
-shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t most) {
+shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting,
+                              std::uint64_t maximum) {
     const std::uint32_t left = region.bandSlots() - pass.nextSlot;
     const std::uint32_t half = (region.bandSlots() + 1) / 2;
     const auto launchOf = [&](std::uint32_t first, std::uint32_t width) {
@@ -42,7 +43,7 @@ shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::u
         launch.spp = pass.end;
         return launch;
     };
-    if (region.hasPlan()) { // as many slots of each band as have so many samples together
+    if (region.hasPlan()) {                           // as many slots of each band as have so many samples together
         constexpr std::uint64_t kPlaces = 1ull << 32; // see PlannedSample
         const std::uint64_t numbered = kPlaces / (region.columnSamples() * pass.steps);
         const std::uint64_t largest = std::min<std::uint64_t>({left, half, numbered});
@@ -50,11 +51,11 @@ shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::u
         std::uint32_t width = 1;
         for (; width < largest; ++width) {
             samples += region.numbersOf(launchOf(pass.nextSlot + width, 1));
-            if (samples > std::min(fitting, most)) break;
+            if (samples > std::min(fitting, maximum)) break;
         }
         return launchOf(pass.nextSlot, width);
     }
-    const std::uint64_t room = most / (region.columnSamples() * pass.steps);
+    const std::uint64_t room = maximum / (region.columnSamples() * pass.steps);
     const std::uint64_t columns = fitting * region.bandSlots() / (pass.stepSamples * pass.steps);
     const std::uint64_t width = std::clamp<std::uint64_t>(std::min(room, columns), 1, std::min(left, half));
     const std::uint64_t launches = (left + width - 1) / width; // that take alike many

@@ -20,9 +20,9 @@ struct Pass {
 // From `begun` to at most `spp` > `begun` samples per pixel, with launches of about `fitting` samples; of `wanted`
 // samples in all, or more where that is less than two launches, which may have `most` each.
 Pass planPass(const DeviceFilm& region, std::uint64_t begun, std::uint64_t spp, std::uint64_t fitting,
-              std::uint64_t wanted, std::uint64_t most);
+              std::uint64_t wanted, std::uint64_t maximum);
 
 // The next slots of the pass in all bands of the region, up to about `fitting` samples, and `most` in any case.
-shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t most);
+shared::FilmLaunch nextLaunch(const DeviceFilm& region, const Pass& pass, std::uint64_t fitting, std::uint64_t maximum);
 
 } // namespace rt::gpu

@@ -27,14 +27,14 @@ constexpr std::uint32_t kConstantsBinding = 1;  // as in Bindings.glsl
 constexpr std::uint32_t kGroup = 64;            // as in Preview.comp
 constexpr std::uint32_t kBandPixels = 1u << 20; // that are drawn at a time, from some of the primitives
 constexpr std::uint32_t kWhole = 36;            // vertices: a multiple of those of every primitive
-constexpr std::uint32_t kMostLights = 16;       // whose light is added up for each pixel
+constexpr std::uint32_t kMaxLights = 16;        // whose light is added up for each pixel
 constexpr float kNear = 1e-4f;                  // of the distance of focus: nearer surfaces are cut
-constexpr float kLeastAmbient = 0.05f;          // so that nothing is wholly dark
+constexpr float kMinAmbient = 0.05f;            // so that nothing is wholly dark
 constexpr VkShaderStageFlags kStages =
     VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
 
 // What the preview leaves out: the lens, and motion over the shutter.
-std::uint32_t previewFeatures(std::uint32_t features) {
+shared::Features previewFeatures(shared::Features features) {
     return features & ~(shared::kFeatureThinLens | shared::kFeatureMovingSpheres);
 }
 
@@ -43,7 +43,7 @@ std::vector<std::uint32_t> strongestLights(const scene::CompiledScene& scene) {
     std::vector<std::uint32_t> lights(scene.globals.lightCount);
     std::iota(lights.begin(), lights.end(), 0u);
     std::erase_if(lights, [&](std::uint32_t i) { return scene.lights[i].kind == shared::kLightSky; });
-    const auto count = std::min<std::size_t>(lights.size(), kMostLights);
+    const auto count = std::min<std::size_t>(lights.size(), kMaxLights);
     const auto stronger = [&](std::uint32_t a, std::uint32_t b) {
         return scene.lights[a].selection > scene.lights[b].selection;
     };
@@ -63,14 +63,19 @@ vec3 ambientOf(const scene::CompiledScene& scene) {
         sum += glm::dvec3(light.emission) * scene::emittingArea(light);
     }
     if (radius > 0) sum /= 0.5 * 4 * std::numbers::pi * radius * radius;
-    return glm::max(vec3(sum), vec3(kLeastAmbient));
+    return glm::max(vec3(sum), vec3(kMinAmbient));
 }
 
 // The specialization constants of Preview.glsl; others stay as the shaders have them.
 struct Specialization {
-    std::uint32_t values[2]; // features, shape
-    VkSpecializationMapEntry entries[2] = {{shared::kFeaturesId, 0, 4}, {shared::kShapeId, 4, 4}};
-    VkSpecializationInfo info() const { return {2, entries, sizeof values, values}; }
+    shared::Features features;
+    std::uint32_t shape;
+
+    static constexpr VkSpecializationMapEntry kEntries[] = {{shared::kSceneFeaturesId, 0, 4},
+                                                            {shared::kMaterialFeaturesId, 4, 4},
+                                                            {shared::kMethodsId, 8, 4},
+                                                            {shared::kShapeId, 12, 4}};
+    VkSpecializationInfo info() const { return {4, kEntries, 16, this}; }
 };
 
 } // namespace
@@ -134,7 +139,7 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
     for (const Draw& draw : draws_) {
         if (!drawing_[draw.shape]) drawing_[draw.shape] = createDrawing(cache, draw.shape);
     }
-    const Specialization constants{{features_, 0}};
+    const Specialization constants{features_, 0};
     const VkSpecializationInfo specialization = constants.info();
     const auto module = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFinish));
     finishing_ = vulkan::makeComputePipeline(device, cache.get(), layout_.get(), module.get(), &specialization, kWhat);
@@ -142,7 +147,7 @@ void PreviewPass::createPipelines(const vulkan::PipelineCache& cache) {
 
 vulkan::Handle<VkPipeline> PreviewPass::createDrawing(const vulkan::PipelineCache& cache, std::uint32_t shape) {
     const VkDevice device = context_.device();
-    const Specialization constants{{features_, shape}};
+    const Specialization constants{features_, shape};
     const VkSpecializationInfo specialization = constants.info();
     const auto vertex = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewVertex));
     const auto fragment = vulkan::makeShaderModule(device, shaderCode(Shader::PreviewFragment));
@@ -190,16 +195,16 @@ void PreviewPass::bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPi
 
 // Of a draw's vertices, one instance after the other, `most` or so from `done` on; returns how many.
 std::uint64_t PreviewPass::recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done,
-                                      std::uint64_t most) const {
+                                      std::uint64_t maximum) const {
     const auto instance = static_cast<std::uint32_t>(done / draw.vertexCount);
     const auto vertex = static_cast<std::uint32_t>(done % draw.vertexCount);
-    if (vertex == 0 && most >= draw.vertexCount) {
-        const std::uint64_t count = std::min<std::uint64_t>(draw.instanceCount - instance, most / draw.vertexCount);
+    if (vertex == 0 && maximum >= draw.vertexCount) {
+        const std::uint64_t count = std::min<std::uint64_t>(draw.instanceCount - instance, maximum / draw.vertexCount);
         vkCmdDraw(commands, draw.vertexCount, static_cast<std::uint32_t>(count), draw.firstVertex,
                   draw.firstInstance + instance);
         return count * draw.vertexCount;
     }
-    const std::uint64_t whole = std::max<std::uint64_t>(1, most / kWhole) * kWhole;
+    const std::uint64_t whole = std::max<std::uint64_t>(1, maximum / kWhole) * kWhole;
     const std::uint64_t count = std::min<std::uint64_t>(draw.vertexCount - vertex, whole);
     vkCmdDraw(commands, static_cast<std::uint32_t>(count), 1, draw.firstVertex + vertex, draw.firstInstance + instance);
     return count;
@@ -210,18 +215,18 @@ void PreviewPass::drawBand(const Band& band) {
     std::uint64_t done = 0; // of its vertices
     VkRenderPass renderPass = clearing_.get();
     do {
-        const std::uint64_t most = vertices_.suggest();
+        const std::uint64_t maximum = vertices_.suggest();
         std::uint64_t recorded = 0;
         const double seconds = context_.runTimed([&](VkCommandBuffer commands) {
             target_.begin(commands, renderPass, band);
             vkCmdPushConstants(commands, layout_.get(), kStages, 0, sizeof launch_, &launch_);
             VkPipeline bound = VK_NULL_HANDLE;
-            while (next < draws_.size() && recorded < most) {
+            while (next < draws_.size() && recorded < maximum) {
                 const Draw& draw = draws_[next];
                 const VkPipeline pipeline = drawing_[draw.shape].get();
                 if (pipeline != bound) bind(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
                 bound = pipeline;
-                const std::uint64_t count = recordDraw(commands, draw, done, most - recorded);
+                const std::uint64_t count = recordDraw(commands, draw, done, maximum - recorded);
                 recorded += count;
                 done += count;
                 if (done < std::uint64_t{draw.vertexCount} * draw.instanceCount) continue;

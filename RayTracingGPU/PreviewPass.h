@@ -39,12 +39,13 @@ class PreviewPass {
     void uploadConstants(const scene::CameraDesc& camera, std::uint32_t width, std::uint32_t height);
     void bind(VkCommandBuffer commands, VkPipelineBindPoint point, VkPipeline pipeline) const;
     void drawBand(const Band& band);
-    std::uint64_t recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done, std::uint64_t most) const;
+    std::uint64_t recordDraw(VkCommandBuffer commands, const Draw& draw, std::uint64_t done,
+                             std::uint64_t maximum) const;
     void finishBand(const Band& band);
 
     vulkan::VulkanContext& context_;
     const GpuScene& scene_;
-    std::uint32_t features_;
+    shared::Features features_;
     std::vector<Draw> draws_;
     vulkan::Buffer indices_; // see PreviewLaunch
     vulkan::Buffer constants_;

@@ -65,10 +65,10 @@ vulkan::Handle<VkRenderPass> makePreviewRenderPass(VkDevice device, bool clears)
 PreviewTarget::PreviewTarget(vulkan::VulkanContext& context, VkRenderPass renderPass, VkExtent2D extent,
                              std::uint32_t bandRows)
     : extent_(extent), band_{extent.width, std::min(bandRows, extent.height)} {
-    const std::uint32_t most = context.limits().maxDrawnSide;
-    if (extent.width > most || extent.height > most) {
+    const std::uint32_t maximum = context.limits().maxDrawnSide;
+    if (extent.width > maximum || extent.height > maximum) {
         throw RenderError("the preview of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
-                          " pixels: " + context.info().name + " draws at most " + std::to_string(most) + " a side");
+                          " pixels: " + context.info().name + " draws at most " + std::to_string(maximum) + " a side");
     }
     color_ = {context.memory(),
               {kPreviewColor, band_, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,

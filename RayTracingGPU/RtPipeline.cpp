@@ -68,7 +68,7 @@ class GroupList {
 
 ShaderGroups addGroups(GroupList& list, const SpecializationConstants& constants, Shader rayGeneration,
                        std::string& name) {
-    const std::uint32_t features = constants.features;
+    const shared::Features features = constants.features;
     ShaderGroups groups;
     groups.hit.resize(shared::kHitRecords);
     groups.rayGeneration = list.addGeneral(VK_SHADER_STAGE_RAYGEN_BIT_KHR, rayGeneration);

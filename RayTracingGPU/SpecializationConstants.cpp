@@ -5,6 +5,7 @@
 namespace rt::gpu {
 namespace {
 
+constexpr std::size_t kFeatures = offsetof(SpecializationConstants, features);
 constexpr std::size_t kTraversal = offsetof(SpecializationConstants, traversal);
 constexpr std::size_t kAxisQuads = kTraversal + offsetof(TraversalShape, listedAxisQuads);
 constexpr std::size_t kConstantCount = sizeof(SpecializationConstants) / sizeof(std::uint32_t);
@@ -14,7 +15,9 @@ constexpr VkSpecializationMapEntry entry(std::uint32_t id, std::size_t offset) {
 }
 
 constexpr std::array kEntries{
-    entry(shared::kFeaturesId, offsetof(SpecializationConstants, features)),
+    entry(shared::kSceneFeaturesId, kFeatures + offsetof(shared::Features, scene)),
+    entry(shared::kMaterialFeaturesId, kFeatures + offsetof(shared::Features, materials)),
+    entry(shared::kMethodsId, kFeatures + offsetof(shared::Features, methods)),
     entry(shared::kLightSamplingId, offsetof(SpecializationConstants, lightSampling)),
     entry(shared::kLightSelectionId, offsetof(SpecializationConstants, lightSelection)),
     entry(shared::kSphereLightId, offsetof(SpecializationConstants, sphereLight)),
@@ -66,7 +69,7 @@ TraversalShape traversalShape(const accel::GpuBvh& bvh) {
     return shape;
 }
 
-SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
+SpecializationConstants makeSpecializationConstants(shared::Features features, const shared::RenderParams& params,
                                                     std::uint32_t lights, bool hasEdges,
                                                     const TraversalShape& traversal) {
     const bool usesLights = params.lightSampling == shared::kSampleMixture || shared::samplesLights(features, params);

@@ -30,7 +30,7 @@ struct TraversalShape {
 TraversalShape traversalShape(const accel::GpuBvh& bvh);
 
 struct SpecializationConstants {
-    std::uint32_t features = 0;
+    shared::Features features;
     std::uint32_t lightSampling = 0;
     std::uint32_t lightSelection = 0;
     std::uint32_t sphereLight = 0;
@@ -46,7 +46,7 @@ struct SpecializationConstants {
 };
 
 // `lights`: how many lights proper the scene has.
-SpecializationConstants makeSpecializationConstants(std::uint32_t features, const shared::RenderParams& params,
+SpecializationConstants makeSpecializationConstants(shared::Features features, const shared::RenderParams& params,
                                                     std::uint32_t lights, bool hasEdges,
                                                     const TraversalShape& traversal);
 

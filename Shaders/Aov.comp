@@ -1,7 +1,7 @@
 // First-hit features in compute shaders.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#define RT_FULL // few pixels are traced once
+#define RT_HEAVY_FEATURES // few pixels are traced once
 #include "Trace.glsl"
 #include "FirstHit.glsl"
 

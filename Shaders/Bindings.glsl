@@ -9,7 +9,10 @@
 #include "SpecializationIds.h"
 #include "Common/Shared/Base/Features.h"
 
-layout(constant_id = kFeaturesId) const uint kFeatures = kFeatureAll;
+layout(constant_id = kSceneFeaturesId) const uint kSceneFeatures = 0xffffffffu;
+layout(constant_id = kMaterialFeaturesId) const uint kMaterialFeatures = 0xffffffffu;
+layout(constant_id = kMethodsId) const uint kMethods = 0xffffffffu;
+const Features kFeatures = Features(kSceneFeatures, kMaterialFeatures, kMethods);
 layout(constant_id = kLightSamplingId) const uint kLightSampling = kSampleMis;
 layout(constant_id = kLightSelectionId) const uint kLightSelection = kSelectContribution;
 layout(constant_id = kSphereLightId) const uint kSphereLight = kShapeAuto;

@@ -11,19 +11,19 @@
 // Rays of a path. Whether the light arrives makes no difference to how it goes on, but tracing that takes time.
 uint tracePath(SceneRef scene, RenderParams params, Sampler smp, PathState path) {
     DirectLight direct = noDirectLight();
-    Passage passage = noPassage();
+    SpecularConnection connection = noConnection();
     uint rays = 0u;
     uint nonfinite = 0u;
     bool goesOn = true;
-    while (goesOn || isChecking(direct, passage)) {
-        bool checking = isChecking(direct, passage);
-        Hit hit = traceStep(smp, path, direct, passage, checking, nonfinite);
+    while (goesOn || isChecking(direct, connection)) {
+        bool checking = isChecking(direct, connection);
+        Hit hit = traceStep(smp, path, direct, connection, checking, nonfinite);
         rays++;
         if (checking) {
-            endChecked(scene, hit, path, direct, passage);
+            endChecked(scene, hit, path, direct, connection);
         } else {
             SharedPart unusedPart;
-            goesOn = stepPath(kFeatures, scene, params, smp, hit, path, unusedPart, direct, passage);
+            goesOn = stepPath(kFeatures, scene, params, smp, hit, path, unusedPart, direct, connection);
         }
     }
     return rays;

@@ -104,7 +104,7 @@ void nextEdgeRay(RenderParams params, inout Work work) {
 
 // Goes on with the path of this number that the launch before left. False: there is none.
 bool resumePath(uint number, RenderParams params, inout Work work, inout PathState path, inout DirectLight direct,
-                inout Passage passage, inout bool goesOn) {
+                inout SpecularConnection connection, inout bool goesOn) {
     if (number >= launch.progressBefore.counters[kCounterLeft]) return false;
     UnfinishedPath unfinished = launch.progressBefore.left[number];
     work.number = unfinished.number;
@@ -118,12 +118,12 @@ bool resumePath(uint number, RenderParams params, inout Work work, inout PathSta
     path = unfinished.path;
     if (!has(kFeatures, kFeatureMovingSpheres)) path.ray.time = 0.0f; // as the compiler is to know
     direct = unfinished.direct;
-    if (has(kFeatures, kFeatureConnections)) passage = unfinished.passage;
+    if (has(kFeatures, kMethodConnections)) connection = unfinished.connection;
     goesOn = unfinished.goesOn != 0u;
     return true;
 }
 
-void leavePath(Work work, PathState path, DirectLight direct, Passage passage, bool goesOn) {
+void leavePath(Work work, PathState path, DirectLight direct, SpecularConnection connection, bool goesOn) {
     UnfinishedPath unfinished;
     unfinished.number = work.number;
     unfinished.key = work.smp.key;
@@ -134,7 +134,7 @@ void leavePath(Work work, PathState path, DirectLight direct, Passage passage, b
     unfinished.goesOn = goesOn ? 1u : 0u;
     unfinished.path = path;
     unfinished.direct = direct;
-    if (has(kFeatures, kFeatureConnections)) unfinished.passage = passage;
+    if (has(kFeatures, kMethodConnections)) unfinished.connection = connection;
     launch.progress.left[atomicAdd(launch.progress.counters[kCounterLeft], 1u)] = unfinished;
 }
 
@@ -199,11 +199,11 @@ void tellSamplesAreSpent() {
 
 // Takes the path a step further, given what its ray hits. False: it has ended.
 bool stepAlong(SceneRef scene, RenderParams params, Work work, Hit hit, inout PathState path, inout DirectLight direct,
-               inout Passage passage) {
+               inout SpecularConnection connection) {
     uint before = path.reuse;
     SharedPart part;
     part.aimed = 0.0f;
-    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, part, direct, passage);
+    bool goesOn = stepPath(kFeatures, scene, params, work.smp, hit, path, part, direct, connection);
     if (reusesPaths(kFeatures, params) && path.reuse != before) keepVertex(work, path, part);
     return goesOn;
 }
@@ -222,9 +222,9 @@ void tracePaths(uint invocation) {
     work.isResumed = false;
     PathState path;
     DirectLight direct = noDirectLight();
-    Passage passage = noPassage();
+    SpecularConnection connection = noConnection();
     bool goesOn = false; // the path has a next vertex
-    bool begins = !resumePath(invocation, params, work, path, direct, passage, goesOn);
+    bool begins = !resumePath(invocation, params, work, path, direct, connection, goesOn);
     bool isSpent = false; // there is no sample to begin with
     for (;;) {
         // Read before it is needed: the time that it takes passes with the beginning of a path.
@@ -248,30 +248,30 @@ void tracePaths(uint invocation) {
         // A path goes on in the next launch, but not in a third one.
         if (isOver && !work.isResumed && launch.film.slotCount != 0u) break;
         if (tracesApart()) {
-            Hit hit = traceStep(work.smp, path, direct, passage, false, nonfinite);
-            goesOn = stepAlong(scene, params, work, hit, path, direct, passage);
+            Hit hit = traceStep(work.smp, path, direct, connection, false, nonfinite);
+            goesOn = stepAlong(scene, params, work, hit, path, direct, connection);
             scattered += uint(goesOn);
-            while (isChecking(direct, passage)) {
-                hit = traceStep(work.smp, path, direct, passage, true, nonfinite);
-                endChecked(scene, hit, path, direct, passage);
+            while (isChecking(direct, connection)) {
+                hit = traceStep(work.smp, path, direct, connection, true, nonfinite);
+                endChecked(scene, hit, path, direct, connection);
                 shadow++;
-                if (!has(kFeatures, kFeatureConnections)) break;
+                if (!has(kFeatures, kMethodConnections)) break;
             }
         } else {
             for (uint i = 0u; i < kRaysPerStep; i++) {
-                bool checking = isChecking(direct, passage);
+                bool checking = isChecking(direct, connection);
                 if (i > 0u && !checking) break;
-                Hit hit = traceStep(work.smp, path, direct, passage, checking, nonfinite);
+                Hit hit = traceStep(work.smp, path, direct, connection, checking, nonfinite);
                 if (checking) {
-                    endChecked(scene, hit, path, direct, passage);
+                    endChecked(scene, hit, path, direct, connection);
                     shadow++;
                 } else {
-                    goesOn = stepAlong(scene, params, work, hit, path, direct, passage);
+                    goesOn = stepAlong(scene, params, work, hit, path, direct, connection);
                     scattered += uint(goesOn);
                 }
             }
         }
-        begins = !goesOn && !isChecking(direct, passage);
+        begins = !goesOn && !isChecking(direct, connection);
         bool isOwn = work.edgeRays == 0u || work.edgeRays > params.edgeRays;
         if (begins && isOwn && path.pdf == kCutOff) countCutOff(invocation, work, path);
         bool isKept = reusesPaths(kFeatures, params) && begins && isOwn && endShared(work, path, nonfinite);
@@ -286,7 +286,7 @@ void tracePaths(uint invocation) {
             finished++;
         }
     }
-    if (!isSpent) leavePath(work, path, direct, passage, goesOn);
+    if (!isSpent) leavePath(work, path, direct, connection, goesOn);
     uint line = counterLine(invocation);
     atomicAdd(launch.progress.counters[line + kCounterFinished], finished);
     atomicAdd(launch.progress.counters[line + kCounterScattered], scattered);

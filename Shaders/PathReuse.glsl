@@ -59,7 +59,7 @@ bool existsSample(SampleGroup group, uint i) {
 // Density with which x could have drawn y; 0 where something is between them.
 float densityFrom(SharedVertex x, SharedVertex y, bool isItself, inout uint rays) {
     float density = reuseDensity(x.position, x.normal, y.position, y.normal);
-    if (isItself) return max(density, kLeastReuseDensity);
+    if (isItself) return max(density, kMinReuseDensity);
     if (density == 0.0f) return 0.0f;
     rays++;
     float tMax;

@@ -107,7 +107,7 @@ struct UnfinishedPath {
     uint goesOn;   // 1: it has a next vertex; 0: only shadow rays are to be traced
     PathState path;
     DirectLight direct;
-    Passage passage; // read with kFeatureConnections
+    SpecularConnection connection; // read with kMethodConnections
 };
 
 // Counters of a launch. Invocations are spread over kCounterLines lines, which the host adds up.

@@ -6,7 +6,9 @@
 RT_SHARED_BEGIN
 
 // Of every shader of a render, see Bindings.glsl.
-const uint kFeaturesId = 0u;
+const uint kSceneFeaturesId = 0u; // the three words of Features
+const uint kMaterialFeaturesId = 23u;
+const uint kMethodsId = 24u;
 const uint kLightSamplingId = 1u;
 const uint kLightSelectionId = 2u;
 const uint kSphereLightId = 3u;

@@ -8,7 +8,7 @@ bool isTraceable(Ray ray, float tMax) {
     return squared > 0.5f && squared < 2.0f && dot(ray.origin, ray.origin) < 1.0e30f && tMax > 0.0f;
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // As traceRay(), but for layers that the ray goes through; `number` as for goesThrough().
 Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
@@ -33,26 +33,26 @@ Hit traceLayers(Sampler smp, uint number, Ray ray, bool anyHit, float tMax) {
 #endif
 
 // What is found of the light at a vertex before the path goes on: segments of a passage first, then the shadow ray.
-bool isChecking(DirectLight direct, Passage passage) {
-    return direct.distance > 0.0f || passage.segments != 0u;
+bool isChecking(DirectLight direct, SpecularConnection connection) {
+    return direct.distance > 0.0f || connection.segments != 0u;
 }
 
 // The next of them.
-Ray checkedRay(PathState path, DirectLight direct, Passage passage, out float tMax) {
-#ifdef RT_FULL
-    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) return passageRay(passage, path.ray.time, tMax);
+Ray checkedRay(PathState path, DirectLight direct, SpecularConnection connection, out float tMax) {
+#ifdef RT_HEAVY_FEATURES
+    if (has(kFeatures, kMethodConnections) && connection.segments != 0u) return connectionRay(connection, path.ray.time, tMax);
 #endif
     tMax = direct.distance;
     return shadowRay(path, direct);
 }
 
 // What becomes of its light, and of the ray.
-void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout Passage passage) {
-#ifdef RT_FULL
-    if (has(kFeatures, kFeatureConnections) && passage.segments != 0u) {
+void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight direct, inout SpecularConnection connection) {
+#ifdef RT_HEAVY_FEATURES
+    if (has(kFeatures, kMethodConnections) && connection.segments != 0u) {
         float tMax;
-        Ray ray = passageRay(passage, path.ray.time, tMax);
-        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, passage, path.radiance);
+        Ray ray = connectionRay(connection, path.ray.time, tMax);
+        endSegment(kFeatures, scene, hit.t < 0.0f, ray, tMax, connection, path.radiance);
         return;
     }
 #endif
@@ -62,10 +62,10 @@ void endChecked(SceneRef scene, Hit hit, inout PathState path, inout DirectLight
 
 // What the path's next ray hits; when `checking`, whether the next ray of the light at its vertex hits anything. A ray
 // that cannot be traced is counted; it ends the path, or lets no light through.
-Hit traceStep(Sampler smp, PathState path, DirectLight direct, Passage passage, bool checking, inout uint nonfinite) {
+Hit traceStep(Sampler smp, PathState path, DirectLight direct, SpecularConnection connection, bool checking, inout uint nonfinite) {
     Ray ray = path.ray;
     float tMax = kInfinity;
-    if (checking) ray = checkedRay(path, direct, passage, tMax);
+    if (checking) ray = checkedRay(path, direct, connection, tMax);
     // Traced all the same, somewhere: a branch around the trace would cost all rays more.
     bool traceable = isTraceable(ray, tMax);
     if (!traceable) {

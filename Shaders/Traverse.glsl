@@ -246,9 +246,9 @@ uint childAt(uvec4 children, uint key) {
 }
 
 void sortPair(inout uint a, inout uint b) {
-    uint least = min(a, b);
+    uint minimum = min(a, b);
     b = max(a, b);
-    a = least;
+    a = minimum;
 }
 
 // The keys of the children that the ray enters before tMax, the nearest first.

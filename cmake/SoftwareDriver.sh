@@ -2,7 +2,7 @@
 # drivers that the user has alone.
 
 driver_folder=$PWD/build/software-driver
-least_mesa=25.0
+min_mesa=25.0
 
 has_ray_tracing_device() {
     build/bin/ray-tracing-gpu --list-devices 2>/dev/null | grep -q ': suitable$'
@@ -37,7 +37,7 @@ sufficient_mesa() {
     local version
     version=$(apt-cache "$@" madison mesa-vulkan-drivers 2>/dev/null | awk -F'|' '{ gsub(/ /, "", $2); print $2 }' |
         sort -rV | head -n 1)
-    if [[ -n $version ]] && dpkg --compare-versions "$version" ge $least_mesa; then
+    if [[ -n $version ]] && dpkg --compare-versions "$version" ge $min_mesa; then
         echo "$version"
     fi
 }
@@ -56,7 +56,7 @@ get_software_driver() {
         version=$(sufficient_mesa "${private_apt[@]}")
     fi
     if [[ -z $version ]]; then
-        echo "This release has no Mesa $least_mesa or newer" >&2
+        echo "This release has no Mesa $min_mesa or newer" >&2
         return 1
     fi
     if ! has_vulkan_driver && { ((EUID == 0)) || command -v sudo >/dev/null; }; then

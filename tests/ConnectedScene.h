@@ -3,13 +3,13 @@
 #pragma once
 #include <memory>
 
-#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/Compiler/SpecularCasters.h"
 
 namespace rt::test {
 
 inline std::shared_ptr<const scene::CompiledScene> connectedThroughAll(const scene::CompiledScene& scene) {
     const auto connected = std::make_shared<scene::CompiledScene>(scene);
-    scene::findSmoothSpheres(*connected, 0);
+    scene::findSpecularCasters(*connected, 0);
     return connected;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <cstdint>
 
+#include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::accel {
@@ -101,9 +102,9 @@ constexpr std::uint32_t packPrimitive(std::uint32_t kind, std::uint32_t primitiv
 // ---- the whole -----------------------------------------------------------------------------------------------------
 
 struct AccelView {
-    std::uint32_t kinds = 0; // feature bits of the primitives that exist
-    bool isLinear = false;   // the lists below hold everything; otherwise the tree does
-    bool isLarge = false;    // does not fit into a core's own cache: worth fetching ahead
+    shared::Features kinds; // feature bits of the primitives that exist
+    bool isLinear = false;  // the lists below hold everything; otherwise the tree does
+    bool isLarge = false;   // does not fit into a core's own cache: worth fetching ahead
 
     LinearList<SphereBlock> listedSpheres;
     LinearList<MovingSphereBlock> listedMovingSpheres;

@@ -124,8 +124,8 @@ void Assembly::fill(AccelStorage& storage) {
     storage.instances = placeInstances();
 }
 
-std::uint32_t featuresOf(const AccelInput& input) {
-    std::uint32_t features = 0;
+shared::Features featuresOf(const AccelInput& input) {
+    shared::Features features;
     if (!input.spheres.empty()) {
         features |= input.motions.empty() ? shared::kFeatureSpheres : shared::kFeatureMovingSpheres;
     }

@@ -10,7 +10,7 @@ namespace {
 using shared::Quad;
 using shared::vec3;
 
-constexpr std::ptrdiff_t kLeastFaces = 4;
+constexpr std::ptrdiff_t kMinFaces = 4;
 
 // How far vertices that are one may be apart, relative to the cuboid's edges and their distance from the origin: what
 // rounding takes of boxes that were turned. Less than the bound of a surface's error (kFlatError), by which rays that
@@ -75,7 +75,7 @@ std::optional<Cuboid> cuboidOf(std::span<const Quad> quads, const std::vector<st
         cuboid.faces[face] = found == candidates.end() ? shared::kNone : *found;
     }
     const auto missing = std::count(cuboid.faces.begin(), cuboid.faces.end(), shared::kNone);
-    if (6 - missing < kLeastFaces) return {};
+    if (6 - missing < kMinFaces) return {};
     return cuboid;
 }
 

@@ -303,8 +303,8 @@ std::optional<GpuBvh> buildGpuBvh(const AccelInput& input, const GpuBvhSettings&
     GpuBvh bvh;
     const shared::Geometry& world = input.geometries[0];
     const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
-    const std::uint32_t most = std::min(settings.maxLinear, shared::kMaxListedPrimitives);
-    bvh.isLinear = input.instances.empty() && primitives <= most;
+    const std::uint32_t maximum = std::min(settings.maxLinear, shared::kMaxListedPrimitives);
+    bvh.isLinear = input.instances.empty() && primitives <= maximum;
     if (bvh.isLinear) {
         bvh.lists = makeLists(input, world);
         return bvh;

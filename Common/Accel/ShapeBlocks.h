@@ -21,7 +21,7 @@ struct ShapeRay {
     float shear[3];   // direction[axis[0]] / direction[axis[2]], likewise axis[1]; 1 / direction[axis[2]]
 };
 
-RT_FN ShapeRay makeShapeRay(shared::uint features, const shared::Ray& ray, bool isUnit) {
+RT_FN ShapeRay makeShapeRay(shared::Features features, const shared::Ray& ray, bool isUnit) {
     const shared::vec3 d = ray.direction;
     ShapeRay r{};
     for (int a = 0; a < 3; ++a) {

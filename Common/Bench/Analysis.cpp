@@ -16,14 +16,14 @@ namespace {
 using image::CurvePoint;
 using image::Summary;
 
-constexpr double kLeastBusySeconds = 0.05; // for clocks of threads that tick a hundred times a second
-constexpr double kLeastDeviceSeconds = 1;  // for steps of a tenth of a second in a device's counter of energy
+constexpr double kMinBusySeconds = 0.05; // for clocks of threads that tick a hundred times a second
+constexpr double kMinDeviceSeconds = 1;  // for steps of a tenth of a second in a device's counter of energy
 constexpr std::uint32_t kDependentSide = shared::kReuseSide; // pixels of images and references may share paths
 
 std::size_t steps(const Measured& measured) {
-    std::size_t most = 0;
-    for (const Run& run : measured.runs) most = std::max(most, run.snapshots.size());
-    return most;
+    std::size_t maximum = 0;
+    for (const Run& run : measured.runs) maximum = std::max(maximum, run.snapshots.size());
+    return maximum;
 }
 
 // Of the repeats that came to this step. `get` takes the run and the snapshot.
@@ -81,8 +81,7 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     if (last.threads > 0) {
         row.threadsUsed = last.threads;
         const double processor = median([](const Run&, const Snapshot& s) { return s.processorSeconds; });
-        if (seconds.median >= kLeastBusySeconds && processor > 0)
-            row.busy = processor / (seconds.median * last.threads);
+        if (seconds.median >= kMinBusySeconds && processor > 0) row.busy = processor / (seconds.median * last.threads);
     }
     row.secondsDevice = median([](const Run&, const Snapshot& s) { return s.deviceSeconds; });
     row.secondsLoad = measured.secondsLoad;
@@ -97,7 +96,7 @@ Row makeRow(const Experiment& experiment, const Measured& measured, std::size_t 
     for (const Run& run : measured.runs)
         if (step < run.snapshots.size()) row.timeBudget = run.snapshots[step].timeBudget;
     row.joules = medianOfKnown(measured, step, &Snapshot::joules);
-    if (row.seconds >= kLeastDeviceSeconds) row.joulesGpu = medianOfKnown(measured, step, &Snapshot::joulesGpu);
+    if (row.seconds >= kMinDeviceSeconds) row.joulesGpu = medianOfKnown(measured, step, &Snapshot::joulesGpu);
     return row;
 }
 
@@ -224,13 +223,13 @@ std::vector<Series> makeSeries(const Experiment& experiment, const std::vector<R
         series.secondsTo1e2 = secondsTo(relmse, 1e-2);
         series.secondsTo1e3 = secondsTo(relmse, 1e-3);
         series.secondsTo1e4 = secondsTo(relmse, 1e-4);
-        double least = 1e300;
+        double minimum = 1e300;
         for (const CurvePoint& point : relmse)
-            if (point.y > 0) least = std::min(least, point.y);
-        if (least < 1e300) {
-            series.reached = least;
+            if (point.y > 0) minimum = std::min(minimum, point.y);
+        if (minimum < 1e300) {
+            series.reached = minimum;
             equalTime = std::min(equalTime, relmse.back().x); // all come that far,
-            equalError = std::max(equalError, least);         // and that low
+            equalError = std::max(equalError, minimum);       // and that low
         }
         all.push_back(series);
     }

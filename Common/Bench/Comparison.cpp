@@ -13,8 +13,8 @@ namespace rt::bench {
 namespace {
 
 constexpr std::uint64_t kLargestResults = std::uint64_t{1} << 30;
-constexpr double kLeastTimeNoise = 0.05;
-constexpr double kLeastErrorNoise = 0.02;
+constexpr double kMinTimeNoise = 0.05;
+constexpr double kMinErrorNoise = 0.02;
 constexpr double kCloseRatio = 1.1;
 
 std::string keyOf(const Row& row) {
@@ -42,8 +42,8 @@ Change compareRows(const Row& before, const Row& after) {
                   quotient(after.mse, before.mse),
                   quotient(after.efficiency, before.efficiency),
                   quotient(after.gain, before.gain)};
-    const double timeNoise = std::max(kLeastTimeNoise, 2 * std::hypot(spread(before), spread(after)));
-    const double noise = std::max(kLeastErrorNoise, std::hypot(errorNoise(before), errorNoise(after)));
+    const double timeNoise = std::max(kMinTimeNoise, 2 * std::hypot(spread(before), spread(after)));
+    const double noise = std::max(kMinErrorNoise, std::hypot(errorNoise(before), errorNoise(after)));
     // With a time budget it is the samples that tell.
     const Figure slowness =
         before.timeBudget ? quotient(before.samplesPerSecond, after.samplesPerSecond) : change.seconds;

@@ -28,10 +28,10 @@ void setFeatures(Config& config, Text value) {
     if (parseChoice("features", value, kFeatures)) config.settings.features = shared::kFeatureAll;
 }
 
-constexpr std::uint32_t kMostThreads = 4096;
-constexpr std::uint32_t kMostRanks = 4096;
-constexpr std::uint32_t kMostVertices = 4096;
-constexpr std::uint32_t kMostPixels = 16384; // of a side
+constexpr std::uint32_t kMaxThreads = 4096;
+constexpr std::uint32_t kMaxRanks = 4096;
+constexpr std::uint32_t kMaxVertices = 4096;
+constexpr std::uint32_t kMaxPixels = 16384; // of a side
 
 // A string as a template argument: functions of an axis have no other way to know its name.
 template <std::size_t N>
@@ -51,15 +51,15 @@ constexpr Axis kAxes[] = {
     {"scene", Says::Where, [](const Config& c) { return c.scene; }, [](Config& c, Text value) { c.scene = value; }},
     {"engine", Says::Where, [](const Config& c) { return c.engine; }, setEngine},
     {"threads", Says::Where, [](const Config& c) { return std::to_string(c.threads); },
-     [](Config& c, Text value) { c.threads = parseWhole("threads", value, 0, kMostThreads); }},
+     [](Config& c, Text value) { c.threads = parseWhole("threads", value, 0, kMaxThreads); }},
     {"ranks", Says::Where, [](const Config& c) { return std::to_string(c.ranks); },
-     [](Config& c, Text value) { c.ranks = parseWhole("ranks", value, 1, kMostRanks); }},
+     [](Config& c, Text value) { c.ranks = parseWhole("ranks", value, 1, kMaxRanks); }},
     {"width", Says::Where, [](const Config& c) { return std::to_string(c.settings.width); },
-     [](Config& c, Text value) { c.settings.width = parseWhole("width", value, 1, kMostPixels); }},
+     [](Config& c, Text value) { c.settings.width = parseWhole("width", value, 1, kMaxPixels); }},
     {"height", Says::Where, [](const Config& c) { return std::to_string(c.settings.height); },
-     [](Config& c, Text value) { c.settings.height = parseWhole("height", value, 0, kMostPixels); }},
+     [](Config& c, Text value) { c.settings.height = parseWhole("height", value, 0, kMaxPixels); }},
     {"max_depth", Says::Where, [](const Config& c) { return std::to_string(c.settings.maxDepth); },
-     [](Config& c, Text value) { c.settings.maxDepth = parseWhole("max_depth", value, 1, kMostVertices); }},
+     [](Config& c, Text value) { c.settings.maxDepth = parseWhole("max_depth", value, 1, kMaxVertices); }},
     method<"light_sampling", &RenderSettings::lightSampling, kLightSamplings>(),
     method<"light_selection", &RenderSettings::lightSelection, kLightSelections>(),
     method<"sphere_light", &RenderSettings::sphereLight, kSphereLights>(),

@@ -70,11 +70,11 @@ Reach reachOf(const std::vector<Match>& matches, const PixelSet& pixels) {
         ++reach.places;
         sum += std::log(share);
         squares += ci * ci;
-        if (reach.least && *reach.least <= share) continue;
-        reach.least = share;
-        reach.leastCi = share * ci;
-        reach.leastBest = match.best;
-        reach.leastDefaults = match.defaults;
+        if (reach.minimum && *reach.minimum <= share) continue;
+        reach.minimum = share;
+        reach.minCi = share * ci;
+        reach.minBest = match.best;
+        reach.minDefaults = match.defaults;
     }
     if (reach.places == 0) return reach;
     reach.mean = std::exp(sum / reach.places);

@@ -37,8 +37,8 @@ struct Reach {
     int places = 0; // where both are known, and there is another setting
     Figure mean;    // geometric, over these places
     Figure meanCi;  // half of the 95 % confidence interval, by those of the errors
-    Figure least, leastCi;
-    const Row *leastBest = nullptr, *leastDefaults = nullptr; // the two where it is least
+    Figure minimum, minCi;
+    const Row *minBest = nullptr, *minDefaults = nullptr; // the two where it is least
 };
 
 // Of one experiment on one engine; `rows` must live on.

@@ -21,9 +21,9 @@ std::string Engines::missing(const std::string& name) const {
     return kind->make ? "" : kind->missing;
 }
 
-std::uint32_t Engines::mostRanks(const std::string& name) const {
+std::uint32_t Engines::maxRanks(const std::string& name) const {
     const EngineKind* kind = find(kinds_, name);
-    return kind == nullptr ? 0 : kind->mostRanks;
+    return kind == nullptr ? 0 : kind->maxRanks;
 }
 
 EnergyCounter Engines::energy(const std::string& name) const {

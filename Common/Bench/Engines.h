@@ -19,7 +19,7 @@ struct EngineKind {
     std::function<std::unique_ptr<app::Engine>(std::uint32_t threads)> make; // empty: there is none here
     std::string missing;                                                     // and this is why
     EnergyCounter energy = {};                                               // of its device alone; may be empty
-    std::uint32_t mostRanks = 1;                                             // that have something to render on
+    std::uint32_t maxRanks = 1;                                              // that have something to render on
 };
 
 // Engines are made when first used and keep the scene that they have. GPU engines also keep the pipeline that their
@@ -32,7 +32,7 @@ class Engines {
     std::string missing(const std::string& name) const;
 
     // Ranks above this number have nothing to render on.
-    std::uint32_t mostRanks(const std::string& name) const;
+    std::uint32_t maxRanks(const std::string& name) const;
 
     // Of this engine's device; empty: there is none.
     EnergyCounter energy(const std::string& name) const;

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Session/FilmRun.h"
+#include "Common/App/Session/FilmSubmission.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/Image/Summary.h"
 
@@ -18,10 +18,10 @@ constexpr std::uint32_t kWarmUpSpp = 16;        // one block
 constexpr double kDeviceWarmUpSeconds = 0.5;    // at least: an idle GPU may wait before it raises its clocks; then
 constexpr double kDeviceSlice = 0.06;           // it is ready when a slice of this many seconds
 constexpr double kStillRising = 1.03;           // has less than so many times the samples of the one before,
-constexpr double kMostDeviceWarmUpSeconds = 1;  // or after this time
+constexpr double kMaxDeviceWarmUpSeconds = 1;   // or after this time
 constexpr std::uint32_t kUnknownSpp = 1u << 30; // of a render that ends by time
 constexpr double kTimedSeconds = 0.25;          // a run that takes less is timed again,
-constexpr std::size_t kMostPasses = 9;          // so many times at most
+constexpr std::size_t kMaxPasses = 9;           // so many times at most
 
 // Of one step, from run to run.
 struct Times {
@@ -53,7 +53,7 @@ class Measurer {
         settings.adaptive = false;
         app::FilmRun film(engine_, scene_.camera, settings);
         double rate = 0;
-        while (film.seconds() < kMostDeviceWarmUpSeconds) {
+        while (film.seconds() < kMaxDeviceWarmUpSeconds) {
             const std::uint64_t samples = film.status().samplesDone;
             const double seconds = film.seconds();
             film.limit({.seconds = device ? kDeviceSlice : kWarmUpSeconds});
@@ -73,7 +73,7 @@ class Measurer {
         });
         run_.report = engine_.report();
         double spent = done_.seconds;
-        for (std::size_t pass = 1; pass < kMostPasses && spent < kTimedSeconds && !stop_; ++pass) {
+        for (std::size_t pass = 1; pass < kMaxPasses && spent < kTimedSeconds && !stop_; ++pass) {
             climb(ladder, [&](std::size_t step) {
                 if (step < times.size()) times[step].add(done_);
             });

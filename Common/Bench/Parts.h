@@ -35,7 +35,7 @@ struct PartRow {
     std::uint64_t samples = 0;
     app::RayCounts rays;
     std::string kernel;
-    std::uint32_t features = 0;
+    shared::Features features;
     std::vector<app::ShaderFigure> shaders;
 };
 

@@ -14,8 +14,8 @@ namespace {
 
 using image::Image;
 
-constexpr std::uint32_t kWidest = 180;   // pixels
-constexpr std::size_t kMostPictures = 8; // configurations in a grid
+constexpr std::uint32_t kWidest = 180;  // pixels
+constexpr std::size_t kMaxPictures = 8; // configurations in a grid
 
 // Means over squares of pixels of what a screen shows.
 Image shrunk(const Image& image) {
@@ -70,7 +70,7 @@ PictureGrid makeGrid(const Experiment& experiment, const std::vector<Measured>& 
         if (!one.runs.front().snapshots.empty()) spp = std::min(spp, one.runs.front().snapshots.back().spp);
     PictureGrid grid{experiment.name, measured.front().config.scene, {}};
     grid.pictures.push_back({"reference", shown(reference.mean)});
-    for (std::size_t i = 0; i < std::min(measured.size(), kMostPictures); ++i) {
+    for (std::size_t i = 0; i < std::min(measured.size(), kMaxPictures); ++i) {
         const Snapshot* snapshot = atSpp(measured[i], spp);
         if (snapshot == nullptr) continue;
         const std::string caption =

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "Common/App/Session/FilmRun.h"
+#include "Common/App/Session/FilmSubmission.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Image/Metrics.h"
 
@@ -15,8 +15,8 @@ namespace fs = std::filesystem;
 using image::Film;
 
 constexpr double kVarianceShare = 1.0 / 9; // of the measured mse: a third in standard errors
-constexpr double kMostGrowth = 8; // of the number of samples in one step, since the least error is only estimated
-constexpr std::uint64_t kMostSpp = 1u << 30;
+constexpr double kMaxGrowth = 8; // of the number of samples in one step, since the least error is only estimated
+constexpr std::uint64_t kMaxSpp = 1u << 30;
 
 app::ReferenceKey keyOf(const ReferenceRequest& request) {
     return {request.scene->hash, request.scene->camera, request.width, request.height, request.maxDepth};
@@ -28,25 +28,25 @@ double excess(const image::Reference& reference, std::span<const image::Image* c
     for (const float value : reference.variance.data) variance += value;
     variance /= static_cast<double>(reference.variance.data.size());
     const double relative = image::referenceRelMse(reference.mean, reference.variance);
-    double most = 0;
+    double maximum = 0;
     for (const image::Image* image : measured) {
         const image::ErrorFigures figures = image::compare(*image, reference.mean);
         // What chance leaves of an error after subtraction is not taken below a tenth of what was seen.
         const double mse = std::max(figures.mse - variance, 0.1 * figures.mse);
         const double relmse = std::max(figures.relmse - relative, 0.1 * figures.relmse);
-        if (mse > 0) most = std::max(most, variance / (kVarianceShare * mse));
+        if (mse > 0) maximum = std::max(maximum, variance / (kVarianceShare * mse));
         const image::MeanSquares upTo1 = image::meanSquaresUpTo1(*image, reference);
         const double mseUpTo1 = std::max(upTo1.mse, 0.1 * (upTo1.mse + upTo1.referenceMse));
-        if (relmse > 0) most = std::max(most, relative / (kVarianceShare * relmse));
-        if (mseUpTo1 > 0) most = std::max(most, upTo1.referenceMse / (kVarianceShare * mseUpTo1));
+        if (relmse > 0) maximum = std::max(maximum, relative / (kVarianceShare * relmse));
+        if (mseUpTo1 > 0) maximum = std::max(maximum, upTo1.referenceMse / (kVarianceShare * mseUpTo1));
     }
-    return most;
+    return maximum;
 }
 
 std::uint64_t roundedUp(double spp) {
     constexpr std::uint64_t kRound = std::uint64_t{Film::kBlock} * app::kReferenceReplicates;
-    const auto rounds = static_cast<std::uint64_t>(std::ceil(std::min(spp, double(kMostSpp)) / double(kRound)));
-    return std::clamp(rounds * kRound, kRound, kMostSpp);
+    const auto rounds = static_cast<std::uint64_t>(std::ceil(std::min(spp, double(kMaxSpp)) / double(kRound)));
+    return std::clamp(rounds * kRound, kRound, kMaxSpp);
 }
 
 } // namespace
@@ -71,8 +71,8 @@ std::optional<ReferenceResult> ReferenceStore::provide(const ReferenceRequest& r
             result.spp = film.minSamples();
             const double factor = excess(result.reference, measured);
             result.sufficient = factor <= 1;
-            if (result.sufficient || stop || result.seconds >= request.maxSeconds || result.spp >= kMostSpp) break;
-            target = static_cast<double>(result.spp) * std::clamp(1.2 * factor, 1.5, kMostGrowth);
+            if (result.sufficient || stop || result.seconds >= request.maxSeconds || result.spp >= kMaxSpp) break;
+            target = static_cast<double>(result.spp) * std::clamp(1.2 * factor, 1.5, kMaxGrowth);
         }
         settings.spp = static_cast<std::uint32_t>(roundedUp(target));
         app::FilmRun run(engine, request.scene->camera, settings, std::move(film));

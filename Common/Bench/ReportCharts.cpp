@@ -13,7 +13,7 @@ namespace {
 
 using Rows = std::vector<const Row*>;
 
-constexpr std::size_t kMostLines = 10; // of a chart
+constexpr std::size_t kMaxLines = 10; // of a chart
 
 // Axes, but `except`, with more than one value among the rows.
 std::vector<const Axis*> varied(const Rows& rows, const std::set<std::string_view>& except) {
@@ -52,7 +52,7 @@ Chart errorChart(const Rows& rows, const std::string& title, Figure Row::*x, con
 std::vector<std::pair<std::string, Rows>> readable(const Rows& rows, const std::string& scene) {
     std::set<std::string> lines;
     for (const Row* row : rows) lines.insert(keyOf(row->config));
-    if (lines.size() <= kMostLines) return {{scene, rows}};
+    if (lines.size() <= kMaxLines) return {{scene, rows}};
     std::vector<std::pair<std::string, Rows>> parts;
     for (const std::string_view engine : kEngines) {
         Rows own;

@@ -73,9 +73,9 @@ Document defaultsBlocks(const std::vector<Row>& rows) {
         const Reach& reach = row.reach;
         table.rows.push_back({row.experiment, row.engine, row.pixels->name,
                               std::to_string(reach.places) + " of " + std::to_string(row.places),
-                              withInterval(reach.mean, reach.meanCi), withInterval(reach.least, reach.leastCi),
-                              reach.leastBest->config.scene,
-                              differences(reach.leastBest->config, reach.leastDefaults->config)});
+                              withInterval(reach.mean, reach.meanCi), withInterval(reach.minimum, reach.minCi),
+                              reach.minBest->config.scene,
+                              differences(reach.minBest->config, reach.minDefaults->config)});
     }
     if (table.rows.empty()) return {};
     return {

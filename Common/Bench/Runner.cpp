@@ -23,7 +23,7 @@ namespace {
 using image::Image;
 
 constexpr double kRateSeconds = 0.3; // of sampling
-constexpr double kLeastFall = -0.5;  // slope of mse over samples that is still one
+constexpr double kMinFall = -0.5;    // slope of mse over samples that is still one
 constexpr double kLargestZ = 4;
 
 std::string format(const char* pattern, double value) {
@@ -166,9 +166,9 @@ std::vector<SuiteRunner::Group> SuiteRunner::groupsOf(const Experiment& experime
             notice("Rows of several ranks are left out: " + hooks_.launcher.missing + ".");
             continue;
         }
-        if (const std::uint32_t most = engines_.mostRanks(config.engine); config.ranks > std::max(1u, most)) {
-            notice("Engine " + config.engine + ": more than " + std::to_string(most) +
-                   (most == 1 ? " rank is" : " ranks are") +
+        if (const std::uint32_t maximum = engines_.maxRanks(config.engine); config.ranks > std::max(1u, maximum)) {
+            notice("Engine " + config.engine + ": more than " + std::to_string(maximum) +
+                   (maximum == 1 ? " rank is" : " ranks are") +
                    " left out, which would have nothing of their own to render on.");
             continue;
         }
@@ -233,7 +233,7 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
         }
     for (const Series& series : makeSeries(experiment, all)) {
         results_.series.push_back(series);
-        if (series.tailSlope.value_or(-1) > kLeastFall && referenceSuffices_)
+        if (series.tailSlope.value_or(-1) > kMinFall && referenceSuffices_)
             notice(experiment.name + ": " + describe(experiment, series.config) +
                    ": the error hardly falls at the end, with slope " + format("%.2f", *series.tailSlope) + ".");
     }
@@ -250,9 +250,9 @@ void SuiteRunner::runGroup(const Experiment& experiment, Group& group) {
 
 Ladder SuiteRunner::ladderFor(const Experiment& experiment, const Config& config) {
     Ladder ladder{experiment.spp, experiment.seconds, experiment.maxSeconds};
-    const auto most = experiment.maxSpp.find(config.engine);
-    if (most != experiment.maxSpp.end())
-        std::erase_if(ladder.spp, [&](std::uint32_t spp) { return spp > most->second; });
+    const auto maximum = experiment.maxSpp.find(config.engine);
+    if (maximum != experiment.maxSpp.end())
+        std::erase_if(ladder.spp, [&](std::uint32_t spp) { return spp > maximum->second; });
     return ladder;
 }
 

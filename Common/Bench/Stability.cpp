@@ -146,8 +146,7 @@ class StabilitySuite {
         while (!engine_.renderSome({std::chrono::seconds(1), nullptr}).finished) {
         }
         Rendered r;
-        const app::FilmEstimate estimate =
-            app::estimate(engine_.film(), app::dependentSide(engine_.report().features));
+        const app::FilmEstimate estimate = app::estimate(engine_.film(), app::dependentSide(engine_.report().features));
         for (std::size_t c = 0; c < 3; ++c) {
             r.mean += estimate.meanRadiance[c] / 3;
             if (estimate.standardError) r.standardError = std::max(r.standardError, (*estimate.standardError)[c]);

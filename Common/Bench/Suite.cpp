@@ -90,9 +90,9 @@ void readKeys(const JsonNode& node, Experiment& experiment) {
     if (const auto repeats = node.find("repeats")) experiment.repeats = wholeWithin(*repeats, 1, 1000);
     if (const auto error = node.find("error")) experiment.error = error->boolean();
     if (const auto images = node.find("images")) experiment.images = images->boolean();
-    if (const auto most = node.find("max_seconds")) experiment.maxSeconds = most->within(1e-3, kLongest);
-    if (const auto most = node.find("max_spp"))
-        most->forEachMember([&](const std::string& engine, const JsonNode& value) {
+    if (const auto maximum = node.find("max_seconds")) experiment.maxSeconds = maximum->within(1e-3, kLongest);
+    if (const auto maximum = node.find("max_spp"))
+        maximum->forEachMember([&](const std::string& engine, const JsonNode& value) {
             experiment.maxSpp[engineName(engine, value)] = wholeWithin(value, 1, 0x7fffffffu);
         });
     if (const auto baseline = node.find("baseline"))

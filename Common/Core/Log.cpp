@@ -42,16 +42,16 @@ void setUpLog(const LogSettings& settings) try {
     console->set_level(standardErrorLevel(settings));
     console->set_pattern("%n: %^%l%$: %v");
     auto logger = std::make_shared<spdlog::logger>(settings.program, console);
-    Level least = console->level();
+    Level minimum = console->level();
     if (!settings.file.empty()) {
         auto file = std::make_shared<spdlog::sinks::basic_file_sink_mt>(settings.file);
         file->set_level(std::min(console->level(), Level::info));
         file->set_pattern("%Y-%m-%dT%H:%M:%S.%e %l: %v");
-        least = std::min(least, file->level());
+        minimum = std::min(minimum, file->level());
         logger->sinks().push_back(file);
         logger->flush_on(Level::trace); // a crash must not take the last lines with it
     }
-    logger->set_level(least);
+    logger->set_level(minimum);
     spdlog::set_default_logger(logger);
 } catch (const spdlog::spdlog_ex& error) {
     throw RenderError(settings.file + ": the log cannot be written: " + error.what());

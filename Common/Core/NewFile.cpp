@@ -61,9 +61,9 @@ void openStandardStreams() {
 #endif
 
 fs::path createNumbered(const fs::path& folder, const fs::path& name) {
-    constexpr int kMostNumbers = 10000;
+    constexpr int kMaxNumbers = 10000;
     fs::path path = folder / name;
-    for (int number = 2; number < kMostNumbers; ++number) {
+    for (int number = 2; number < kMaxNumbers; ++number) {
         const std::error_code error = createExclusively(path, Access::Everybody);
         if (!error) return path;
         if (error != std::errc::file_exists)

@@ -19,7 +19,7 @@ struct Character {
 
 // The character that a text begins with, if that is valid UTF-8 (RFC 3629, section 4).
 std::optional<Character> firstCharacter(std::string_view text) {
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000}; // by length: what is less has a shorter form
+    constexpr std::uint32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000}; // by length: what is less has a shorter form
     const auto lead = static_cast<unsigned char>(text.front());
     if (lead < 0x80) return Character{lead, 1};
     const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
@@ -30,7 +30,7 @@ std::optional<Character> firstCharacter(std::string_view text) {
         code = code << 6 | (static_cast<unsigned char>(text[i]) & 0x3fu);
     }
     const bool isSurrogate = code >= 0xd800 && code <= 0xdfff;
-    if (code < kLeast[bytes] || code > 0x10ffff || isSurrogate) return std::nullopt;
+    if (code < kMin[bytes] || code > 0x10ffff || isSurrogate) return std::nullopt;
     return Character{code, bytes};
 }
 
@@ -72,16 +72,16 @@ void append(std::string& result, std::string_view text) {
 
 } // namespace
 
-std::string printable(std::string_view text, std::size_t most) {
+std::string printable(std::string_view text, std::size_t maximum) {
     std::string result;
-    if (text.size() <= most) {
+    if (text.size() <= maximum) {
         append(result, text);
         return result;
     }
     // Between characters. Where a text begins says most; its end tells what is allowed.
-    std::size_t headEnd = most / 3 * 2;
+    std::size_t headEnd = maximum / 3 * 2;
     while (headEnd > 0 && isContinuation(text[headEnd])) --headEnd;
-    std::size_t tailStart = text.size() - most / 3;
+    std::size_t tailStart = text.size() - maximum / 3;
     while (tailStart < text.size() && isContinuation(text[tailStart])) ++tailStart;
     append(result, text.substr(0, headEnd));
     result += " [" + std::to_string(tailStart - headEnd) + " bytes more] ";

@@ -12,6 +12,7 @@
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
 #include "Common/App/Session/Stopwatch.h"
+#include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/ImGuiLayer.h"
 #include "Common/Gui/Panels/EnginePanel.h"
 #include "Common/Gui/Panels/Panels.h"
@@ -22,7 +23,6 @@
 #include "Common/Gui/SessionLink.h"
 #include "Common/Gui/Shortcuts.h"
 #include "Common/Gui/Snapshot.h"
-#include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/UserFiles.h"
 #include "Common/Image/ImageIo.h"
 #include "Common/Vulkan/Instance.h"
@@ -132,7 +132,7 @@ class App {
         bool operator==(const Sizes&) const = default;
     };
     Sizes sizes_;
-    TurnMeter meter_;
+    FrameTimer meter_;
     bool flying_ = false;
     PresentThread presenting_{presenter_};             // behind all that a frame draws
     app::WindowLossGuard guard_{[this] { rescue(); }}; // last: nothing else is gone when it acts
@@ -168,8 +168,8 @@ bool App::isFrameDue() {
         framesSinceInput_ = 0;
     }
     if (window_.takeChange()) isNews_ = true;
-    const double least = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
-    return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= least);
+    const double minimum = !device_.isSoftware() ? 0 : isAwake() ? kSoftFrameSeconds : kSoftNewsSeconds;
+    return isInput || ((isAwake() || isNews_) && sinceFrame_.seconds() >= minimum);
 }
 
 // For input, for something new of the session, or for the time of another frame. The session's threads leave the window

@@ -185,7 +185,7 @@ void FileBrowser::drawEntries(std::optional<Path>& chosen) {
     }
     if (!list_.failure.empty()) note(printable(list_.failure));
     if (list_.failure.empty() && indices.empty()) note("Nothing here that can be chosen");
-    if (list_.isCut) note("Only the first " + std::to_string(app::FolderList::kMost) + " are listed");
+    if (list_.isCut) note("Only the first " + std::to_string(app::FolderList::kMax) + " are listed");
 }
 
 std::optional<FileBrowser::Path> FileBrowser::draw(const std::vector<std::string>& recent) {

@@ -118,7 +118,7 @@ void Gui::setRayTracing(bool on) {
 }
 
 void Gui::scaleInterface(float change) {
-    settings.uiScale = std::clamp(settings.uiScale + change, app::kLeastUiScale, app::kMostUiScale);
+    settings.uiScale = std::clamp(settings.uiScale + change, app::kMinUiScale, app::kMaxUiScale);
 }
 
 std::string Gui::pictureTitle() const {

@@ -12,11 +12,11 @@
 #include "Common/App/Interactive/InteractiveSession.h"
 #include "Common/App/Interactive/OtherEngine.h"
 #include "Common/Gui/FileBrowser.h"
+#include "Common/Gui/FrameTimer.h"
 #include "Common/Gui/Inspector.h"
 #include "Common/Gui/Layout.h"
 #include "Common/Gui/RunBoard.h"
 #include "Common/Gui/Thumbnails.h"
-#include "Common/Gui/TurnMeter.h"
 #include "Common/Gui/Window.h"
 
 namespace rt::gui {

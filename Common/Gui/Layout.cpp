@@ -13,11 +13,11 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kSideWidth = 372;                             // of the fixed layout, at scale 1
-constexpr float kBottomShare = 0.4f;                          // of the height; where that is too low
-constexpr float kBottomHeight = 21, kMostBottomShare = 0.55f; // in heights of the font, and at most
-constexpr float kToolbarPadding = 5;                          // above and below its buttons, at scale 1
-constexpr const char* kHeaderTitle = "Render control";        // of the header's window where windows dock
+constexpr float kSideWidth = 372;                            // of the fixed layout, at scale 1
+constexpr float kBottomShare = 0.4f;                         // of the height; where that is too low
+constexpr float kBottomHeight = 21, kMaxBottomShare = 0.55f; // in heights of the font, and at most
+constexpr float kToolbarPadding = 5;                         // above and below its buttons, at scale 1
+constexpr const char* kHeaderTitle = "Render control";       // of the header's window where windows dock
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -47,7 +47,7 @@ float drawToolbar(const Edges& edges, float scale, float room) {
 
 // Of a panel at the bottom: high enough for its contents, and the picture keeps most of the window that is not too low.
 float bottomHeight(float height) {
-    const float low = std::min(kBottomHeight * ImGui::GetFontSize(), kMostBottomShare * height);
+    const float low = std::min(kBottomHeight * ImGui::GetFontSize(), kMaxBottomShare * height);
     return std::floor(std::max(kBottomShare * height, low));
 }
 

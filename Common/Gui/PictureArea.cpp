@@ -14,8 +14,8 @@ namespace rt::gui {
 namespace {
 
 constexpr double kRadiansPerPixel = 0.004;
-constexpr float kZoomStep = 1.2f, kLeastZoom = 0.02f, kMostZoom = 64;
-constexpr std::size_t kMostNameBytes = 60; // of a material
+constexpr float kZoomStep = 1.2f, kMinZoom = 0.02f, kMaxZoom = 64;
+constexpr std::size_t kMaxNameBytes = 60; // of a material
 
 } // namespace
 
@@ -114,7 +114,7 @@ void PictureArea::inspect(const std::optional<Pixel>& pixel) {
     gui_.inspected = inspectPixel(picture, gui_.held ? gui_.heldRadiance.get() : nullptr, *pixel);
     if (gui_.inspected.empty()) return;
     const std::string material = materialAt(*pixel, *picture.radiance);
-    if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMostNameBytes), "", ""});
+    if (!material.empty()) gui_.inspected.push_back({"material", printable(material, kMaxNameBytes), "", ""});
 }
 
 void PictureArea::handlePointer() {
@@ -160,7 +160,7 @@ void PictureArea::turnWheel() {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl) { // about the pointer
         const float before = scale();
-        const float after = std::clamp(before * std::pow(kZoomStep, io.MouseWheel), kLeastZoom, kMostZoom);
+        const float after = std::clamp(before * std::pow(kZoomStep, io.MouseWheel), kMinZoom, kMaxZoom);
         const float x = io.MousePos.x - inner_.x - 0.5f * inner_.width;
         const float y = io.MousePos.y - inner_.y - 0.5f * inner_.height;
         gui_.view.panX = x - (x - gui_.view.panX) * after / before;

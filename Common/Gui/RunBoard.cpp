@@ -22,7 +22,7 @@ void RunBoard::update(app::RunHistory& history, const std::string& scene) {
 void RunBoard::rebuild(const std::vector<app::RunRecord>& records) {
     isStale_ = false;
     std::vector<const app::RunRecord*> runs, marked; // the newest first
-    for (auto record = records.rbegin(); record != records.rend() && runs.size() < kMostRuns; ++record) {
+    for (auto record = records.rbegin(); record != records.rend() && runs.size() < kMaxRuns; ++record) {
         if ((!scene_.empty() && record->scene != scene_) || hidden_.count(keyOf(*record)) > 0) continue;
         runs.push_back(&*record);
         if (isSelected(*record)) marked.push_back(&*record);

@@ -12,7 +12,7 @@ namespace rt::gui {
 
 class RunBoard {
   public:
-    static constexpr std::size_t kMostRuns = 200; // the newest
+    static constexpr std::size_t kMaxRuns = 200; // the newest
 
     // Once a frame, before all else: the runs of one scene, or of all where it is empty, but for the hidden ones.
     void update(app::RunHistory& history, const std::string& scene);

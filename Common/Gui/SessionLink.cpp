@@ -64,9 +64,9 @@ void SessionLink::take() {
 
 // Small differences between two pictures of a film do not make it flicker.
 void SessionLink::followExposure() {
-    constexpr float kLeastStep = 0.1f; // stops
+    constexpr float kMinStep = 0.1f; // stops
     const float wanted = image::autoExposure(*gui_.state.picture.radiance);
-    if (std::abs(wanted - gui_.autoExposure) > kLeastStep) gui_.autoExposure = wanted;
+    if (std::abs(wanted - gui_.autoExposure) > kMinStep) gui_.autoExposure = wanted;
 }
 
 // The scene that there is, and among the files that were opened those that load.
@@ -93,7 +93,7 @@ void SessionLink::followFile() {
     constexpr double kSeconds = 0.5; // between two looks
     if (sinceLook_.seconds() < kSeconds) return;
     sinceLook_ = {};
-    const std::optional<app::FileMark> mark = app::markOf(gui_.state.source);
+    const std::optional<app::FileFingerprint> mark = app::markOf(gui_.state.source);
     const bool isSettled = std::exchange(seenMark_, mark) == mark;
     if (!mark || !isSettled || mark == gui_.state.sourceMark || mark == askedMark_) return;
     if (gui_.session.reopen(mark->file)) askedMark_ = mark; // once, also where it does not load

@@ -28,7 +28,8 @@ class SessionLink {
     const app::Options& options_;
     Gui& gui_;
     Presenter& presenter_;
-    std::optional<app::FileMark> seenMark_, askedMark_; // of the scene's file: at the last look; when it was read again
+    std::optional<app::FileFingerprint> seenMark_,
+        askedMark_; // of the scene's file: at the last look; when it was read again
     app::Stopwatch sinceLook_;
     std::string reference_; // to be loaded when there is something to compare with; empty: none or done
 

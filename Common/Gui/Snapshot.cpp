@@ -75,9 +75,9 @@ class Target {
 
 VkRect2D within(const Rect& part, VkExtent2D extent) {
     const auto side = [](float low, float length, std::uint32_t limit) {
-        const float most = static_cast<float>(limit);
-        const float from = std::clamp(std::floor(low), 0.0f, most - 1);
-        const float to = std::clamp(std::ceil(low + length), from + 1, most);
+        const float maximum = static_cast<float>(limit);
+        const float from = std::clamp(std::floor(low), 0.0f, maximum - 1);
+        const float to = std::clamp(std::ceil(low + length), from + 1, maximum);
         return std::pair{static_cast<std::int32_t>(from), static_cast<std::uint32_t>(to - from)};
     };
     const auto [x, width] = side(part.x, part.width, extent.width);

@@ -14,10 +14,11 @@ std::string elided(const std::string& text, float width, const TextWidth& widthO
     return "";
 }
 
-std::vector<std::string> elidedLines(const std::string& text, float width, std::size_t most, const TextWidth& widthOf) {
+std::vector<std::string> elidedLines(const std::string& text, float width, std::size_t maximum,
+                                     const TextWidth& widthOf) {
     std::vector<std::string> lines;
     std::size_t from = 0;
-    while (from < text.size() && lines.size() + 1 < most) {
+    while (from < text.size() && lines.size() + 1 < maximum) {
         std::size_t end = text.size(); // of the line: the last space up to which it fits
         while (end > from && end != text.npos && widthOf(text.substr(from, end - from)) > width)
             end = text.rfind(' ', end - 1);

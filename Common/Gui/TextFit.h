@@ -13,7 +13,8 @@ using TextWidth = std::function<float(const std::string&)>;
 // The beginning of a text, ended by dots where it is wider than that; empty where not even dots fit.
 std::string elided(const std::string& text, float width, const TextWidth& widthOf);
 // A text broken between words into at most so many lines; the last one is ended by dots where there is more.
-std::vector<std::string> elidedLines(const std::string& text, float width, std::size_t most, const TextWidth& widthOf);
+std::vector<std::string> elidedLines(const std::string& text, float width, std::size_t maximum,
+                                     const TextWidth& widthOf);
 // Whether a text contains another one, upper and lower case of ASCII being the same.
 bool contains(std::string_view text, std::string_view part);
 

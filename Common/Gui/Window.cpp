@@ -112,8 +112,8 @@ void Window::fitMonitor(const WindowPlace& place) {
     if (monitor == nullptr) return;
     int x = 0, y = 0, width = 0, height = 0;
     glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
-    const auto fit = [scale = monitorScale()](int length, int most) {
-        return std::max(1, std::min(static_cast<int>(std::lround(scale * static_cast<float>(length))), most));
+    const auto fit = [scale = monitorScale()](int length, int maximum) {
+        return std::max(1, std::min(static_cast<int>(std::lround(scale * static_cast<float>(length))), maximum));
     };
     glfwSetWindowSize(window_, fit(place.width, width), fit(place.height, height));
 }

@@ -25,10 +25,10 @@ ImageRows toDisplay(const ImageRows& radiance, float exposure, std::uint32_t cur
 }
 
 float autoExposure(const Image& radiance) {
-    constexpr std::size_t kMostPixels = 1 << 16; // that are looked at
-    constexpr double kMiddleGrey = 0.18, kDarkest = 0.1, kBrightest = 0.05, kMostStops = 20;
+    constexpr std::size_t kMaxPixels = 1 << 16; // that are looked at
+    constexpr double kMiddleGrey = 0.18, kDarkest = 0.1, kBrightest = 0.05, kMaxStops = 20;
     const std::size_t pixels = std::size_t{radiance.width} * radiance.height;
-    const std::size_t step = std::max<std::size_t>(1, pixels / kMostPixels);
+    const std::size_t step = std::max<std::size_t>(1, pixels / kMaxPixels);
     std::vector<float> stops;
     for (std::size_t i = 0; i < pixels; i += step) {
         const float* rgb = &radiance.data[i * radiance.channels];
@@ -41,7 +41,7 @@ float autoExposure(const Image& radiance) {
     const auto from = static_cast<std::ptrdiff_t>(kDarkest * count);
     const auto to = std::max(from + 1, static_cast<std::ptrdiff_t>((1 - kBrightest) * count));
     const double mean = std::accumulate(stops.begin() + from, stops.begin() + to, 0.0) / static_cast<double>(to - from);
-    return static_cast<float>(std::clamp(std::log2(kMiddleGrey) - mean, -kMostStops, kMostStops));
+    return static_cast<float>(std::clamp(std::log2(kMiddleGrey) - mean, -kMaxStops, kMaxStops));
 }
 
 } // namespace rt::image

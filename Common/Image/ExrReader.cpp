@@ -27,7 +27,7 @@ namespace rt::image {
 
 namespace {
 
-constexpr std::size_t kMostText = 200; // bytes of names in files and of the library's messages that are shown
+constexpr std::size_t kMaxText = 200; // bytes of names in files and of the library's messages that are shown
 
 // The bytes of a file as the library reads them.
 class ByteStream : public Imf::IStream {
@@ -67,7 +67,7 @@ std::string reasonOf(const std::exception& error) {
     std::string text = error.what();
     if (const std::size_t at = text.rfind(kNameEnd); at != std::string::npos) text.erase(0, at + kNameEnd.size());
     while (text.ends_with('.')) text.pop_back();
-    return printable(text, kMostText);
+    return printable(text, kMaxText);
 }
 
 // read(Imf::MultiPartInputFile&) of the file; what the library throws becomes an InputError.
@@ -95,7 +95,7 @@ class Part {
   public:
     Part(const Imf::Header& header, const std::string& name) : header_(header), name_(name) {
         if (!isTiled() && header.type() != Imf::SCANLINEIMAGE)
-            fail("EXR images of type \"" + printable(header.type(), kMostText) +
+            fail("EXR images of type \"" + printable(header.type(), kMaxText) +
                  "\" are not supported (allowed: " + Imf::SCANLINEIMAGE + ", " + Imf::TILEDIMAGE + ")");
     }
 
@@ -114,9 +114,9 @@ class Part {
 
         // The library takes memory for a whole chunk, however little of it there is.
         constexpr double kUsualChunk = 64 << 20;
-        const double most = std::max(kUsualChunk, kDensest * double(fileBytes));
-        if (bytesPerPixel(false) * chunkPixels() > most)
-            fail("truncated EXR file: chunks of more than " + std::to_string(std::int64_t(most)) +
+        const double maximum = std::max(kUsualChunk, kDensest * double(fileBytes));
+        if (bytesPerPixel(false) * chunkPixels() > maximum)
+            fail("truncated EXR file: chunks of more than " + std::to_string(std::int64_t(maximum)) +
                  " bytes in a file of " + std::to_string(fileBytes));
     }
 
@@ -141,7 +141,7 @@ class Part {
         std::string list;
         for (auto i = header_.channels().begin(); i != header_.channels().end(); ++i)
             list += (list.empty() ? "" : ", ") + std::string(i.name());
-        return printable(list, kMostText);
+        return printable(list, kMaxText);
     }
     // Of all channels, as they are stored or as if all were of the narrowest type.
     double bytesPerPixel(bool isNarrow) const {

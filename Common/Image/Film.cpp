@@ -102,15 +102,15 @@ std::uint64_t Film::samples(std::uint32_t tile) const {
 }
 
 std::uint64_t Film::minSamples() const {
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, samples(tile));
-    return tileCount() == 0 ? 0 : least;
+    std::uint64_t minimum = std::numeric_limits<std::uint64_t>::max();
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) minimum = std::min(minimum, samples(tile));
+    return tileCount() == 0 ? 0 : minimum;
 }
 
 std::uint64_t Film::maxSamples() const {
-    std::uint64_t most = 0;
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) most = std::max(most, samples(tile));
-    return most;
+    std::uint64_t maximum = 0;
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) maximum = std::max(maximum, samples(tile));
+    return maximum;
 }
 
 std::uint32_t Film::minReplicateSamples() const {
@@ -129,19 +129,19 @@ std::uint64_t Film::samplesPerPixel() const {
 }
 
 std::uint64_t Film::nextSample(std::uint32_t tile, std::uint64_t spp) const {
-    std::uint64_t least = kNoSample;
+    std::uint64_t minimum = kNoSample;
     for (std::uint32_t r = 0; r < desc_.replicates; ++r) {
         if (hasPlan() && samples(tile, r) >= planEnd(tile, r)) continue;
         const std::uint64_t next = std::uint64_t{samples(tile, r)} * desc_.replicates + r;
-        if (next < spp) least = std::min(least, next);
+        if (next < spp) minimum = std::min(minimum, next);
     }
-    return least;
+    return minimum;
 }
 
 std::uint64_t Film::nextSample(std::uint64_t spp) const {
-    std::uint64_t least = kNoSample;
-    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) least = std::min(least, nextSample(tile, spp));
-    return least;
+    std::uint64_t minimum = kNoSample;
+    for (std::uint32_t tile = 0; tile < tileCount(); ++tile) minimum = std::min(minimum, nextSample(tile, spp));
+    return minimum;
 }
 
 void Film::setPlan(std::vector<std::uint32_t> plan) {

@@ -80,8 +80,8 @@ void Film::writeState(std::ostream& out) const {
 
 Film Film::readState(const FilmDesc& desc, std::istream& in, const std::string& name) {
     StateReader reader(in, name);
-    const double least = 1.0 * desc.width * desc.height * desc.replicates * 3 * sizeof(double); // bytes
-    if (remainingBytes(in).value_or(least) < least) reader.fail("ends before its image does");
+    const double minimum = 1.0 * desc.width * desc.height * desc.replicates * 3 * sizeof(double); // bytes
+    if (remainingBytes(in).value_or(minimum) < minimum) reader.fail("ends before its image does");
 
     Film film(desc);
     reader.get(std::span(film.samples_));

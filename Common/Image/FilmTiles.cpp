@@ -70,15 +70,15 @@ TileList allTiles(const Film& film) {
 }
 
 std::uint64_t minSamples(const Film& film, std::span<const std::uint32_t> tiles) {
-    std::uint64_t least = std::numeric_limits<std::uint64_t>::max();
-    for (const std::uint32_t tile : tiles) least = std::min(least, film.samples(tile));
-    return tiles.empty() ? 0 : least;
+    std::uint64_t minimum = std::numeric_limits<std::uint64_t>::max();
+    for (const std::uint32_t tile : tiles) minimum = std::min(minimum, film.samples(tile));
+    return tiles.empty() ? 0 : minimum;
 }
 
 std::uint64_t nextSample(const Film& film, std::span<const std::uint32_t> tiles, std::uint64_t spp) {
-    std::uint64_t least = Film::kNoSample;
-    for (const std::uint32_t tile : tiles) least = std::min(least, film.nextSample(tile, spp));
-    return least;
+    std::uint64_t minimum = Film::kNoSample;
+    for (const std::uint32_t tile : tiles) minimum = std::min(minimum, film.nextSample(tile, spp));
+    return minimum;
 }
 
 std::uint64_t missingSamples(const Film& film, std::span<const std::uint32_t> tiles, std::uint64_t spp) {

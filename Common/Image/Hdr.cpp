@@ -30,11 +30,11 @@ void expand(const Rgbe& rgbe, float* pixel) {
 // Mantissas for the exponent of the largest component.
 Rgbe compress(const float* pixel) {
     constexpr float kLargest = 0x1.fffffep126f; // just below 256 2^(255 - 136)
-    constexpr float kLeast = 0x1p-128f; // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
+    constexpr float kMin = 0x1p-128f; // 128 2^(1 - 136) is the least with a full mantissa; what is less is black
     std::array<float, 3> color;
     for (std::size_t c = 0; c < 3; ++c) color[c] = std::clamp(pixel[c], 0.0f, kLargest);
     const float largest = std::max({color[0], color[1], color[2]});
-    if (largest < kLeast) return {};
+    if (largest < kMin) return {};
     int exponent = 0;
     static_cast<void>(std::frexp(largest, &exponent)); // the fraction is in [1/2, 1)
     Rgbe rgbe;

@@ -100,11 +100,11 @@ void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::st
 }
 
 // Which the decoders of sRGB count in integers.
-constexpr std::size_t kMostSrgbBytes = std::numeric_limits<int>::max();
+constexpr std::size_t kMaxSrgbBytes = std::numeric_limits<int>::max();
 
 // PNG, JPEG, BMP or TGA, as the bytes say, whatever the file is called.
 Texels decodeSrgb(std::span<const std::byte> bytes, const std::string& name) {
-    if (bytes.size() > kMostSrgbBytes) throw InputError(name + ": file is larger than 2 GiB");
+    if (bytes.size() > kMaxSrgbBytes) throw InputError(name + ": file is larger than 2 GiB");
     return isJpeg(bytes) ? decodeJpeg(bytes, name) : decodeStb(bytes, name);
 }
 
@@ -168,7 +168,7 @@ Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name) {
 }
 
 std::size_t texelCount(std::span<const std::byte> bytes) {
-    if (bytes.size() > kMostSrgbBytes) return 0;
+    if (bytes.size() > kMaxSrgbBytes) return 0;
     const double pixels = isJpeg(bytes) ? jpegPixels(bytes) : stbPixels(bytes);
     return static_cast<std::size_t>(std::clamp(pixels, 0.0, kDensest * double(bytes.size())));
 }

@@ -20,7 +20,7 @@ namespace {
 
 // A progressive file may add to its coefficients as often as it likes, each time to all of them: without a limit a
 // small file takes hours. Encoders make about ten scans.
-constexpr int kMostScans = 100;
+constexpr int kMaxScans = 100;
 
 // Fill bytes may precede any marker (ITU-T T.81, B.1.1.2), of which libjpeg takes none before a file's first.
 std::span<const std::byte> withoutFill(std::span<const std::byte> bytes) {
@@ -52,9 +52,9 @@ class JpegReader {
             if (level < 0 && isDamage(jpeg->err->msg_code)) jpeg->err->error_exit(jpeg);
         };
         progress_.progress_monitor = [](j_common_ptr jpeg) {
-            if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMostScans) return;
+            if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number <= kMaxScans) return;
             JpegReader& reader = of(jpeg);
-            std::snprintf(reader.message_.data(), reader.message_.size(), "more than %d scans", kMostScans);
+            std::snprintf(reader.message_.data(), reader.message_.size(), "more than %d scans", kMaxScans);
             std::longjmp(reader.failed_, 1);
         };
     }

@@ -11,10 +11,10 @@ namespace rt::image {
 namespace {
 
 // Tried at 16 to 1024 samples per pixel on nine scenes; none of them has a sharp optimum.
-constexpr std::uint32_t kLeastPilot = 4; // samples of a half
-constexpr double kRelative = 0.7;        // share of relMSE in the blend
-constexpr double kAdded = 0.5;           // to every pixel, of the mean
-constexpr double kMost = 16;             // for a pixel, of the mean
+constexpr std::uint32_t kMinPilot = 4; // samples of a half
+constexpr double kRelative = 0.7;      // share of relMSE in the blend
+constexpr double kAdded = 0.5;         // to every pixel, of the mean
+constexpr double kMax = 16;            // for a pixel, of the mean
 
 constexpr std::uint32_t kTile = Film::kTile;
 constexpr float kLargest = 1e30f; // in place of a variance that is no number, so that sums of it are
@@ -206,27 +206,27 @@ std::vector<float> importanceOf(const Noise& noise, std::uint32_t dependentSide,
         return part;
     });
     const double mean = sums.first / static_cast<double>(pixels);
-    for (float& value : importance) value = static_cast<float>(std::min(double{value} + kAdded * mean, kMost * mean));
+    for (float& value : importance) value = static_cast<float>(std::min(double{value} + kAdded * mean, kMax * mean));
     return importance;
 }
 
 // The factor at which max(least, factor * importance) sums up to `total`. The sum is a convex function of it, so that
 // Newton's method comes down to it from where no pixel is at the least.
-double factorFor(const std::vector<float>& importance, double least, double total, const RowLoop& loop) {
-    const auto sumsAt = [&](double factor, double least) { // of the samples, and their slope
+double factorFor(const std::vector<float>& importance, double minimum, double total, const RowLoop& loop) {
+    const auto sumsAt = [&](double factor, double minimum) { // of the samples, and their slope
         return loop.sum([&](std::size_t first, std::size_t end) {
             Sums part;
             for (std::size_t i = first; i < end; ++i) {
                 const double samples = factor * double{importance[i]};
-                part.first += std::max(samples, least);
-                part.second += samples > least ? double{importance[i]} : 0.0;
+                part.first += std::max(samples, minimum);
+                part.second += samples > minimum ? double{importance[i]} : 0.0;
             }
             return part;
         });
     };
     double factor = total / sumsAt(1, 0).first;
     for (;;) {
-        const Sums at = sumsAt(factor, least);
+        const Sums at = sumsAt(factor, minimum);
         const double next = at.second > 0 ? factor - (at.first - total) / at.second : factor;
         if (!(next < factor * (1 - 1e-9))) return factor;
         factor = next;
@@ -234,12 +234,12 @@ double factorFor(const std::vector<float>& importance, double least, double tota
 }
 
 // Samples of each pixel, at least `least`, `total` in all. What rounding takes from a pixel its successor gets.
-std::vector<std::uint32_t> allocate(const std::vector<float>& importance, std::uint32_t least, std::uint64_t total,
+std::vector<std::uint32_t> allocate(const std::vector<float>& importance, std::uint32_t minimum, std::uint64_t total,
                                     const RowLoop& loop) {
-    const double factor = factorFor(importance, least, static_cast<double>(total), loop);
-    const std::uint64_t spare = total - least * std::uint64_t{importance.size()};
+    const double factor = factorFor(importance, minimum, static_cast<double>(total), loop);
+    const std::uint64_t spare = total - minimum * std::uint64_t{importance.size()};
     const auto wantedBy = [&](std::size_t pixel) { // beyond the least
-        return std::max(factor * double{importance[pixel]} - least, 0.0);
+        return std::max(factor * double{importance[pixel]} - minimum, 0.0);
     };
     const auto due = [spare](double wanted) { return std::min(static_cast<std::uint64_t>(wanted + 0.5), spare); };
     const std::vector<Sums> chunks = loop.sumsOfChunks([&](std::size_t first, std::size_t end) {
@@ -259,7 +259,7 @@ std::vector<std::uint32_t> allocate(const std::vector<float>& importance, std::u
         for (std::size_t i = firstRow * loop.width(); i < end; ++i) {
             wanted += wantedBy(i);
             const std::uint64_t now = i + 1 == end ? last : std::clamp(due(wanted), given, last);
-            counts[i] = least + static_cast<std::uint32_t>(now - given);
+            counts[i] = minimum + static_cast<std::uint32_t>(now - given);
             given = now;
         }
     });
@@ -288,8 +288,8 @@ void putCounts(const std::vector<std::uint32_t>& counts, std::uint32_t half, con
 
 std::uint32_t pilotSamples(std::uint32_t spp) {
     const std::uint32_t pilot = std::bit_floor(spp / 4);
-    const bool fits = spp <= Film::kMaxSamples / kMost; // whatever a pixel gets
-    return pilot < kLeastPilot || !fits ? 0 : 2 * pilot;
+    const bool fits = spp <= Film::kMaxSamples / kMax; // whatever a pixel gets
+    return pilot < kMinPilot || !fits ? 0 : 2 * pilot;
 }
 
 std::vector<std::uint32_t> makeSamplePlan(const Film& film, std::uint32_t spp, std::uint32_t dependentSide,

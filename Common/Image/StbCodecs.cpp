@@ -28,7 +28,7 @@ struct FreePixels {
 // stb takes a PNG that is too large for it for no image at all.
 void checkPng(std::span<const std::byte> bytes, const std::string& name) {
     constexpr std::size_t kSignatureBytes = 8, kWidthAt = 16, kHeightAt = 20;
-    constexpr double kMostValues = 1 << 30;
+    constexpr double kMaxValues = 1 << 30;
     if (bytes.size() < kHeightAt + 4 || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", kSignatureBytes) != 0) return;
     const auto number = [bytes](std::size_t at) {
         std::uint32_t value = 0;
@@ -36,7 +36,7 @@ void checkPng(std::span<const std::byte> bytes, const std::string& name) {
         return value;
     };
     const std::uint32_t width = number(kWidthAt), height = number(kHeightAt);
-    if (3.0 * width * height > kMostValues)
+    if (3.0 * width * height > kMaxValues)
         throw InputError(name + ": image of " + std::to_string(width) + "x" + std::to_string(height) +
                          " pixels: a .png may have at most 2^30 values of red, green and blue");
     // stb takes memory for what a chunk states before it looks for the bytes.

@@ -14,9 +14,9 @@ Summary summarise(std::span<const double> values) {
     const Estimate mean = estimate(values);
     summary.mean = mean.mean;
     summary.median = median({values.begin(), values.end()});
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
-    summary.min = *least;
-    summary.max = *most;
+    const auto [minimum, maximum] = std::minmax_element(values.begin(), values.end());
+    summary.min = *minimum;
+    summary.max = *maximum;
     if (values.size() > 1) summary.halfWidth95 = studentQuantile(0.05, mean.dof) * std::sqrt(mean.varianceOfMean);
     return summary;
 }

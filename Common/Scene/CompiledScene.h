@@ -21,7 +21,7 @@ struct CompiledScene : shared::SceneArraysOf<std::vector> {
     std::string title;
     std::uint64_t hash = 0; // of everything that affects the image except camera and settings
 
-    std::uint32_t features = 0;
+    shared::Features features;
 
     shared::SceneGlobals globals{};
 

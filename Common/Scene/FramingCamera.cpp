@@ -14,8 +14,8 @@ namespace rt::scene {
 CameraDesc framingCamera(const Bounds& bounds) {
     // Whatever they are, the camera is one that a scene file may have, and its view is not lost to rounding.
     const glm::dvec3 center = glm::clamp(bounds.center(), -kLargest / 2, kLargest / 2);
-    const double least = std::max(1 / kLargest, 1e-7 * glm::length(center));
-    const double radius = std::clamp(bounds.radius(), least, kLargest / 10);
+    const double minimum = std::max(1 / kLargest, 1e-7 * glm::length(center));
+    const double radius = std::clamp(bounds.radius(), minimum, kLargest / 10);
     CameraDesc camera;
     camera.verticalFov = 40;
     camera.focusDistance = 1.05 * radius / std::sin(glm::radians(camera.verticalFov) / 2);

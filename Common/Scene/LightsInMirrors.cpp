@@ -18,8 +18,8 @@ namespace {
 
 using shared::Light;
 
-constexpr std::size_t kMostMirrors = 64;
-constexpr std::uint32_t kMostLightsInMirrors = 64;
+constexpr std::size_t kMaxMirrors = 64;
+constexpr std::uint32_t kMaxLightsInMirrors = 64;
 constexpr double kLargestSpot = 16; // its radius, in pixels: larger ones differ less within a pixel
 // Radiance in the middle of a spot, over that of the brightest light, that is worth edge rays.
 constexpr double kWorthwhileSpot = 0.005;
@@ -81,10 +81,10 @@ Ball ballAround(const Light& light) {
 // Which lights are seen as spots, and where. All lengths are the world's unless they are said to be pixels.
 class SpotImage {
   public:
-    SpotImage(const ImagePlane& plane, LightEdges& edges) : plane_(plane), edges_(edges) {}
+    SpotImage(const ImagePlane& plane, Silhouettes& edges) : plane_(plane), edges_(edges) {}
 
     // What the mirror makes of a light of this radiance, its greatest component, if it is more than `least`.
-    void add(const Mirror& mirror, const Ball& light, double radiance, double least) {
+    void add(const Mirror& mirror, const Ball& light, double radiance, double minimum) {
         const double towardsEye = mirror.heightOf(plane_.eye()), height = mirror.heightOf(light.center);
         if (!(towardsEye * height > 0)) return;
         // The spot is a ball behind the mirror: the light's image, as far away as the light, and around it as much as
@@ -95,7 +95,7 @@ class SpotImage {
         const double share = std::min(1.0, std::pow(light.radius / blur, 2)); // of the lobe that the light fills
         const double reach = (light.radius + blur) / distance * plane_.pixelsPerLength();
         const glm::dvec3 view = plane_.toView(center - plane_.eye());
-        if (mirror.albedo * radiance * share < least || reach > kLargestSpot || !(view.z > 0)) return;
+        if (mirror.albedo * radiance * share < minimum || reach > kLargestSpot || !(view.z > 0)) return;
         draw(mirror, plane_.placeOf(view), reach);
     }
 
@@ -122,16 +122,16 @@ class SpotImage {
     }
 
     const ImagePlane& plane_;
-    LightEdges& edges_;
+    Silhouettes& edges_;
 };
 
 } // namespace
 
-void addLightsInMirrors(const CompiledScene& scene, const ImagePlane& plane, LightEdges& edges) {
+void addLightsInMirrors(const CompiledScene& scene, const ImagePlane& plane, Silhouettes& edges) {
     const std::uint32_t lights = scene.globals.lightCount;
-    if (lights > kMostLightsInMirrors) return;
+    if (lights > kMaxLightsInMirrors) return;
     const std::vector<Mirror> mirrors = blurredMirrors(scene);
-    if (mirrors.empty() || mirrors.size() > kMostMirrors) return;
+    if (mirrors.empty() || mirrors.size() > kMaxMirrors) return;
     // Radiance; of the sky and punctual lights none that a mirror shows as a spot.
     const auto radianceOf = [](const Light& light) {
         return light.material == shared::kNone ? 0.0 : greatest(light.emission);

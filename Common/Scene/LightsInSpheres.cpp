@@ -15,7 +15,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/Compiler/SpecularCasters.h"
 #include "Common/Scene/ImagePlane.h"
 #include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Material/Dielectric.h"
@@ -28,10 +28,10 @@ using shared::Light;
 using shared::Ray;
 using shared::vec3;
 
-constexpr std::size_t kMostSpheres = 1024;
+constexpr std::size_t kMaxSpheres = 1024;
 constexpr std::size_t kSpheresSeen = 16; // those that the camera sees best
-constexpr std::uint32_t kMostLights = 64;
-constexpr double kMostCells = 32768; // of all spheres: their sides and middles take milliseconds
+constexpr std::uint32_t kMaxLights = 64;
+constexpr double kMaxCells = 32768; // of all spheres: their sides and middles take milliseconds
 // Variance of a sample, over the square of the brightest light's radiance, that is worth edge rays.
 constexpr double kWorthwhile = 0.01;
 constexpr float kFar = std::numeric_limits<float>::max();
@@ -50,21 +50,22 @@ class Lamp {
     }
 
     // The distance, less than `most`, at which the ray meets it; otherwise one that is not positive.
-    float meet(const Ray& ray, float most) const {
+    float meet(const Ray& ray, float maximum) const {
         const vec3 u = light_.edgeU, v = light_.edgeV;
         switch (light_.kind) {
             case shared::kLightSphere:
-                return shared::intersectSphere(ray, light_.position + 0.5f * u, light_.radius, most);
+                return shared::intersectSphere(ray, light_.position + 0.5f * u, light_.radius, maximum);
             case shared::kLightQuad:
-                return shared::intersectQuad(ray, light_.position, frame_, most).t;
+                return shared::intersectQuad(ray, light_.position, frame_, maximum).t;
             case shared::kLightTriangle:
-                return shared::intersectTriangle(ray, light_.position, light_.position + u, light_.position + v, most)
+                return shared::intersectTriangle(ray, light_.position, light_.position + u, light_.position + v,
+                                                 maximum)
                     .t;
             case shared::kLightEllipsoid: {
                 Ray unit = ray;
                 unit.origin = toUnit_ * (ray.origin - light_.position);
                 unit.direction = toUnit_ * ray.direction;
-                return shared::intersectSphere(unit, vec3(0.0f), 1.0f, most);
+                return shared::intersectSphere(unit, vec3(0.0f), 1.0f, maximum);
             }
             default:
                 return -1;
@@ -103,7 +104,7 @@ struct Window {
 class Search {
   public:
     Search(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width, std::uint32_t height,
-           LightEdges& edges)
+           Silhouettes& edges)
         : camera_(camera), plane_(camera, width, height), width_(width), height_(height), edges_(edges) {
         for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
             lamps_.emplace_back(scene.lights[i]);
@@ -112,13 +113,13 @@ class Search {
     }
 
     // In so many cells of the image at most.
-    void lookAt(const shared::SmoothSphere& sphere, double mostCells) {
+    void lookAt(const shared::SpecularCaster& sphere, double maxCells) {
         sphere_ = sphere;
         center_ = sphere.center + 0.5f * sphere.motion;
         const Window window = windowOf();
         const double area = (window.right - window.left) * (window.bottom - window.top);
         if (!(area > 0)) return;
-        const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(std::max(1.0, area / mostCells))));
+        const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(std::max(1.0, area / maxCells))));
         const auto left = static_cast<std::uint32_t>(window.left), top = static_cast<std::uint32_t>(window.top);
         const auto columns = static_cast<std::uint32_t>(std::ceil((window.right - left) / side));
         std::array<std::vector<View>, 3> rows; // of a row of cells: above, across and below them
@@ -238,28 +239,28 @@ class Search {
     const shared::Camera& camera_;
     ImagePlane plane_;
     std::uint32_t width_, height_;
-    LightEdges& edges_;
+    Silhouettes& edges_;
     std::vector<Lamp> lamps_;
     double brightest_ = 0; // sum of the squares of its radiance
-    shared::SmoothSphere sphere_{};
+    shared::SpecularCaster sphere_{};
     vec3 center_{0.0f};
 };
 
 } // namespace
 
 void addLightsInSpheres(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
-                        std::uint32_t height, LightEdges& edges) {
-    if (scene.globals.lightCount > kMostLights) return;
-    std::vector<shared::SmoothSphere> spheres = allSmoothSpheres(scene, kMostSpheres);
+                        std::uint32_t height, Silhouettes& edges) {
+    if (scene.globals.lightCount > kMaxLights) return;
+    std::vector<shared::SpecularCaster> spheres = allSpecularCasters(scene, kMaxSpheres);
     if (spheres.empty()) return;
-    const auto distance = [&](const shared::SmoothSphere& sphere) {
+    const auto distance = [&](const shared::SpecularCaster& sphere) {
         return glm::length(sphere.center - camera.origin) / sphere.radius;
     };
     std::ranges::stable_sort(spheres, {}, distance);
     spheres.resize(std::min(spheres.size(), kSpheresSeen));
     Search search(scene, camera, width, height, edges);
-    const double cells = kMostCells / static_cast<double>(spheres.size());
-    for (const shared::SmoothSphere& sphere : spheres) search.lookAt(sphere, cells);
+    const double cells = kMaxCells / static_cast<double>(spheres.size());
+    for (const shared::SpecularCaster& sphere : spheres) search.lookAt(sphere, cells);
 }
 
 } // namespace rt::scene

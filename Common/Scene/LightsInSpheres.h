@@ -2,7 +2,7 @@
 #pragma once
 #include <cstdint>
 
-#include "Common/Scene/LightEdges.h"
+#include "Common/Scene/Silhouettes.h"
 
 namespace rt::scene {
 
@@ -11,6 +11,6 @@ namespace rt::scene {
 // side of a pixel, fewer where spheres are large in the image: what is finer may be missed. None of many lights or
 // spheres. The camera is that of an image of this size, its lens a point; `edges` has the image's parts.
 void addLightsInSpheres(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
-                        std::uint32_t height, LightEdges& edges);
+                        std::uint32_t height, Silhouettes& edges);
 
 } // namespace rt::scene

@@ -15,9 +15,9 @@ constexpr bool kOptional = false;
 constexpr MaterialParameter color(const char* name, bool isRequired, const char* help) {
     return {MaterialParameter::Type::Color, name, isRequired, 0, 1, 1, help};
 }
-constexpr MaterialParameter number(const char* name, bool isRequired, double least, double most, double usual,
+constexpr MaterialParameter number(const char* name, bool isRequired, double minimum, double maximum, double usual,
                                    const char* help) {
-    return {MaterialParameter::Type::Number, name, isRequired, least, most, usual, help};
+    return {MaterialParameter::Type::Number, name, isRequired, minimum, maximum, usual, help};
 }
 
 template <typename... Parameters>
@@ -36,21 +36,22 @@ constexpr bool fitsRecord(std::span<const MaterialParameter> parameters) {
 #define RT_PARAMETERS(Name, parameters)                     \
     constexpr auto kParametersOf##Name = listOf parameters; \
     static_assert(fitsRecord(kParametersOf##Name), "shared::Material has no room for the parameters of " #Name);
-#define RT_SURFACE(Name, kind, bit, name, help, parameters) RT_PARAMETERS(Name, parameters)
+#define RT_SURFACE(Name, kind, name, help, parameters) RT_PARAMETERS(Name, parameters)
 #define RT_BLACK(Name, kind, name, help, parameters) RT_PARAMETERS(Name, parameters)
 RT_MATERIALS(RT_SURFACE, RT_BLACK)
 #undef RT_SURFACE
 #undef RT_BLACK
 
-#define RT_SURFACE(Name, kind, bit, name, help, parameters) \
+#define RT_SURFACE(Name, kind, name, help, parameters) \
     {MaterialKind::Name, name, help, true, shared::kFeature##Name, kParametersOf##Name},
-#define RT_BLACK(Name, kind, name, help, parameters) {MaterialKind::Name, name, help, false, 0, kParametersOf##Name},
+#define RT_BLACK(Name, kind, name, help, parameters) \
+    {MaterialKind::Name, name, help, false, shared::kFeatureNone, kParametersOf##Name},
 constexpr MaterialType kTypes[] = {RT_MATERIALS(RT_SURFACE, RT_BLACK)};
 
 constexpr bool areDistinct() {
     for (const MaterialType& a : kTypes)
         for (const MaterialType& b : kTypes)
-            if (&a != &b && (a.kind == b.kind || (a.feature & b.feature) != 0)) return false;
+            if (&a != &b && (a.kind == b.kind || (a.feature & b.feature) != shared::kFeatureNone)) return false;
     return true;
 }
 static_assert(areDistinct(), "two materials share a kind or a feature bit");

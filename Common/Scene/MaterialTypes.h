@@ -11,8 +11,8 @@ struct MaterialParameter {
     Type type; // Color: a constant or a texture, components in [0,1]
     const char* name;
     bool isRequired; // in scene files
-    double least;    // numbers: the range, and the value where nothing is said
-    double most;
+    double minimum;  // numbers: the range, and the value where nothing is said
+    double maximum;
     double usual;
     const char* help; // may be empty
 };
@@ -22,7 +22,7 @@ struct MaterialType {
     const char* name; // in scene files
     const char* help;
     bool scatters;
-    std::uint32_t feature; // 0: none
+    shared::Features feature; // none: it does not scatter
     std::span<const MaterialParameter> parameters;
 };
 

@@ -14,7 +14,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "Common/Scene/Indirect.h"
+#include "Common/Scene/Boxed.h"
 #include "Common/Shared/Material/Materials.h"
 #include "Common/Shared/Material/PrincipledParameters.h"
 
@@ -101,7 +101,7 @@ using TextureDesc = std::variant<SolidTexture, CheckerTexture, NoiseTexture, Ima
 
 // Of the table Common/Shared/Material/Materials.h.
 enum class MaterialKind : std::uint32_t {
-#define RT_SURFACE(Name, kind, bit, name, help, parameters) Name = kind,
+#define RT_SURFACE(Name, kind, name, help, parameters) Name = kind,
 #define RT_BLACK(Name, kind, name, help, parameters) Name = kind,
     RT_MATERIALS(RT_SURFACE, RT_BLACK)
 #undef RT_SURFACE
@@ -222,7 +222,7 @@ struct MeshFile {
     bool operator==(const MeshFile&) const = default;
 };
 struct MeshDesc {
-    std::variant<MeshFile, Indirect<MeshData>> source;
+    std::variant<MeshFile, Boxed<MeshData>> source;
     std::string material; // empty: those of the file
     bool light = true;
     bool operator==(const MeshDesc&) const = default;

@@ -8,7 +8,7 @@ RT_SHARED_BEGIN
 
 // The ray through `uPixel` of a pixel (box filter; pixel (0,0) is the upper left one), from the point of the lens that
 // `uLens` selects. `time` in [0,1). What `features` lack is not evaluated.
-RT_FN Ray generateCameraRay(uint features, RT_IN(Camera) camera, uvec2 pixel, uvec2 size, vec2 uPixel, vec2 uLens,
+RT_FN Ray generateCameraRay(Features features, RT_IN(Camera) camera, uvec2 pixel, uvec2 size, vec2 uPixel, vec2 uLens,
                             float time) {
     vec2 image = (vec2(pixel) + uPixel) / vec2(size);
     vec3 target = camera.corner + camera.across * image.x + camera.down * image.y;

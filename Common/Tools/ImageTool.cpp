@@ -25,7 +25,7 @@ namespace {
 using namespace rt;
 
 constexpr const char* kProgram = "ray-tracing-image";
-constexpr std::size_t kMostDescription = 16384; // bytes of it that are printed
+constexpr std::size_t kMaxDescription = 16384; // bytes of it that are printed
 
 struct Metric {
     const char* name;
@@ -85,15 +85,15 @@ int diff(const Arguments& arguments) {
 
 int info(const Arguments& arguments) {
     const image::Image image = image::readImage(arguments.a);
-    const auto [least, most] = std::minmax_element(image.data.begin(), image.data.end());
+    const auto [minimum, maximum] = std::minmax_element(image.data.begin(), image.data.end());
     const auto bad = std::count_if(image.data.begin(), image.data.end(), [](float v) { return !std::isfinite(v); });
     const auto mean = image::channelMeans(image);
-    std::cout << "size " << image.width << ' ' << image.height << "\nchannels " << image.channels << "\nmin " << *least
-              << "\nmax " << *most << "\nmean";
+    std::cout << "size " << image.width << ' ' << image.height << "\nchannels " << image.channels << "\nmin "
+              << *minimum << "\nmax " << *maximum << "\nmean";
     for (std::uint32_t c = 0; c < image.channels; ++c) std::cout << ' ' << mean[c];
     std::cout << "\nnonfinite " << bad << '\n';
     if (const auto description = image::readDescription(arguments.a)) // by whomever: it must not look like other lines
-        std::cout << "render " << printable(*description, kMostDescription) << '\n';
+        std::cout << "render " << printable(*description, kMaxDescription) << '\n';
     return static_cast<int>(ExitCode::Done);
 }
 

@@ -46,7 +46,7 @@ bench::EngineKind cpuKind(const char* name, cpu::Policy policy) {
                                return cpu::makeCpuEngine(options);
                            },
                            ""};
-    if (policy == cpu::Policy::Par) kind.mostRanks = kRanksOfThread * std::max(1u, std::thread::hardware_concurrency());
+    if (policy == cpu::Policy::Par) kind.maxRanks = kRanksOfThread * std::max(1u, std::thread::hardware_concurrency());
     return kind;
 }
 
@@ -94,7 +94,7 @@ class EngineList {
                     return gpu::makeGpuEngine(*context_, {.engine = engine, .passSeconds = gpu::kUnwatchedPassSeconds});
                 };
                 if (options.device.empty()) // ranks choose among all
-                    added.mostRanks =
+                    added.maxRanks =
                         static_cast<std::uint32_t>(vulkan::devicesForRanks(devices, gpu::neededBy(kind)).size());
             }
             kinds_.push_back(std::move(added));

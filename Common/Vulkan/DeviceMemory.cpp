@@ -103,8 +103,8 @@ VkResult DeviceMemory::addBlock(std::uint32_t type, VkDeviceSize bytes, bool isS
         const VkResult result = vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
         if (result != VK_SUCCESS) return result;
         // Mappings are aligned. Where addresses run out, Mesa's software driver hands out mmap's -1 as a success.
-        constexpr std::uintptr_t kLeastAlignment = 64; // of minMemoryMapAlignment
-        if (mapped == nullptr || reinterpret_cast<std::uintptr_t>(mapped) % kLeastAlignment != 0)
+        constexpr std::uintptr_t kMinAlignment = 64; // of minMemoryMapAlignment
+        if (mapped == nullptr || reinterpret_cast<std::uintptr_t>(mapped) % kMinAlignment != 0)
             return VK_ERROR_MEMORY_MAP_FAILED;
     }
     blocks_.push_back({std::move(owner), type, isShared, static_cast<std::byte*>(mapped), FreeList(bytes)});

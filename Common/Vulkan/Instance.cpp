@@ -28,10 +28,10 @@ std::atomic<std::uint64_t> allMessages{0};
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
-    constexpr std::uint64_t kMostShown = 20;
+    constexpr std::uint64_t kMaxShown = 20;
     const auto before = static_cast<std::atomic<std::uint64_t>*>(counter)->fetch_add(1, std::memory_order_relaxed);
     allMessages.fetch_add(1, std::memory_order_relaxed);
-    if (before < kMostShown) logWarning(std::string("validation: ") + data->pMessage);
+    if (before < kMaxShown) logWarning(std::string("validation: ") + data->pMessage);
     return VK_FALSE;
 }
 

@@ -9,7 +9,7 @@
 #include <vulkan/vulkan.h>
 
 #include "Common/Vulkan/Buffer.h"
-#include "Common/Vulkan/Run.h"
+#include "Common/Vulkan/Submission.h"
 #include "Common/Vulkan/VulkanContext.h"
 
 namespace rt::vulkan {

@@ -13,7 +13,7 @@
 #include "Common/Vulkan/DeviceSelection.h"
 #include "Common/Vulkan/Handle.h"
 #include "Common/Vulkan/Instance.h"
-#include "Common/Vulkan/Run.h"
+#include "Common/Vulkan/Submission.h"
 
 namespace rt::vulkan {
 

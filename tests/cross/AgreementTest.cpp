@@ -89,7 +89,7 @@ double agreement(const Pair& images) {
     return static_cast<double>(agree) / (kPictureSide * kPictureSide);
 }
 
-double leastAgreement(const scene::CompiledScene& scene) {
+double minAgreement(const scene::CompiledScene& scene) {
     return shared::has(scene.features, shared::kFeatureDielectric | shared::kFeatureVolumes) ? 0.98 : 0.99;
 }
 
@@ -124,7 +124,7 @@ TEST_P(AgreementTest, SampleForSample) {
     if (lacks(engine)) return;
     const auto scene = smallScene(scene::builtinScenes()[index]);
     EnginePair engines(scene, engine);
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
     EXPECT_EQ(device().validationMessages(), 0u);
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(NightlyQueries, AgreementTest, ::testing::Combine(kEver
 TEST(CuboidAgreementTest, SampleForSample) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/cuboids.json"), true);
     EnginePair engines(scene, app::GpuEngineKind::Compute);
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
 }
@@ -187,7 +187,7 @@ TEST_P(SupersetTest, SampleForSample) {
                 (all ? images[i].gpu : images[i].cpu) = renderImage(*engine, *scene, settings);
             }
         }
-        EXPECT_GE(agreement(images[0]), leastAgreement(*scene)) << id;
+        EXPECT_GE(agreement(images[0]), minAgreement(*scene)) << id;
         EXPECT_TRUE(pairedMeansAgree(images[1])) << id;
     }
 }
@@ -212,7 +212,7 @@ TEST_P(EstimatorAgreementTest, SampleForSample) {
     EnginePair engines(scene, GetParam());
     for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
         if (!isTried(settings, GetParam())) continue;
-        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
+        EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene)) << describe(settings);
     }
 }
 
@@ -236,7 +236,7 @@ TEST_P(ConnectionAgreementTest, SampleForSample) {
         EnginePair engines(scene, GetParam());
         app::RenderSettings one = pairSettings(1), many = pairSettings(16);
         one.specularConnections = many.specularConnections = true;
-        EXPECT_GE(agreement(engines.render(one)), leastAgreement(*scene)) << id;
+        EXPECT_GE(agreement(engines.render(one)), minAgreement(*scene)) << id;
         EXPECT_TRUE(pairedMeansAgree(engines.render(many))) << id;
     }
     EXPECT_EQ(device().validationMessages(), 0u);
@@ -254,13 +254,13 @@ TEST_P(EllipsoidAgreementTest, SampleForSample) {
         // How a point on an ellipsoid is drawn and weighed is no matter of how the ellipsoid was chosen.
         const bool isUsual = settings.lightSelection == app::LightSelection::Contribution || isNightly(GetParam());
         if (settings.sampler != app::SamplerKind::Sobol || !isUsual || !isTried(settings, GetParam())) continue;
-        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
+        EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene)) << describe(settings);
     }
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     for (const app::ShapeSampling shape : {app::ShapeSampling::Area, app::ShapeSampling::Projected}) {
         app::RenderSettings settings = pairSettings(1);
         settings.sphereLight = shape;
-        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << static_cast<int>(shape);
+        EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene)) << static_cast<int>(shape);
     }
     EXPECT_EQ(device().validationMessages(), 0u);
 }
@@ -273,7 +273,7 @@ INSTANTIATE_TEST_SUITE_P(Nightly, PrincipledAgreementTest, kSecondEngine, engine
 TEST_P(PrincipledAgreementTest, CoatsWithNormalsOfTheirOwn) {
     const auto scene = app::compile(app::loadScene(RT_TEST_DATA_DIR "/scenes/lacquer.json"), true, true);
     EnginePair engines(scene, GetParam());
-    EXPECT_GE(agreement(engines.render(pairSettings(1))), leastAgreement(*scene));
+    EXPECT_GE(agreement(engines.render(pairSettings(1))), minAgreement(*scene));
     EXPECT_EQ(device().validationMessages(), 0u);
 }
 
@@ -286,7 +286,7 @@ TEST_P(PrincipledAgreementTest, SampleForSample) {
         if (estimator != app::LightSampling::Mis && !isNightly(GetParam())) continue;
         app::RenderSettings settings = pairSettings(1);
         settings.lightSampling = estimator;
-        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << static_cast<int>(estimator);
+        EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene)) << static_cast<int>(estimator);
     }
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     for (const Pair& feature : engines.features()) EXPECT_GE(agreement(feature), 0.99);
@@ -303,7 +303,7 @@ TEST_P(PunctualAgreementTest, SampleForSample) {
     EnginePair engines(scene, GetParam());
     for (const app::RenderSettings& settings : allEstimators(pairSettings(1))) {
         if (settings.sampler != app::SamplerKind::Sobol || !isTried(settings, GetParam())) continue;
-        EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene)) << describe(settings);
+        EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene)) << describe(settings);
     }
     EXPECT_TRUE(pairedMeansAgree(engines.render(pairSettings(16))));
     EXPECT_EQ(device().validationMessages(), 0u);
@@ -319,7 +319,7 @@ TEST_P(ProjectedAgreementTest, SampleForSample) {
     EnginePair engines(scene, app::GpuEngineKind::Pipeline);
     app::RenderSettings settings = pairSettings(1);
     settings.sphereLight = settings.quadLight = settings.triangleLight = app::ShapeSampling::Projected;
-    EXPECT_GE(agreement(engines.render(settings)), leastAgreement(*scene));
+    EXPECT_GE(agreement(engines.render(settings)), minAgreement(*scene));
 }
 
 } // namespace

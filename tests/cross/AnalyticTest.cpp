@@ -86,9 +86,9 @@ TEST_P(AnalyticTest, ConvexLampsDoNotLightThemselves) {
                 app::RenderSettings settings = smallSettings(48, 4);
                 settings.lightSampling = sampling;
                 const Estimate estimate = renders(settings);
-                const float most = *std::max_element(estimate.image.data.begin(), estimate.image.data.end());
-                EXPECT_GT(most, 0.4f);
-                EXPECT_LE(most, 1.0f) << describe(settings) << ", from " << distance;
+                const float maximum = *std::max_element(estimate.image.data.begin(), estimate.image.data.end());
+                EXPECT_GT(maximum, 0.4f);
+                EXPECT_LE(maximum, 1.0f) << describe(settings) << ", from " << distance;
             }
         }
     }

@@ -143,8 +143,8 @@ TEST_P(SampleListTest, HasEverySampleOfAPlanOnce) {
     };
     const vulkan::Buffer startsOnDevice = bufferOf(pixels);
     const vulkan::Buffer counters = bufferOf(std::size_t{shared::kCounters} * shared::kCounterLines);
-    std::vector<std::uint32_t> found(pixels);               // samples of each
-    std::vector<std::uint32_t> done(onDevice.slotCount());  // likewise, as far as the launches before lead
+    std::vector<std::uint32_t> found(pixels);              // samples of each
+    std::vector<std::uint32_t> done(onDevice.slotCount()); // likewise, as far as the launches before lead
     const std::uint32_t all = onDevice.bandSlots();
     for (const auto& [first, width, steps] :
          {std::array{0u, all, 7u}, std::array{0u, 1u, 20u}, std::array{1u, all - 1, 13u}, std::array{0u, all, 40u}}) {

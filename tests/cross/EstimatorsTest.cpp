@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Scene/Compiler/SceneCompiler.h"
 #include "RayTracingCPU/CpuEngine.h"

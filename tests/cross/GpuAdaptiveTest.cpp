@@ -100,8 +100,8 @@ TEST_P(GpuAdaptive, ThePlanIsThatOfTheCpu) {
     gpu.engine->restore(std::move(pilot));
     const std::vector<float> counts = gpu.finish().sampleCounts().data;
     EXPECT_EQ(counts, cpu.finish().sampleCounts().data);
-    const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
-    EXPECT_LT(2 * *least, *most);
+    const auto [minimum, maximum] = std::minmax_element(counts.begin(), counts.end());
+    EXPECT_LT(2 * *minimum, *maximum);
 }
 
 } // namespace

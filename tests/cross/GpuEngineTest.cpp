@@ -181,7 +181,7 @@ TEST_P(GpuEngineTest, ASnapshotIsTheResolvedFilm) {
         for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) {
             EXPECT_EQ(snapshot.tileSamples[tile], film.samples(tile));
         }
-        EXPECT_EQ(snapshot.leastSamples(), film.minSamples());
+        EXPECT_EQ(snapshot.minSamples(), film.minSamples());
     };
     for (const std::uint32_t slots : {4u, gpu::GpuEngineOptions().regionSlots}) {
         app::RenderSettings settings = settingsFor(45);

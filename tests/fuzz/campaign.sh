@@ -14,7 +14,7 @@ export inputs_per_second=10000
 
 # Bytes of the longest input of a target: half as many again as the longest of its seeds has, as what is longer yet
 # tells little that is new and takes its time.
-most_bytes() {
+max_bytes() {
     wc -c "seeds/$1"/* |
         awk '$2 != "total" && $1 > most { most = $1 } END { print most < 1024 ? 1536 : int(1.5 * most) }'
 }
@@ -31,7 +31,7 @@ fuzz() {
     # The programs that are tested see neither the user's files nor another place for files of their own.
     env -u RT_ASSETS -u RT_DEVICE -u RT_THREADS -u RT_LOG TMPDIR="$scratch" ASAN_OPTIONS=malloc_context_size=1 \
         XDG_CONFIG_HOME="$scratch/none" "targets/$target" "corpus/$target" "seeds/$target" \
-        "${end[@]}" -max_len="$(most_bytes "$target")" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
+        "${end[@]}" -max_len="$(max_bytes "$target")" -timeout=10 -rss_limit_mb=2048 -malloc_limit_mb=1024 \
         -entropic_feature_frequency_threshold=3 "${words[@]}" -artifact_prefix="finds/$target-" \
         -print_final_stats=1 >"$log" 2>&1 || status=$?
     if ((status)); then
@@ -42,7 +42,7 @@ fuzz() {
     fi
     echo "$target: $(sed -nE 's/^stat::number_of_executed_units: *//p' "$log") executions"
 }
-export -f most_bytes fuzz
+export -f max_bytes fuzz
 
 mkdir -p finds logs
 place=$PWD

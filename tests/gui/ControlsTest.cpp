@@ -260,14 +260,14 @@ std::uint64_t NightlyControlsTest::bytesAtRest() {
     act("mousemove 1 1");
     resize(1100, 800);
     drop({(folder_ / "rest.json").string()});
-    constexpr int kLooks = 60, kMostBusy = kLooks / 10; // what blinks is drawn at rest, too
+    constexpr int kLooks = 60, kMaxBusy = kLooks / 10; // what blinks is drawn at rest, too
     const auto isAtRest = [this] {
         int busy = 0;
-        for (int look = 0; look < kLooks && busy <= kMostBusy; ++look) {
+        for (int look = 0; look < kLooks && busy <= kMaxBusy; ++look) {
             pause(50);
             busy += isBusy();
         }
-        return busy <= kMostBusy;
+        return busy <= kMaxBusy;
     };
     EXPECT_TRUE(eventually([&] { return !isRunning() || isAtRest(); }, std::chrono::minutes(10))) << "never at rest";
     return residentBytes();
@@ -280,7 +280,7 @@ std::uint64_t NightlyControlsTest::bytesAtRest() {
 // to the next, hence the bound: of 160 MB it is 8 kB an action.
 TEST_P(NightlyControlsTest, SurvivesRandomActions) {
     constexpr int kRounds = 4, kActions = 500, kUntilResize = 50;
-    constexpr double kMostGrowth = 1.05;
+    constexpr double kMaxGrowth = 1.05;
     writeScene("rest.json", "At rest");
     start();
     ASSERT_FALSE(HasFatalFailure());
@@ -300,7 +300,7 @@ TEST_P(NightlyControlsTest, SurvivesRandomActions) {
         bytes.push_back(bytesAtRest());
     }
     const std::uint64_t half = bytes[kRounds / 2 - 1];
-    EXPECT_LT(static_cast<double>(bytes.back()), kMostGrowth * static_cast<double>(half))
+    EXPECT_LT(static_cast<double>(bytes.back()), kMaxGrowth * static_cast<double>(half))
         << testing::PrintToString(bytes);
     act("mousemove 1000 700");
     expectCleanEnd();

@@ -83,12 +83,12 @@ TEST_P(PictureTest, BothSidesOfAComparisonAreLabelled) {
     // Whether the window's colour, through which the picture shines a little, is there in as many rows as a label has.
     const auto isLabel = [this](int x) {
         const Screenshot shot = screenshot();
-        int rows = 0, most = 0;
+        int rows = 0, maximum = 0;
         for (int y = 72; y < 130; ++y) {
             rows = isNear(shot.at(x, y), kWindowColor, 20) ? rows + 1 : 0;
-            most = std::max(most, rows);
+            maximum = std::max(maximum, rows);
         }
-        return most >= 12 && most <= 24;
+        return maximum >= 12 && maximum <= 24;
     };
     const auto isSplitAt = [this](int x) {
         const Screenshot shot = screenshot();
@@ -121,10 +121,10 @@ TEST_P(PictureTest, AnEnvironmentImageRunsToTheRight) {
     ASSERT_FALSE(HasFatalFailure());
     const auto bandAt = [this](int x) {
         const std::uint32_t color = screenshot().at(x, 450);
-        const int most = std::max({channel(color, 0), channel(color, 1), channel(color, 2)});
-        if (most < 40) return 3;
+        const int maximum = std::max({channel(color, 0), channel(color, 1), channel(color, 2)});
+        if (maximum < 40) return 3;
         for (int i = 0; i < 3; ++i)
-            if (channel(color, i) == most) return i;
+            if (channel(color, i) == maximum) return i;
         return -1;
     };
     // The middle of the image is at +x.

@@ -16,8 +16,8 @@ double luminance(const ImVec4& color) {
     return 0.2126 * linear(color.x) + 0.7152 * linear(color.y) + 0.0722 * linear(color.z);
 }
 double contrast(const ImVec4& a, const ImVec4& b) {
-    const double least = std::min(luminance(a), luminance(b)), most = std::max(luminance(a), luminance(b));
-    return (most + 0.05) / (least + 0.05);
+    const double minimum = std::min(luminance(a), luminance(b)), maximum = std::max(luminance(a), luminance(b));
+    return (maximum + 0.05) / (minimum + 0.05);
 }
 
 class ThemeTest : public testing::TestWithParam<app::ColorMode> {

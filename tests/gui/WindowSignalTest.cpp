@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 class NightlyWindowSignalTest : public WindowTest {
   protected:
-    int upTo(int most) { return std::uniform_int_distribution<int>(0, most)(random_); }
+    int upTo(int maximum) { return std::uniform_int_distribution<int>(0, maximum)(random_); }
     // Changes what is rendered, shown and saved.
     void actAtRandom() {
         const char* const keys[] = {"F12",    "F11",  "ctrl+equal", "ctrl+minus", "space",

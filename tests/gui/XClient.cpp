@@ -145,13 +145,13 @@ std::string windowTitle(const std::string& display, unsigned long window) {
     XSetErrorHandler([](Display*, XErrorEvent*) { return 0; }); // the window may be gone
     const Atom name = XInternAtom(connection.get(), "_NET_WM_NAME", False);
     const Atom utf8 = XInternAtom(connection.get(), "UTF8_STRING", False);
-    constexpr long kMost = 256; // words
+    constexpr long kMax = 256; // words
     Atom type = None;
     int format = 0;
     unsigned long bytes = 0, left = 0;
     unsigned char* text = nullptr;
     std::string title;
-    if (XGetWindowProperty(connection.get(), window, name, 0, kMost, False, utf8, &type, &format, &bytes, &left,
+    if (XGetWindowProperty(connection.get(), window, name, 0, kMax, False, utf8, &type, &format, &bytes, &left,
                            &text) == Success &&
         text != nullptr) {
         title.assign(reinterpret_cast<const char*>(text), bytes);

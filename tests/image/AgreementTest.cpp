@@ -4,7 +4,7 @@
 
 #include "Common/App/Options/Names.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"
 

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "Common/Shared/Base/Features.h"
 #include "tests/ConnectedScene.h"
@@ -54,7 +54,7 @@ std::vector<image::Image> images(app::Engine& engine, const CompiledScene& scene
 // 4 standard errors, as AgreementTest.cpp; without connections the light is that of scattering alone.
 void expectSameLight(const SceneDesc& desc, Effort effort, std::uint32_t maxDepth = 50) {
     const auto scene = connectedThroughAll(*app::compile(desc, true, true));
-    ASSERT_FALSE(scene->smoothSpheres.empty()) << desc.id;
+    ASSERT_FALSE(scene->specularCasters.empty()) << desc.id;
     const auto engine = cpu::makeCpuEngine({});
     engine->setScene(scene, nullptr);
     app::RenderSettings settings;
@@ -62,12 +62,12 @@ void expectSameLight(const SceneDesc& desc, Effort effort, std::uint32_t maxDept
     settings.spp = effort.spp;
     settings.maxDepth = maxDepth;
     const auto reference = images(*engine, *scene, settings, false, 100);
-    EXPECT_FALSE(shared::has(engine->report().features, shared::kFeatureConnections));
+    EXPECT_FALSE(shared::has(engine->report().features, shared::kMethodConnections));
     for (const auto heuristic : {app::LightSampling::Mis, app::LightSampling::MisBalance}) {
         settings.lightSampling = heuristic;
         const auto result = image::testImages(
             images(*engine, *scene, settings, true, heuristic == app::LightSampling::Mis ? 1000 : 2000), reference);
-        EXPECT_TRUE(shared::has(engine->report().features, shared::kFeatureConnections));
+        EXPECT_TRUE(shared::has(engine->report().features, shared::kMethodConnections));
         EXPECT_GT(result.globalP, 1e-4) << desc.id << ", " << result.summary();
         EXPECT_EQ(result.tileDiscoveries, 0u) << desc.id << ", " << result.summary();
     }
@@ -246,10 +246,10 @@ double relativeVariance(const std::vector<image::Image>& images) {
 // more of the noise where refraction alone is connected to.
 TEST(Connection, WhatGlassReflectsIsConnectedTo) {
     const auto scene = app::compile(findBuiltinScene("rest-of-life-cornell-box-glass"), true, true);
-    ASSERT_EQ(scene->smoothSpheres.size(), 3u);
+    ASSERT_EQ(scene->specularCasters.size(), 3u);
     auto refracting = std::make_shared<CompiledScene>(*scene);
-    std::erase_if(refracting->smoothSpheres,
-                  [](const shared::SmoothSphere& sphere) { return sphere.crossings != shared::kRefracted; });
+    std::erase_if(refracting->specularCasters,
+                  [](const shared::SpecularCaster& sphere) { return sphere.crossings != shared::kRefracted; });
     const auto engine = cpu::makeCpuEngine({});
     app::RenderSettings settings;
     settings.width = settings.height = 32;
@@ -279,7 +279,7 @@ TEST(Connection, OnlyWhereScatteringIsNoisy) {
         const QuadDesc panel{{-side / 2, 5, -side / 2}, {side, 0, 0}, {0, 0, side}, "lamp"};
         SceneDesc desc = caustic(panel);
         if (isMirror) desc.materials["glass"] = mirrorOf(dvec3(0.9));
-        return scene::compileScene(desc)->smoothSpheres.size();
+        return scene::compileScene(desc)->specularCasters.size();
     };
     EXPECT_EQ(connectedSpheres(0.6, false), 3u);
     EXPECT_EQ(connectedSpheres(1.5, false), 0u);
@@ -287,9 +287,9 @@ TEST(Connection, OnlyWhereScatteringIsNoisy) {
     EXPECT_EQ(connectedSpheres(1.5, true), 1u);
     EXPECT_EQ(connectedSpheres(3, true), 0u);
     for (const char* id : {"rest-of-life-cornell-box-glass", "cornell-box-lucy", "many-lights:200", kSun})
-        EXPECT_FALSE(app::compile(app::loadScene(id), true, true)->smoothSpheres.empty()) << id;
+        EXPECT_FALSE(app::compile(app::loadScene(id), true, true)->specularCasters.empty()) << id;
     for (const char* id : {"cornell-box-lights", "next-week-final", "many-lights"})
-        EXPECT_TRUE(app::compile(findBuiltinScene(id), true, true)->smoothSpheres.empty()) << id;
+        EXPECT_TRUE(app::compile(findBuiltinScene(id), true, true)->specularCasters.empty()) << id;
 }
 
 } // namespace

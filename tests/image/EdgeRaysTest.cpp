@@ -8,10 +8,10 @@
 
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Scene/Json/CameraRecord.h"
-#include "Common/Scene/LightEdges.h"
 #include "Common/Scene/LightsInSpheres.h"
+#include "Common/Scene/Silhouettes.h"
 #include "Common/Shared/Path/EdgeRays.h"
 #include "tests/image/AnalyticScenes.h"
 #include "tests/image/Harness.h"
@@ -35,7 +35,7 @@ MeshDesc square() {
     MeshData mesh;
     mesh.positions = {{-0.8, -0.7, 0.2}, {0.9, -0.6, 0}, {0.7, 0.8, -0.1}, {-0.6, 0.7, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-    return {Indirect<MeshData>(mesh), "lamp"};
+    return {Boxed<MeshData>(mesh), "lamp"};
 }
 
 GroupDesc squashed() {
@@ -78,11 +78,11 @@ app::RenderSettings lampSettings(std::uint32_t spp) {
     return settings;
 }
 
-bool isIn(const LightEdges& edges, std::uint32_t pixel) {
+bool isIn(const Silhouettes& edges, std::uint32_t pixel) {
     return !edges.parts.empty() && edges.parts[pixel] != 0;
 }
 
-double areaOf(const LightEdges& edges, std::uint32_t pixel) {
+double areaOf(const Silhouettes& edges, std::uint32_t pixel) {
     const shared::PixelPart part = shared::pixelPart(edges.parts[pixel]);
     return static_cast<double>(part.size.x) * static_cast<double>(part.size.y);
 }
@@ -97,8 +97,8 @@ TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
         app::RenderSettings settings = lampSettings(256);
         settings.edgeRays = false;
         const image::Image picture = renderImage(*engine, *scene, settings);
-        const LightEdges edges = findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin),
-                                                kLampSide, kLampSide);
+        const Silhouettes edges = findSilhouettes(
+            *scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin), kLampSide, kLampSide);
         std::uint64_t mixed = 0, count = 0;
         double covered = 0, sampled = 0;
         for (std::uint32_t pixel = 0; pixel < kLampSide * kLampSide; ++pixel) {
@@ -125,8 +125,8 @@ TEST(EdgeRays, EdgesAreWhereLightsBeginAndEnd) {
 TEST(EdgeRays, ThereAreNoneInScenesWithoutThem) {
     const auto edgesOf = [](const SceneDesc& desc) {
         const auto scene = app::compile(desc, true);
-        return findLightEdges(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin), kLampSide,
-                              kLampSide);
+        return findSilhouettes(*scene, makeCamera(scene->camera, kLampSide, kLampSide, scene->origin), kLampSide,
+                               kLampSide);
     };
     EXPECT_EQ(edgesOf(app::loadScene("one-weekend-final")).count, 0u); // no lights
     EXPECT_EQ(edgesOf(shell(false, 0.5, 1)).count, 0u);                // the camera is inside
@@ -213,8 +213,8 @@ TEST(EdgeRays, SpheresShowLights) {
             return squares;
         };
         const shared::Camera camera = makeCamera(scene->camera, kLampSide, kLampSide, scene->origin);
-        const LightEdges edges = findLightEdges(*scene, camera, kLampSide, kLampSide);
-        LightEdges inSphere;
+        const Silhouettes edges = findSilhouettes(*scene, camera, kLampSide, kLampSide);
+        Silhouettes inSphere;
         inSphere.parts.resize(kLampSide * kLampSide);
         addLightsInSpheres(*scene, camera, kLampSide, kLampSide, inSphere);
         ASSERT_GT(inSphere.count, 0u);
@@ -317,7 +317,7 @@ TEST(EdgeRays, AreFewerWhereThereAreManyEdges) {
         const auto scene = app::compile(app::loadScene(id), true);
         app::RenderSettings settings = smallSettings(side, 16);
         shared::RenderParams params = app::makeRenderParams(*scene, settings);
-        const LightEdges edges =
+        const Silhouettes edges =
             app::splitAtEdges(*scene, makeCamera(scene->camera, side, side, scene->origin), settings, params);
         EXPECT_LE(params.edgeRays * edges.count, side * side) << id;
         EXPECT_EQ(edges.count == 0, params.edgeRays == 0) << id;

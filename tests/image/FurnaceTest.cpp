@@ -46,10 +46,11 @@ TEST(Furnace, ConvexLampsDoNotLightThemselves) {
             const auto scene = compileScene(lampAlone(transform, distance));
             for (const app::RenderSettings& settings : allEstimators(smallSettings(48, 4))) {
                 const Estimate estimate = render(*scene, settings);
-                const auto [least, most] = std::minmax_element(estimate.image.data.begin(), estimate.image.data.end());
-                EXPECT_EQ(*least, 0.0f);
-                EXPECT_GT(*most, 0.4f); // the thinnest do not fill a pixel
-                EXPECT_LE(*most, 1.0f) << describe(settings) << ", from " << distance;
+                const auto [minimum, maximum] =
+                    std::minmax_element(estimate.image.data.begin(), estimate.image.data.end());
+                EXPECT_EQ(*minimum, 0.0f);
+                EXPECT_GT(*maximum, 0.4f); // the thinnest do not fill a pixel
+                EXPECT_LE(*maximum, 1.0f) << describe(settings) << ", from " << distance;
             }
         }
     }

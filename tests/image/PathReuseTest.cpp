@@ -6,7 +6,7 @@
 
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/SceneSource.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
 #include "Common/Scene/Builtin/SceneBuilder.h"
 #include "Common/Shared/Base/Features.h"
@@ -160,7 +160,7 @@ TEST(PathReuse, IsChosenWhereItGains) {
         settings.pathReuse = reuse;
         settings.lightSampling = sampling;
         const bool isShared = app::makeRenderParams(*scene, settings).pathReuse != 0;
-        EXPECT_EQ(shared::has(app::renderFeatures(*scene, scene->camera, settings), shared::kFeatureReuse), isShared);
+        EXPECT_EQ(shared::has(app::renderFeatures(*scene, scene->camera, settings), shared::kMethodReuse), isShared);
         return isShared;
     };
     for (const char* id : {"cornell-box-lights", "rest-of-life-cornell-box", "rest-of-life-cornell-box-glass",

@@ -26,7 +26,7 @@ void __libc_free(void* memory);
 namespace {
 
 std::atomic<bool> isCounting{false};
-std::atomic<long> allocations{0}, bytesInUse{0}, peakBytes{0}, mostBytes{LONG_MAX};
+std::atomic<long> allocations{0}, bytesInUse{0}, peakBytes{0}, maxBytes{LONG_MAX};
 long faulty = 0;     // the number of the allocation that fails
 long bytesLeft = -1; // from then on; -1: as many as ever
 
@@ -35,8 +35,8 @@ bool hasRoom(std::size_t bytes) {
     if (!isCounting.load(std::memory_order_relaxed)) return true;
     const long number = ++allocations;
     // What the program frees when one fails, before it tries again, is not part of what it has then.
-    if (bytesLeft >= 0 && number == faulty + 1) mostBytes = bytesInUse + bytesLeft;
-    if (number != faulty && bytesInUse + static_cast<long>(bytes) <= mostBytes) return true;
+    if (bytesLeft >= 0 && number == faulty + 1) maxBytes = bytesInUse + bytesLeft;
+    if (number != faulty && bytesInUse + static_cast<long>(bytes) <= maxBytes) return true;
     errno = ENOMEM;
     return false;
 }

@@ -51,11 +51,11 @@ Function next(const void* dispatchable, const char* name) {
 
 // For up to RT_DELAYS milliseconds, so that threads meet in another order each time.
 void delay() {
-    const char* const most = std::getenv("RT_DELAYS");
-    if (most == nullptr) return;
+    const char* const maximum = std::getenv("RT_DELAYS");
+    if (maximum == nullptr) return;
     thread_local std::mt19937 random{std::random_device{}()};
     std::this_thread::sleep_for(
-        std::chrono::microseconds(std::uniform_int_distribution<int>(0, 1000 * std::atoi(most))(random)));
+        std::chrono::microseconds(std::uniform_int_distribution<int>(0, 1000 * std::atoi(maximum))(random)));
 }
 
 // What this call of the function is to return, if not what it does.
@@ -118,8 +118,8 @@ std::atomic<int> allocations{0}; // that exist
 
 VKAPI_ATTR VkResult VKAPI_CALL allocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
                                               const VkAllocationCallbacks* allocator, VkDeviceMemory* memory) {
-    const char* most = std::getenv("RT_MAX_ALLOCATIONS");
-    if (most != nullptr && allocations >= std::atoi(most)) return VK_ERROR_TOO_MANY_OBJECTS;
+    const char* maximum = std::getenv("RT_MAX_ALLOCATIONS");
+    if (maximum != nullptr && allocations >= std::atoi(maximum)) return VK_ERROR_TOO_MANY_OBJECTS;
     const VkResult result = next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, info, allocator, memory);
     if (result == VK_SUCCESS) ++allocations;
     return result;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 class Memory : public ProgramTest {
   protected:
     // KiB with which the program can be loaded.
-    std::uint64_t leastToStart() {
+    std::uint64_t minToStart() {
         addressSpace_ = 20'000;
         while (addressSpace_ < 500'000 && cpu({"--version"}).exitCode != 0) addressSpace_ += 5'000;
         return addressSpace_;
@@ -31,7 +31,7 @@ TEST_F(Memory, NothingOfARenderThatFitsIsLost) {
                                  "--stats",  "s.json",      "--checkpoint", "c.rtc"};
     const char* const always[] = {"a.png", "a.exr", "a.samples.png", "a.samples.exr", "s.json", "c.rtc"};
     bool filmWasTooLarge = false, somethingFailed = false, isEnough = false;
-    const std::uint64_t first = leastToStart();
+    const std::uint64_t first = minToStart();
     for (addressSpace_ = first; addressSpace_ <= first + 200'000 && !isEnough; addressSpace_ += 4'000) {
         const Outcome outcome = cpu(arguments);
         isEnough = outcome.exitCode == 0;
@@ -49,7 +49,7 @@ TEST_F(Memory, NothingOfARenderThatFitsIsLost) {
 
 // Of 300 000 spheres: reading, compiling and building all run out somewhere, on one thread and on several.
 TEST_F(Memory, ASceneThatDoesNotFit) {
-    const std::uint64_t first = leastToStart();
+    const std::uint64_t first = minToStart();
     for (const char* threads : {"1", "2", "16"}) {
         for (addressSpace_ = first; addressSpace_ <= first + 90'000; addressSpace_ += 6'000) {
             const Outcome outcome = cpu({"-q", "--no-config", "--threads", threads, "--width", "16", "--height", "16",
@@ -64,7 +64,7 @@ TEST_F(Memory, ASceneThatDoesNotFit) {
 TEST_F(Memory, ASceneFileThatDoesNotFit) {
     ASSERT_EQ(cpu({"--scene", "white-spheres:150000", "--export-scene", "big.json"}).exitCode, 0);
     int refused = 0;
-    const std::uint64_t first = leastToStart();
+    const std::uint64_t first = minToStart();
     for (addressSpace_ = first; addressSpace_ <= first + 54'000; addressSpace_ += 6'000) {
         const Outcome outcome = cpu({"-q", "--no-config", "--threads", "1", "--width", "16", "--height", "16", "--spp",
                                      "1", "--scene", "big.json", "-o", "a.pfm"});
@@ -135,11 +135,11 @@ class MeshMemory : public Memory {
 // else takes.
 TEST_F(MeshMemory, IsLittleMoreThanWhatKernelsRead) {
     save("least.glb", 0);
-    const std::size_t least = peakOf("least.glb");
-    ASSERT_GT(least, 0u);
+    const std::size_t minimum = peakOf("least.glb");
+    ASSERT_GT(minimum, 0u);
     for (const auto& [squares, bound] : {std::pair{1, 1.3}, std::pair{4, 1.2}}) {
         save("scene.glb", static_cast<std::size_t>(squares));
-        const auto peak = static_cast<double>(peakOf("scene.glb") - least);
+        const auto peak = static_cast<double>(peakOf("scene.glb") - minimum);
         EXPECT_LT(peak, bound * static_cast<double>(kernelBytes(static_cast<std::size_t>(squares)))) << squares;
     }
 }

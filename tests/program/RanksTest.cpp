@@ -32,11 +32,11 @@ class Ranks : public ProgramTest {
     // c.rtc holds samples, from which three ranks get to the bits of a whole render.
     void expectToGoOn(const Arguments& size) const {
         const image::Film film = image::readCheckpoint(path("c.rtc")).film;
-        std::uint64_t most = 0;
-        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
-        EXPECT_GT(most, 0u);
+        std::uint64_t maximum = 0;
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) maximum = std::max(maximum, film.samples(tile));
+        EXPECT_GT(maximum, 0u);
         Arguments rest = size;
-        rest.insert(rest.end(), {"--spp", std::to_string(most + 5)});
+        rest.insert(rest.end(), {"--spp", std::to_string(maximum + 5)});
         Arguments resumed = rest;
         resumed.insert(resumed.end(), {"--resume", "c.rtc"});
         EXPECT_TRUE(picture(3, resumed) == pixels(rest));

@@ -113,8 +113,8 @@ TEST(AimedScattering, ShareFollowsFromTheLightThatTheSphereBrings) {
     sphere.axis = vec3(0, -1, 0);
     sphere.gain = 8;
     sphere.limit = 0.8f;
-    EXPECT_NEAR(aimedShare(sphere, vec3(0), 2), kMostAimed / 2, 1e-6f);
-    EXPECT_NEAR(aimedShare(sphere, vec3(0), 0), kMostAimed, 1e-6f);
+    EXPECT_NEAR(aimedShare(sphere, vec3(0), 2), kMaxAimed / 2, 1e-6f);
+    EXPECT_NEAR(aimedShare(sphere, vec3(0), 0), kMaxAimed, 1e-6f);
     EXPECT_LT(aimedShare(sphere, vec3(0, -2, 0), 2), aimedShare(sphere, vec3(0), 2));
     EXPECT_EQ(aimedShare(sphere, vec3(0, 4, 0), 2), 0);
     EXPECT_EQ(aimedShare(sphere, vec3(2, 0.5f, 0), 2), 0);

@@ -58,8 +58,9 @@ TEST(BenchParts, EachIsLeftOutInTurn) {
 }
 
 TEST(BenchParts, DescribesCostsAndShaders) {
-    PartRow whole{"nothing", 2.0, 1000, {1000, 2000, 1000}, "k", 0, {{"main", "Register Count", 128}}};
-    PartRow half{"a part", 1.0, 1000, {1000, 1000, 0}, "k", 0, {{"main", "Register Count", 80}, {"main", "Spills", 3}}};
+    PartRow whole{"nothing", 2.0, 1000, {1000, 2000, 1000}, "k", {}, {{"main", "Register Count", 128}}};
+    PartRow half{
+        "a part", 1.0, 1000, {1000, 1000, 0}, "k", {}, {{"main", "Register Count", 80}, {"main", "Spills", 3}}};
     const Document document = describeParts({}, std::vector{whole, half});
     ASSERT_EQ(document.size(), 3u);
     const Table& costs = std::get<Table>(document[1]);

@@ -92,13 +92,13 @@ TEST(BenchEfficiency, DefaultsAreComparedWithTheBestOfEachSceneByAllPixelsAndByT
     EXPECT_EQ(found[0].places, 4);
     EXPECT_EQ(found[0].reach.places, 2);
     EXPECT_NEAR(*found[0].reach.mean, std::sqrt(0.5), 1e-9);
-    EXPECT_NEAR(*found[0].reach.least, 0.5, 1e-9);
-    EXPECT_NEAR(*found[0].reach.leastCi, 0.5 * std::hypot(0.03, 0.03), 1e-9);
-    EXPECT_EQ(found[0].reach.leastBest->config.scene, "a");
-    EXPECT_EQ(found[0].reach.leastBest->config.settings.sampler, kOther);
+    EXPECT_NEAR(*found[0].reach.minimum, 0.5, 1e-9);
+    EXPECT_NEAR(*found[0].reach.minCi, 0.5 * std::hypot(0.03, 0.03), 1e-9);
+    EXPECT_EQ(found[0].reach.minBest->config.scene, "a");
+    EXPECT_EQ(found[0].reach.minBest->config.settings.sampler, kOther);
     EXPECT_STREQ(found[1].pixels->name, "up to 1");
     EXPECT_NEAR(*found[1].reach.mean, 1, 1e-9);
-    EXPECT_NEAR(*found[1].reach.least, 1, 1e-9);
+    EXPECT_NEAR(*found[1].reach.minimum, 1, 1e-9);
 }
 
 // What renders another image competes with nothing.

@@ -308,10 +308,10 @@ TEST(Bsdf, WhatDoesNotScatterAbsorbs) {
 // A feature mask that is exactly what a material needs gives the same bits as the largest.
 TEST(Bsdf, SupersetOfFeaturesChangesNothing) {
     Uniforms uniform(12);
-    const std::pair<Bsdf, uint> materials[] = {{lambertian(), kFeatureLambertian},
-                                               {metal(0), kFeatureMetal},
-                                               {metal(0.3f), kFeatureMetal | kFeatureFuzz},
-                                               {glass(1.5f), kFeatureDielectric}};
+    const std::pair<Bsdf, Features> materials[] = {{lambertian(), kFeatureLambertian},
+                                                   {metal(0), kFeatureMetal},
+                                                   {metal(0.3f), kFeatureMetal | kFeatureFuzz},
+                                                   {glass(1.5f), kFeatureDielectric}};
     for (const auto& [material, features] : materials) {
         for (int i = 0; i < 100; ++i) {
             const vec2 u = uniform.pair();

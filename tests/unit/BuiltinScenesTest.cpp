@@ -134,13 +134,13 @@ void expectValid(const CompiledScene& s) {
 }
 
 // Features decide which code runs at all; a wrong bit is a wrong picture.
-std::map<std::string, std::uint32_t> expectedFeatures() {
+std::map<std::string, shared::Features> expectedFeatures() {
     using namespace shared;
-    const std::uint32_t cornell =
+    const Features cornell =
         kFeatureQuads | kFeatureLambertian | kFeatureEmissive | kFeatureLights | kFeatureQuadLights;
-    const std::uint32_t book = kFeatureSpheres | kFeatureLambertian | kFeatureSky;
-    const std::uint32_t field = book | kFeatureMetal | kFeatureFuzz | kFeatureDielectric | kFeatureThinLens;
-    const std::uint32_t mesh = kFeatureTriangles | kFeatureSmoothNormals;
+    const Features book = kFeatureSpheres | kFeatureLambertian | kFeatureSky;
+    const Features field = book | kFeatureMetal | kFeatureFuzz | kFeatureDielectric | kFeatureThinLens;
+    const Features mesh = kFeatureTriangles | kFeatureSmoothNormals;
     return {
         {"cornell-box-lights", cornell | kFeatureSpheres | kFeatureDielectric | kFeatureSphereLights},
         {"one-weekend-default", book},

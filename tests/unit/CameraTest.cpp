@@ -107,7 +107,7 @@ TEST(Camera, FeaturesDecideWhatIsEvaluated) {
     const Camera pinhole = makeCamera(desc, 600, 600, dvec3(0));
     const uvec2 pixel(3, 4), size(600, 600);
     const vec2 u(0.9f, 0.1f);
-    const Ray plain = generateCameraRay(0, lens, pixel, size, u, u, 0.5f);
+    const Ray plain = generateCameraRay(kFeatureNone, lens, pixel, size, u, u, 0.5f);
     EXPECT_EQ(plain.origin, lens.origin);
     EXPECT_EQ(plain.time, 0.0f);
     const Ray full = generateCameraRay(kFeatureAll, lens, pixel, size, u, u, 0.5f);

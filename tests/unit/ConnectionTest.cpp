@@ -120,7 +120,7 @@ class Scattered {
     // One sample of that light by connections.
     double connect(Uniforms& u) const {
         PathState s = pathAt();
-        const Passage p = connection(u, s);
+        const SpecularConnection p = connection(u, s);
         return p.segments != 0u ? double(p.radiance.x) : 0;
     }
 
@@ -138,7 +138,7 @@ class Scattered {
         s.ray.origin = vec3(ray.origin);
         s.ray.direction = vec3(ray.direction);
         if (!(s.chain.rate > 0)) return light;
-        const float weight = passageWeight(kFeatureAll, view_, params_, s, 0, vec3(y), compiled_->lights[0].normal);
+        const float weight = connectionWeight(kFeatureAll, view_, params_, s, 0, vec3(y), compiled_->lights[0].normal);
         EXPECT_TRUE(weight >= 0 && weight <= 1) << weight;
         return light * double(weight);
     }
@@ -151,7 +151,7 @@ class Scattered {
         return startPath(ray);
     }
 
-    Passage connection(Uniforms& u, PathState& s) const {
+    SpecularConnection connection(Uniforms& u, PathState& s) const {
         Sampler smp = makeSampler(params_, 0u, 0u, 0u);
         smp.kind = kSamplerIndependent;
         smp.key = u.word();
@@ -182,7 +182,7 @@ Worth expectLightOfTracedRays(const std::array<Constellation, kCount>& constella
         const Lit lit = light(c);
         for (const std::uint32_t heuristic : {kSampleMis, kSampleMisBalance}) {
             const Scattered scattered(c, lit, heuristic);
-            EXPECT_EQ(scattered.scene().smoothSpheres.size(), c.eta == test::kMirror ? 1u : 3u);
+            EXPECT_EQ(scattered.scene().specularCasters.size(), c.eta == test::kMirror ? 1u : 3u);
             Uniforms u(seed++);
             Mean traced, weighed, connected;
             for (int k = 0; k < tracings; ++k) traced.add(scattered.trace(u, false));

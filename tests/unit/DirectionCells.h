@@ -28,7 +28,7 @@ inline std::size_t cellOf(const shared::vec3& w) {
 // Over a square of side `side`, which is divided where the density varies: metal's is infinite at the rim of its lobe.
 template <typename Density>
 double integrate(const Density& density, double u, double v, double side, int depth = 0) {
-    constexpr int kLeast = 3, kMost = 9;
+    constexpr int kMin = 3, kMax = 9;
     const double half = 0.5 * side;
     double sum = 0, low = 1e30, high = 0;
     for (const double du : {0.0, half})
@@ -38,7 +38,7 @@ double integrate(const Density& density, double u, double v, double side, int de
             low = std::min(low, value);
             high = std::max(high, value);
         }
-    if (depth >= kLeast && (depth == kMost || high <= 1.2 * low)) return 0.25 * sum * side * side;
+    if (depth >= kMin && (depth == kMax || high <= 1.2 * low)) return 0.25 * sum * side * side;
     sum = 0;
     for (const double du : {0.0, half})
         for (const double dv : {0.0, half}) sum += integrate(density, u + du, v + dv, half, depth + 1);

@@ -39,8 +39,8 @@ TEST(ErrorList, TheSameOnceMoreIsCountedAndUnreadAgain) {
 
 TEST(ErrorList, ForgetsTheOldestOfMany) {
     ErrorList errors;
-    for (std::size_t i = 0; i <= ErrorList::kMost; ++i) errors.add(std::to_string(i), ErrorSource::Other);
-    EXPECT_EQ(errors.all().size(), ErrorList::kMost);
+    for (std::size_t i = 0; i <= ErrorList::kMax; ++i) errors.add(std::to_string(i), ErrorSource::Other);
+    EXPECT_EQ(errors.all().size(), ErrorList::kMax);
     EXPECT_EQ(errors.all().front().text, "1");
 }
 

@@ -29,7 +29,7 @@ class Gltf : public testing::Test {
         scene = load();
         const ObjectDesc* object = &scene.objects.at(0);
         if (const auto* group = std::get_if<GroupDesc>(&object->shape)) object = &group->objects.at(0);
-        return *std::get<Indirect<MeshData>>(std::get<MeshDesc>(object->shape).source);
+        return *std::get<Boxed<MeshData>>(std::get<MeshDesc>(object->shape).source);
     }
     void placeTriangle() { gltf.addNode({{"mesh", gltf.addMesh(gltf.triangle())}}); }
 
@@ -328,7 +328,7 @@ TEST_F(Gltf, BuffersMayLieBesideOrInTheText) {
     text.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", 0}}}}}}}};
     GltfBuilder::write(folder / "c.gltf", text.json.dump());
     const SceneDesc inside = loadGltfScene(folder / "c.gltf");
-    EXPECT_EQ(std::get<Indirect<MeshData>>(std::get<MeshDesc>(inside.objects.at(0).shape).source)->positions,
+    EXPECT_EQ(std::get<Boxed<MeshData>>(std::get<MeshDesc>(inside.objects.at(0).shape).source)->positions,
               (std::vector<glm::dvec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
 }
 

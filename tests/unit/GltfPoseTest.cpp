@@ -26,7 +26,7 @@ class GltfPose : public testing::Test {
     static const MeshData& meshOf(const SceneDesc& scene, std::size_t object = 0) {
         const ObjectDesc* found = &scene.objects.at(object);
         if (const auto* group = std::get_if<GroupDesc>(&found->shape)) found = &group->objects.at(0);
-        return *std::get<Indirect<MeshData>>(std::get<MeshDesc>(found->shape).source);
+        return *std::get<Boxed<MeshData>>(std::get<MeshDesc>(found->shape).source);
     }
     int floats(const std::vector<float>& values, const char* type) { return gltf.addAccessor(values, type); }
 
@@ -89,7 +89,7 @@ TEST_F(GltfPose, NodesOverrideTheWeightsAndShareAMeshInEqualPosesOnly) {
     while (std::holds_alternative<InstanceDesc>(scene.objects[alone].shape)) ++alone;
     EXPECT_EQ(meshOf(scene, alone).positions[0], glm::dvec3(2, 0, 0));
     const auto& shared = std::get<MeshDesc>(scene.prototypes.begin()->second.at(0).shape);
-    EXPECT_EQ(std::get<Indirect<MeshData>>(shared.source)->positions[1], glm::dvec3(1, 4, 0));
+    EXPECT_EQ(std::get<Boxed<MeshData>>(shared.source)->positions[1], glm::dvec3(1, 4, 0));
 }
 
 // Targets may be sparse, and of vertices that the primitive does not use.

@@ -95,13 +95,13 @@ TEST_F(GuiSettingsTest, FlagsWinOverWhatWasStored) {
 TEST_F(GuiSettingsTest, RecentFilesAreFewAndTheLatestComesFirst) {
     GuiSettings s;
     for (int i = 0; i < 20; ++i) s.addRecent(std::to_string(i));
-    EXPECT_EQ(s.recent.size(), kMostRecent);
+    EXPECT_EQ(s.recent.size(), kMaxRecent);
     s.addRecent("15");
     EXPECT_EQ(s.recent.front(), "15");
     EXPECT_EQ(std::count(s.recent.begin(), s.recent.end(), "15"), 1);
     s.removeRecent("15");
     s.removeRecent("never there");
-    EXPECT_EQ(s.recent.size(), kMostRecent - 1);
+    EXPECT_EQ(s.recent.size(), kMaxRecent - 1);
     EXPECT_EQ(std::count(s.recent.begin(), s.recent.end(), "15"), 0);
 }
 

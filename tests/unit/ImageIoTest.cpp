@@ -149,7 +149,7 @@ TEST(ImageIo, TexturesOf16BitsKeepColoursAndOpacity) {
         const double linear = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
         EXPECT_NEAR(std::bit_cast<float>(compiled->texels[i]), i % 4 == 3 ? encoded : linear, 1e-6) << i;
     }
-    EXPECT_NE(compiled->features & shared::kFeatureOpacity, 0u);
+    EXPECT_TRUE(shared::has(compiled->features, shared::kFeatureOpacity));
 }
 
 // Content of a chunk that stands between header and rows; empty: there is none.

@@ -46,9 +46,10 @@ TEST_F(InteractiveViewTest, ShowsFeaturesAndWhatAPixelHolds) {
     ASSERT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.samples; }));
     EXPECT_TRUE(session.state().picture.isDisplay);
     session.view({ViewMode::Noise, 4, false});
-    ASSERT_TRUE(reaches(session, [](const SessionState& s) { return s.picture.legend && s.picture.legend->most < 1; }));
+    ASSERT_TRUE(
+        reaches(session, [](const SessionState& s) { return s.picture.legend && s.picture.legend->maximum < 1; }));
     EXPECT_EQ(session.state().picture.legend->quantity, Legend::Quantity::StandardError);
-    EXPECT_EQ(session.state().picture.legend->most, 0.25f);
+    EXPECT_EQ(session.state().picture.legend->maximum, 0.25f);
     session.view({ViewMode::Error, 1, false}); // without a reference it is the picture
     EXPECT_TRUE(reaches(session, [](const SessionState& s) { return !s.picture.isDisplay; }));
     EXPECT_FALSE(session.state().picture.legend);

@@ -15,9 +15,9 @@ namespace {
 using glm::dvec3;
 using test::Uniforms;
 
-constexpr uint kFeatures = kFeatureQuads | kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
-                           kFeatureDielectric | kFeatureLights | kFeatureQuadLights | kFeatureSphereLights |
-                           kFeatureTriangleLights | kFeatureMovingSpheres;
+constexpr Features kFeatures = kFeatureQuads | kFeatureSpheres | kFeatureLambertian | kFeatureMetal | kFeatureFuzz |
+                               kFeatureDielectric | kFeatureLights | kFeatureQuadLights | kFeatureSphereLights |
+                               kFeatureTriangleLights | kFeatureMovingSpheres;
 
 // A scene of lights alone, as the engine keeps them.
 struct LitScene {

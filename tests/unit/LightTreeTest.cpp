@@ -115,8 +115,8 @@ TEST_P(LightTree, NeverLeavesOutALightThatContributes) {
             if (p > 0 || medium || !(s.lightBounds[i].intensity > 0)) continue;
             const double d = glm::length(dvec3(s.lights[i].position - position));
             if (s.lights[i].kind == kLightSphere && d < double(s.lights[i].radius) * 1.0001) continue;
-            const double most = double(s.lights[i].area) / (d * d);
-            ASSERT_LE(irradianceOf(s.lights[i], dvec3(position), dvec3(normal)), 1e-5 * most) << i;
+            const double maximum = double(s.lights[i].area) / (d * d);
+            ASSERT_LE(irradianceOf(s.lights[i], dvec3(position), dvec3(normal)), 1e-5 * maximum) << i;
         }
         ASSERT_LE(sum, 1 + 1e-4);
         if (!(sum > 0)) continue;

@@ -36,7 +36,7 @@ class Materials : public testing::TestWithParam<std::size_t> {
         m.kind = static_cast<std::uint32_t>(type_.kind);
         m.albedo = vec3(0.2f, 0.5f, 0.9f);
         forEachNumber(type_, [&](const MaterialParameter& p, std::size_t i) {
-            m.parameter[i] = static_cast<float>(std::lerp(p.least, p.most, share));
+            m.parameter[i] = static_cast<float>(std::lerp(p.minimum, p.maximum, share));
         });
         return m;
     }
@@ -82,8 +82,9 @@ TEST_P(Materials, AreSampledAsTheirDensitySays) {
 TEST_P(Materials, SurviveASceneFile) {
     Json material = {{"type", type_.name}, {"emission", {1, 2, 3}}};
     if (const MaterialParameter* color = colorOf(type_)) material[color->name] = "check";
-    forEachNumber(
-        type_, [&](const MaterialParameter& p, std::size_t) { material[p.name] = std::lerp(p.least, p.most, 0.25); });
+    forEachNumber(type_, [&](const MaterialParameter& p, std::size_t) {
+        material[p.name] = std::lerp(p.minimum, p.maximum, 0.25);
+    });
     if (type_.kind == MaterialKind::Principled)
         forEachPrincipledParameter([&](const SceneParameter& p, auto member) {
             material[p.name] = test::sample(p, PrincipledDesc().*member);
@@ -102,7 +103,7 @@ TEST_P(Materials, SurviveASceneFile) {
     EXPECT_EQ(made.kind, static_cast<std::uint32_t>(type_.kind));
     EXPECT_EQ(made.texture != shared::kNone, colorOf(type_) != nullptr);
     forEachNumber(type_, [&](const MaterialParameter& p, std::size_t i) {
-        EXPECT_EQ(made.parameter[i], static_cast<float>(std::lerp(p.least, p.most, 0.25))) << p.name;
+        EXPECT_EQ(made.parameter[i], static_cast<float>(std::lerp(p.minimum, p.maximum, 0.25))) << p.name;
     });
     EXPECT_EQ(compiled->features & type_.feature, type_.feature);
 }
@@ -113,7 +114,7 @@ Json schemaOf(const MaterialParameter& parameter) {
         const Json reference = {{"$ref", "#/definitions/color_or_texture"}};
         return help.empty() ? reference : Json{{"description", help}, {"allOf", Json::array({reference})}};
     }
-    Json schema = {{"type", "number"}, {"minimum", parameter.least}, {"maximum", parameter.most}};
+    Json schema = {{"type", "number"}, {"minimum", parameter.minimum}, {"maximum", parameter.maximum}};
     if (!parameter.isRequired) schema["default"] = parameter.usual;
     if (!help.empty()) schema["description"] = help;
     return schema;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 #include "Common/Image/Statistics.h"
 
 namespace rt::image {

@@ -243,7 +243,7 @@ TEST_F(ObjLoader, AFileAloneIsAScene) {
     EXPECT_EQ(scene.id, "model.obj");
     const auto compiled = compileScene(scene);
     EXPECT_EQ(compiled->triangles.size(), 2u);
-    EXPECT_TRUE(compiled->features & shared::kFeatureSky);
+    EXPECT_TRUE(shared::has(compiled->features, shared::kFeatureSky));
     // All of it is in view: inside the cone around the view that fits a square picture.
     const CameraDesc& camera = scene.camera;
     const glm::dvec3 view = glm::normalize(camera.lookAt - camera.lookFrom);

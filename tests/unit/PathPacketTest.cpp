@@ -54,15 +54,15 @@ vec3 tracePath(const KernelContext& context, const Sampler& smp, uvec2 pixel, Ke
     vec3 connected(0.0f); // summed apart, as packets do
     for (bool goesOn = true; goesOn;) {
         DirectLight direct = noDirectLight();
-        Passage passage = noPassage();
+        SpecularConnection connection = noConnection();
         const Hit hit = traceRay<kFeatureAll>(scene, smp, 2u * path.vertex, path.ray);
         SharedPart unusedPart;
-        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPart, direct, passage);
-        while (passage.segments != 0u) {
+        goesOn = stepPath(kFeatureAll, scene, context.params, smp, hit, path, unusedPart, direct, connection);
+        while (connection.segments != 0u) {
             ++counters.shadow;
             float tMax;
-            const Ray ray = passageRay(passage, path.ray.time, tMax);
-            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, passage, connected);
+            const Ray ray = connectionRay(connection, path.ray.time, tMax);
+            endSegment(kFeatureAll, scene, !isOccluded(scene, ray, tMax), ray, tMax, connection, connected);
         }
         if (!(direct.distance > 0.0f)) continue;
         ++counters.shadow;

@@ -185,9 +185,9 @@ TEST(Principled, WeakGlassReflectsAsItsLimit) {
         for (const bool front : {true, false}) {
             const vec3 wo = outgoingAt(0.1);
             Principled p = principledOf({"glass", 0, 1}, roughness);
-            p.ior = 1 + 0.99f * kLeastBend;
+            p.ior = 1 + 0.99f * kMinBend;
             const Bsdf below = bsdfOf(p, vec3(1), wo, front);
-            p.ior = 1 + 1.05f * kLeastBend;
+            p.ior = 1 + 1.05f * kMinBend;
             const Bsdf beyond = bsdfOf(p, vec3(1), wo, front);
             ASSERT_TRUE(isStraight(below.lobes));
             ASSERT_FALSE(isStraight(beyond.lobes));

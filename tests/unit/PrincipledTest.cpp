@@ -23,6 +23,7 @@ using test::bsdfOf;
 using test::drawFrom;
 using test::evalBothSides;
 using test::kPrincipledCases;
+using test::kUp;
 using test::Mean;
 using test::outgoingAt;
 using test::PrincipledCase;
@@ -188,14 +189,14 @@ TEST(Principled, CoatsTurnWithTheirNormal) {
 // A lobe that becomes a mirror loses no brightness on the way.
 TEST(Principled, MirrorsAreTheLimitOfRoughness) {
     Uniforms uniform(35);
-    const float least = std::sqrt(kLeastAlpha);
+    const float minimum = std::sqrt(kMinAlpha);
     for (const PrincipledCase& which : kPrincipledCases)
         for (const double cosine : {0.9, 0.3}) {
             const vec3 wo = outgoingAt(cosine);
             const vec3 albedo(0.8f, 0.5f, 0.2f);
             Mean below, above;
-            const Bsdf mirror = bsdfOf(principledOf(which, 0.999f * least), albedo, wo);
-            const Bsdf rough = bsdfOf(principledOf(which, 1.001f * least), albedo, wo);
+            const Bsdf mirror = bsdfOf(principledOf(which, 0.999f * minimum), albedo, wo);
+            const Bsdf rough = bsdfOf(principledOf(which, 1.001f * minimum), albedo, wo);
             for (int i = 0; i < 1 << 14; ++i) {
                 below.add(double(drawFrom(mirror, wo, uniform.pair()).weight.y));
                 above.add(double(drawFrom(rough, wo, uniform.pair()).weight.y));

@@ -46,7 +46,8 @@ TEST(Printable, LeavesOutTheMiddle) {
     EXPECT_NE(shown.find("[2999918 bytes more]"), std::string::npos) << shown;
     std::string umlauts;
     for (int i = 0; i < 1000; ++i) umlauts += "\xc3\xbc";
-    for (std::size_t most = 80; most < 90; ++most) EXPECT_EQ(printable(umlauts, most).find("\\x"), std::string::npos);
+    for (std::size_t maximum = 80; maximum < 90; ++maximum)
+        EXPECT_EQ(printable(umlauts, maximum).find("\\x"), std::string::npos);
     EXPECT_EQ(printable(std::string(1000, '\x80'), 90).find('\x80'), std::string::npos);
 }
 

@@ -48,10 +48,10 @@ TEST(Uniform, FineHas48BitsNearZero) {
 }
 
 TEST(Uniform, StretchReusesTheRest) {
-    EXPECT_EQ(stretch(0.25f, 0.25f, 0.75f), 0.0f);
-    EXPECT_EQ(stretch(0.5f, 0.25f, 0.75f), 0.5f);
-    EXPECT_LT(stretch(0.75f, 0.25f, 0.75f), 1.0f);
-    EXPECT_EQ(stretch(0.2f, 0.25f, 0.75f), 0.0f);
+    EXPECT_EQ(remapSample(0.25f, 0.25f, 0.75f), 0.0f);
+    EXPECT_EQ(remapSample(0.5f, 0.25f, 0.75f), 0.5f);
+    EXPECT_LT(remapSample(0.75f, 0.25f, 0.75f), 1.0f);
+    EXPECT_EQ(remapSample(0.2f, 0.25f, 0.75f), 0.0f);
 }
 
 // ---- hashes --------------------------------------------------------------------------------------------------------

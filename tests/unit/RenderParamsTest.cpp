@@ -10,7 +10,7 @@ namespace rt::app {
 namespace {
 
 // Features of a render of a lamp and a ball of this material.
-std::uint32_t featuresWith(const std::string& material, const RenderSettings& settings = {}) {
+shared::Features featuresWith(const std::string& material, const RenderSettings& settings = {}) {
     const std::string text = R"({"version": 1, "camera": {"look_from": [0, 0, 5], "look_at": [0, 0, 0]},
         "materials": {"lamp": {"type": "emitter", "emission": [1, 1, 1]}, "ball": )" +
                              material + R"(},
@@ -21,7 +21,7 @@ std::uint32_t featuresWith(const std::string& material, const RenderSettings& se
 }
 
 TEST(RenderParams, LightSamplingIsLeftOutWhereNothingScattersWidely) {
-    constexpr std::uint32_t kLights = shared::kFeatureLights | shared::kFeatureQuadLights;
+    constexpr shared::Features kLights = shared::kFeatureLights | shared::kFeatureQuadLights;
     for (const char* material : {R"({"type": "dielectric", "ior": 1.5})", R"({"type": "metal", "albedo": [1, 1, 1]})",
                                  R"({"type": "emitter", "emission": [1, 1, 1]})"}) {
         EXPECT_FALSE(shared::has(featuresWith(material), kLights)) << material;

@@ -89,10 +89,10 @@ TEST_F(RunHistoryTest, KeepsTheLastTenThousandLines) {
     history.append(record("first"));
     {
         std::ofstream out(file(), std::ios::app);
-        for (std::size_t i = 1; i < RunHistory::kMostLines; ++i) out << toJsonLine(record("old")) << '\n';
+        for (std::size_t i = 1; i < RunHistory::kMaxLines; ++i) out << toJsonLine(record("old")) << '\n';
     }
     history.append(record("last"));
-    EXPECT_EQ(lines(), RunHistory::kMostLines);
+    EXPECT_EQ(lines(), RunHistory::kMaxLines);
     EXPECT_EQ(history.records().front().scene, "old");
     EXPECT_EQ(history.records().back().scene, "last");
 }

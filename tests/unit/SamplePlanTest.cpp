@@ -247,13 +247,13 @@ TEST(SamplePlan, PixelsThatDependOnEachOtherGetAlikeMany) {
     const std::vector<std::uint32_t> alone = makeSamplePlan(renderer.film, kMany, 1);
     const std::vector<std::uint32_t> plan = makeSamplePlan(renderer.film, kMany, kSide);
     const auto spread = [](const std::vector<std::uint32_t>& of, std::uint32_t x, std::uint32_t y) { // in one square
-        std::uint32_t least = of[y * Film::kTile + x], most = least;
+        std::uint32_t minimum = of[y * Film::kTile + x], maximum = minimum;
         for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
             const std::uint32_t samples = of[(y + i / kSide) * Film::kTile + x + i % kSide];
-            least = std::min(least, samples);
-            most = std::max(most, samples);
+            minimum = std::min(minimum, samples);
+            maximum = std::max(maximum, samples);
         }
-        return most - least;
+        return maximum - minimum;
     };
     std::uint32_t largest = 0, largestAlone = 0; // of the first tile
     for (std::uint32_t y = 0; y < Film::kTile; y += kSide)

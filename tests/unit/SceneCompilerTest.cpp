@@ -289,20 +289,20 @@ SceneDesc withNestedCheckers(int depth) {
 }
 
 TEST(SceneCompiler, CheckersNestToTheLimitOfTheKernels) {
-    constexpr int kMost = shared::kMaxCheckerDepth;
-    const std::string nine = "/textures/" + std::to_string(kMost + 1) + ": checkers are nested deeper than 8";
-    EXPECT_NO_THROW(compileScene(withNestedCheckers(kMost)));
-    EXPECT_NE(errorOf(withNestedCheckers(kMost + 1)).find(nine), std::string::npos);
-    for (const int depth : {kMost + 2, 39, 100'000}) // not by exhausting the stack
+    constexpr int kMax = shared::kMaxCheckerDepth;
+    const std::string nine = "/textures/" + std::to_string(kMax + 1) + ": checkers are nested deeper than 8";
+    EXPECT_NO_THROW(compileScene(withNestedCheckers(kMax)));
+    EXPECT_NE(errorOf(withNestedCheckers(kMax + 1)).find(nine), std::string::npos);
+    for (const int depth : {kMax + 2, 39, 100'000}) // not by exhausting the stack
         EXPECT_NE(errorOf(withNestedCheckers(depth)).find("nested deeper"), std::string::npos) << depth;
     // Around textures that another material has needed already.
-    SceneDesc both = withNestedCheckers(kMost + 1);
+    SceneDesc both = withNestedCheckers(kMax + 1);
     both.materials["inner"] = both.materials["matte"];
-    both.materials["inner"].albedo = std::to_string(kMost);
+    both.materials["inner"].albedo = std::to_string(kMax);
     both.objects.insert(both.objects.begin(), {sphere({0, 0, 0}, 1, "inner")});
     EXPECT_NE(errorOf(both).find(nine), std::string::npos);
     // A checker may end in any other texture.
-    SceneDesc noisy = withNestedCheckers(kMost);
+    SceneDesc noisy = withNestedCheckers(kMax);
     noisy.textures["1"] = CheckerTexture{1, std::string("noise"), glm::dvec3(1)};
     noisy.textures["noise"] = NoiseTexture{};
     EXPECT_NO_THROW(compileScene(noisy));

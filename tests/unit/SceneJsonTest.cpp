@@ -271,10 +271,10 @@ TEST(SceneJson, NoKindOfObjectMakesTheOthersLarge) {
     const MeshDesc mesh{MeshData{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {}, {{0, 1, 2}}}, "matte", true};
     MeshDesc copy = mesh;
     EXPECT_EQ(copy, mesh);
-    EXPECT_EQ(std::get<Indirect<MeshData>>(copy.source)->positions[1], glm::dvec3(1, 0, 0));
+    EXPECT_EQ(std::get<Boxed<MeshData>>(copy.source)->positions[1], glm::dvec3(1, 0, 0));
     copy.source = MeshData{{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}}, {}, {}, {}, {}, {}, {{0, 1, 2}}};
     EXPECT_NE(copy, mesh);
-    EXPECT_EQ(std::get<Indirect<MeshData>>(mesh.source)->positions[1], glm::dvec3(1, 0, 0));
+    EXPECT_EQ(std::get<Boxed<MeshData>>(mesh.source)->positions[1], glm::dvec3(1, 0, 0));
 }
 
 TEST(SceneJson, SyntaxErrorsHaveLineAndColumn) {

@@ -39,15 +39,15 @@ inline Json sample(const SceneParameter&, bool usual) {
     return !usual;
 }
 inline Json sample(const SceneParameter& p, double) {
-    const double value = p.most >= 2.5 ? 2.5 : 0.25 * p.least + 0.75 * p.most;
-    EXPECT_GE(value, p.least);
+    const double value = p.maximum >= 2.5 ? 2.5 : 0.25 * p.minimum + 0.75 * p.maximum;
+    EXPECT_GE(value, p.minimum);
     return value;
 }
 inline Json sample(const SceneParameter& p, const std::optional<double>&) {
     return sample(p, 0.0);
 }
 inline Json sample(const SceneParameter& p, std::uint32_t) {
-    return p.most >= 7 ? 7u : static_cast<std::uint32_t>(p.most);
+    return p.maximum >= 7 ? 7u : static_cast<std::uint32_t>(p.maximum);
 }
 inline Json sample(const SceneParameter& p, const std::optional<std::uint32_t>&) {
     return sample(p, 0u);
@@ -78,7 +78,7 @@ inline Json schemaOf(const SceneParameter&, bool usual) {
     return {{"type", "boolean"}, {"default", usual}};
 }
 inline Json schemaOf(const SceneParameter& p, const std::optional<double>&) {
-    return {{"type", "number"}, {"minimum", p.least}, {"maximum", p.most}};
+    return {{"type", "number"}, {"minimum", p.minimum}, {"maximum", p.maximum}};
 }
 inline Json schemaOf(const SceneParameter& p, double usual) {
     Json schema = schemaOf(p, std::optional<double>());
@@ -86,7 +86,7 @@ inline Json schemaOf(const SceneParameter& p, double usual) {
     return schema;
 }
 inline Json schemaOf(const SceneParameter& p, const std::optional<std::uint32_t>&) {
-    return {{"type", "integer"}, {"minimum", p.least}, {"maximum", p.most}};
+    return {{"type", "integer"}, {"minimum", p.minimum}, {"maximum", p.maximum}};
 }
 inline Json schemaOf(const SceneParameter& p, std::uint32_t usual) {
     Json schema = schemaOf(p, std::optional<std::uint32_t>());

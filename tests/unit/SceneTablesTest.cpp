@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "Common/Core/Error.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Builtin/SceneBuilder.h"
-#include "Common/Scene/Builtin/StandIns.h"
 #include "Common/Scene/Compiler/GridCdf.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
 #include "Common/Scene/Compiler/PerlinTable.h"
@@ -141,7 +141,7 @@ TEST(Polygon, OddOnesAreCutToo) {
     EXPECT_EQ(cutPolygon(std::vector<glm::dvec3>(5, glm::dvec3(nan))).size(), 3u);
 }
 
-TEST(StandIns, TheStatueIsClosedAndOfTheSizeOfLucy) {
+TEST(Placeholders, TheStatueIsClosedAndOfTheSizeOfLucy) {
     const MeshData statue = makeMeshStandIn("statue");
     EXPECT_NEAR(double(statue.triangles.size()), 450000, 10000);
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
@@ -161,7 +161,7 @@ TEST(StandIns, TheStatueIsClosedAndOfTheSizeOfLucy) {
     EXPECT_THROW(makeMeshStandIn("bunny"), InputError);
 }
 
-TEST(StandIns, MapsOfPackagesAreTakenWhereAskedFor) {
+TEST(Placeholders, MapsOfPackagesAreTakenWhereAskedFor) {
     const test::TempFolder folder;
     std::ofstream(folder / "earth.jpg") << "a map";
     test::setVariable("RT_PLANET_MAPS", folder.path().string());
@@ -190,7 +190,7 @@ TEST(StandIns, MapsOfPackagesAreTakenWhereAskedFor) {
     EXPECT_THROW(installedPlanetMap("pluto"), InputError);
 }
 
-TEST(StandIns, PlanetMapsDiffer) {
+TEST(Placeholders, PlanetMapsDiffer) {
     std::vector<std::vector<std::uint32_t>> maps;
     for (const std::string& name : planetMapNames()) {
         TexelData map = makePlanetMap(name);

@@ -75,7 +75,7 @@ TEST(SkyPatches, OfEvenSkiesAreWorthNothing) {
     const auto even = ballUnder({kWidth, kHeight, [](std::uint32_t x, std::uint32_t y) {
                                      return x == 5 && y == 0 ? 3.0f : 1.0f + 0.5f * float((x + y) % 2);
                                  }});
-    EXPECT_EQ(even->smoothSpheres.size(), 0u);
+    EXPECT_EQ(even->specularCasters.size(), 0u);
     EXPECT_EQ(even->skyPatches.size(), 0u);
     const BrightSky sky = findBrightSky(*even);
     ASSERT_EQ(sky.patches.size(), 1u);

@@ -68,16 +68,16 @@ std::ostream& operator<<(std::ostream& out, const RandomPair& r) {
 int countByScan(const RandomPair& r) {
     constexpr int kAngles = 1000;
     int count = 0;
-    double least = 0, before = 0;
+    double minimum = 0, before = 0;
     for (int k = 1; k <= kAngles; ++k) {
         const double now = r.turnAt(0.5 * kPiD * k / kAngles);
         EXPECT_LT(std::abs(now), kPiD) << r;
         for (const double target : {-r.bend, r.bend}) count += (before - target) * (now - target) < 0 ? 1 : 0;
-        least = std::min(least, now);
+        minimum = std::min(minimum, now);
         before = now;
     }
     const double margin = 1e-4;
-    const bool isClose = std::abs(least + r.bend) < margin || std::abs(std::abs(before) - r.bend) < margin;
+    const bool isClose = std::abs(minimum + r.bend) < margin || std::abs(std::abs(before) - r.bend) < margin;
     return isClose ? -1 : count;
 }
 
@@ -91,7 +91,7 @@ TEST(SphereRefraction, FindsAllPaths) {
         ASSERT_LE(expected, 3);
         ++seen[r.isBack() ? 1 : 0][std::size_t(expected)];
         const RefractionPair p = r.pair();
-        ASSERT_EQ(int(refractionRoots(p, leastTurn(p)).count), expected) << r;
+        ASSERT_EQ(int(refractionRoots(p, minTurn(p)).count), expected) << r;
     }
     for (const auto& counts : seen)
         for (const int count : counts) EXPECT_GT(count, 20);
@@ -105,7 +105,7 @@ TEST(SphereRefraction, PathsObeySnellsLaw) {
     for (int k = 0; k < 200000; ++k) {
         const RandomPair r(u);
         const RefractionPair p = r.pair();
-        const RefractionRoots roots = refractionRoots(p, leastTurn(p));
+        const RefractionRoots roots = refractionRoots(p, minTurn(p));
         for (uint kind = 0; kind < kRefractedPaths; ++kind) {
             if (!hasPath(roots, kind)) continue;
             const Refraction at = refractedPath(p, kind);
@@ -153,7 +153,7 @@ class Irradiance {
         const double light = scatter(u, y, ray);
         if (light == 0) return 0;
         const RefractionPair p = pair(y);
-        if (refractionRoots(p, leastTurn(p)).count == 0) return light;
+        if (refractionRoots(p, minTurn(p)).count == 0) return light;
         const float sine = float(std::min(glm::length(glm::cross(ray.origin, ray.direction)), 1.0));
         const Refraction at = refractionAt(p, angleOfSine(sine));
         const Densities d = densities(p, at, ray.direction);
@@ -164,7 +164,7 @@ class Irradiance {
         const dvec3 y = c_.corner + double(u()) * c_.edgeU + double(u()) * c_.edgeV;
         const dvec3 axis = -glm::normalize(c_.x);
         const RefractionPair p = pair(y);
-        const RefractionRoots roots = refractionRoots(p, leastTurn(p));
+        const RefractionRoots roots = refractionRoots(p, minTurn(p));
         double sum = 0;
         for (uint kind = 0; kind < kRefractedPaths; ++kind) {
             if (!hasPath(roots, kind)) continue;

@@ -141,7 +141,7 @@ TEST(Textures, CheckersNestedTooDeepAreNotTakenForNoise) {
     for (uint i = 0; i <= kMaxCheckerDepth; ++i)
         scene.textures.push_back(makeTexture(kTextureChecker, vec3(0.25f), 1, 0, i + 1, i + 1));
     scene.textures.push_back(makeTexture(kTextureSolid, vec3(1), 1, 0, 0, 0));
-    const uint features = kFeatureChecker | kFeatureNoise | kFeatureImages;
+    const Features features = kFeatureChecker | kFeatureNoise | kFeatureImages;
     EXPECT_EQ(vec3(evalTexture(features, scene, 1, vec3(0.5f), vec2(0), vec2(0))), vec3(1)) << "as deep as is allowed";
     EXPECT_EQ(vec3(evalTexture(features, scene, 0, vec3(0.5f), vec2(0), vec2(0))), vec3(0.25f)) << "one too deep";
 }
@@ -298,7 +298,7 @@ TEST(Textures, EightBitsMayBeLinearAndHaveOpacity) {
 
 TEST(Textures, SolidNeedsNoFeature) {
     const TextureScene scene = checkerScene();
-    EXPECT_EQ(vec3(evalTexture(0, scene, 1, vec3(0), vec2(0), vec2(0))), vec3(1, 0, 0));
+    EXPECT_EQ(vec3(evalTexture(kFeatureNone, scene, 1, vec3(0), vec2(0), vec2(0))), vec3(1, 0, 0));
 }
 
 } // namespace

@@ -15,7 +15,7 @@ namespace {
 using image::Film;
 
 constexpr std::uint32_t kTilesX = 60, kTilesY = 34;
-constexpr std::uint32_t kLeast = 8; // tiles of a lease
+constexpr std::uint32_t kMin = 8; // tiles of a lease
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 class Simulation {
@@ -57,7 +57,7 @@ class Simulation {
 
     void give(std::size_t rank, double now) {
         Busy& busy = busy_[rank];
-        const auto lease = pool_.lease(rank, kLeast, now);
+        const auto lease = pool_.lease(rank, kMin, now);
         if (!lease) return;
         if (const auto recalled = pool_.recalled()) takeBack(*recalled, now);
         busy.leases.push_back(*lease);
@@ -118,7 +118,7 @@ TEST(TilePool, RanksOfOneSpeedEndTogether) {
     for (const std::size_t ranks : {1u, 2u, 3u, 5u, 16u}) {
         Simulation simulation(ranks, 64, false, [](std::size_t, double) { return 1e6; });
         const double ideal = simulation.work() / (1e6 * static_cast<double>(ranks));
-        const double smallest = kLeast * Film::kTilePixels * 64 / 1e6; // seconds, of a lease
+        const double smallest = kMin * Film::kTilePixels * 64 / 1e6; // seconds, of a lease
         EXPECT_LE(simulation.run(), 1.01 * ideal + smallest) << ranks;
         EXPECT_EQ(simulation.film().minSamples(), 64u);
     }
@@ -162,9 +162,9 @@ TEST(TilePool, RoundsKeepTheImageEven) {
                           [](std::size_t rank, double) { return 1e7 * (1.0 + static_cast<double>(rank)); });
     const auto check = [&] {
         const Film& film = simulation.film();
-        std::uint64_t most = 0;
-        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) most = std::max(most, film.samples(tile));
-        EXPECT_LE(most, std::max<std::uint64_t>(Film::kBlock, 4 * film.minSamples())); // this round and the next
+        std::uint64_t maximum = 0;
+        for (std::uint32_t tile = 0; tile < film.tileCount(); ++tile) maximum = std::max(maximum, film.samples(tile));
+        EXPECT_LE(maximum, std::max<std::uint64_t>(Film::kBlock, 4 * film.minSamples())); // this round and the next
     };
     EXPECT_LT(simulation.run(check), kNever);
     EXPECT_EQ(simulation.film().minSamples(), 1008u);
@@ -238,7 +238,7 @@ TEST(TilePool, LeasesDoNotOverlap) {
     TilePool pool(film, {image::allTiles(film), 16, false}, 3);
     std::set<std::uint32_t> seen;
     for (std::size_t rank = 0; rank < 3; ++rank) {
-        const auto lease = pool.lease(rank, kLeast, 0);
+        const auto lease = pool.lease(rank, kMin, 0);
         ASSERT_TRUE(lease);
         for (const std::uint32_t tile : lease->tiles) EXPECT_TRUE(seen.insert(tile).second) << tile;
     }

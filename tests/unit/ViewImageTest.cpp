@@ -36,9 +36,9 @@ TEST(ViewImageTest, TheLegendOfCostsTellsTheValueOfTheBrightestColour) {
     const ViewImage rays = showCost(Cost::Rays, costs(), 1), time = showCost(Cost::Time, costs(), 1);
     ASSERT_TRUE(rays.legend && time.legend);
     EXPECT_EQ(rays.legend->quantity, Legend::Quantity::Rays);
-    EXPECT_EQ(rays.legend->most, 1000);
+    EXPECT_EQ(rays.legend->maximum, 1000);
     EXPECT_EQ(time.legend->quantity, Legend::Quantity::Time);
-    EXPECT_EQ(time.legend->most, 995); // but for one pixel in 200
+    EXPECT_EQ(time.legend->maximum, 995); // but for one pixel in 200
     const image::Image brightest = paint({Legend::Quantity::Rays, 1}, {1}, 1, 1);
     expectSameColour(rays.image, 999, brightest, 0);
     expectSameColour(time.image, 994, brightest, 0);
@@ -46,7 +46,7 @@ TEST(ViewImageTest, TheLegendOfCostsTellsTheValueOfTheBrightestColour) {
     EXPECT_NE(rays.image.pixel(900, 0)[0], brightest.pixel(0, 0)[0]);
 
     const ViewImage scaled = showCost(Cost::Rays, costs(), 4);
-    EXPECT_EQ(scaled.legend->most, 250);
+    EXPECT_EQ(scaled.legend->maximum, 250);
     expectSameColour(scaled.image, 249, brightest, 0);
     EXPECT_NE(scaled.image.pixel(200, 0)[0], brightest.pixel(0, 0)[0]);
     EXPECT_TRUE(showCost(Cost::Rays, {}, 1).image.data.empty());
@@ -58,7 +58,7 @@ TEST(ViewImageTest, ErrorsAreRelativeToTheReference) {
     picture.data = {1.4f, 1.4f, 1.4f, 0.4f, 0.4f, 0.4f}; // by a half of 0.9 + 0.1, and not at all
     const ViewImage shown = showError(picture, reference, 0.5);
     ASSERT_TRUE(shown.legend);
-    EXPECT_EQ(shown.legend->most, 2);
+    EXPECT_EQ(shown.legend->maximum, 2);
     const image::Image expected = paint(*shown.legend, {shown.legend->value(0.25f), 0}, 2, 1);
     for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(shown.image.data[i], expected.data[i], 1e-6f);
 }
@@ -70,7 +70,7 @@ TEST(ViewImageTest, NearIsBrightAndNoSurfaceIsBlack) {
     const ViewImage shown = showFeatures(ViewMode::Depth, images);
     ASSERT_TRUE(shown.legend);
     EXPECT_EQ(shown.legend->quantity, Legend::Quantity::Distance);
-    EXPECT_EQ(shown.legend->most, 8);
+    EXPECT_EQ(shown.legend->maximum, 8);
     EXPECT_EQ(shown.image.pixel(0, 0)[0], 0);
     EXPECT_GT(shown.image.pixel(1, 0)[0], shown.image.pixel(2, 0)[0]);
     EXPECT_GT(shown.image.pixel(2, 0)[0], 0);

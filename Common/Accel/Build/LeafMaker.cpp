@@ -21,15 +21,15 @@ std::uint32_t blocksOf(std::uint32_t kind, std::uint32_t items) {
 LeafMaker::LeafMaker(const Bvh& bvh, const TreeItems& items, BlockLanes& lanes)
     : bvh_(bvh), items_(items), lanes_(lanes) {
     // Lanes that nobody touches take no memory, while a vector that grows takes three times its own.
-    std::size_t most[kLeafKinds] = {};
+    std::size_t maximum[kLeafKinds] = {};
     for (const BvhNode& node : bvh.nodes) {
         if (!node.isLeaf()) continue;
         const auto kind = static_cast<std::uint32_t>(items.kind(bvh.items[node.first]));
-        most[kind] += blocksOf(kind, node.count) * lanesOf(kind);
+        maximum[kind] += blocksOf(kind, node.count) * lanesOf(kind);
     }
     for (std::uint32_t kind = 0; kind < kLeafKinds; ++kind) {
         std::vector<std::uint32_t>& all = lanes_.of[kind];
-        const std::size_t needed = all.size() + most[kind];
+        const std::size_t needed = all.size() + maximum[kind];
         if (needed > all.capacity()) reserveLarge(all, std::max(needed, 2 * all.size()));
     }
 }

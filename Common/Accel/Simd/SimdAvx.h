@@ -73,7 +73,7 @@ RT_FN Float8 withSign(Float8 a, Float8 b) {
 RT_FN float lane(Float8 a, unsigned i) {
     return _mm256_cvtss_f32(_mm256_permutevar8x32_ps(a.v, _mm256_set1_epi32(static_cast<int>(i))));
 }
-RT_FN float least(Float8 a) {
+RT_FN float minimum(Float8 a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
     m = _mm_min_ps(m, _mm_movehl_ps(m, m));
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));

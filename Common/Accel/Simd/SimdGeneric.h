@@ -150,7 +150,7 @@ RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
     }
     return count;
 }
-RT_FN float least(Float8 a) {
+RT_FN float minimum(Float8 a) {
     float result = a.v[0];
     for (int i = 1; i < 8; ++i) {
         result = a.v[i] < result ? a.v[i] : result;

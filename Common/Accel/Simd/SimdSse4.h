@@ -137,7 +137,7 @@ RT_FN unsigned storePacked(std::uint32_t* p, Index8 a, unsigned lanes) {
     }
     return count;
 }
-RT_FN float least(Float8 a) {
+RT_FN float minimum(Float8 a) {
     __m128 m = _mm_min_ps(a.lo, a.hi);
     m = _mm_min_ps(m, _mm_movehl_ps(m, m));
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_movehdup_ps(m)));

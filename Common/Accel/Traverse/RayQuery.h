@@ -25,7 +25,7 @@ struct Tracer {
 // from the standard library, it could hand to code for lesser processors.)
 struct RayQuery {
     // `kinds`: AccelView::kinds, feature bits.
-    Tracer (*tracer)(std::uint32_t kinds);
+    Tracer (*tracer)(shared::Features kinds);
     // hits[i]: what rays[i] hits first with t in (0, tMax[i]), as traceClosest() reports it.
     void (*closest)(const AccelView& view, const shared::Ray* rays, const float* tMax, shared::Hit* hits,
                     std::size_t count);

@@ -6,17 +6,17 @@
 namespace rt::accel {
 namespace {
 
-template <shared::uint kFeatures>
+template <shared::Features kFeatures>
 shared::Hit closestHit(const AccelView& view, const shared::Ray& ray, float tMax) {
     return traceClosest(kFeatures, view, ray, tMax);
 }
 
-template <shared::uint kFeatures>
+template <shared::Features kFeatures>
 bool anyHit(const AccelView& view, const shared::Ray& ray, float tMax) {
     return occluded(kFeatures, view, ray, tMax);
 }
 
-template <shared::uint kFeatures>
+template <shared::Features kFeatures>
 shared::Hit bothHits(const AccelView& view, const shared::Ray& ray, const shared::vec3& shadowDirection,
                      float shadowEnd, bool& isOccluded) {
     if (!view.isLinear) {
@@ -29,18 +29,18 @@ shared::Hit bothHits(const AccelView& view, const shared::Ray& ray, const shared
                                  makeShapeRay(kFeatures, shadow, true), shadowEnd, isOccluded);
 }
 
-template <shared::uint kFeatures>
+template <shared::Features kFeatures>
 constexpr Tracer makeTracer() {
     return {closestHit<kFeatures>, anyHit<kFeatures>, bothHits<kFeatures>};
 }
 
 // The leanest that covers the kinds.
-Tracer tracer(std::uint32_t kinds) {
+Tracer tracer(shared::Features kinds) {
     using namespace shared;
-    constexpr std::uint32_t kBox = kFeatureSpheres | kFeatureQuads;
-    constexpr std::uint32_t kStill = kBox | kFeatureTriangles;
-    constexpr std::uint32_t kAll = kStill | kFeatureMovingSpheres | kFeatureInstances;
-    const auto covers = [kinds](std::uint32_t set) { return (kinds & ~set) == 0; };
+    constexpr Features kBox = kFeatureSpheres | kFeatureQuads;
+    constexpr Features kStill = kBox | kFeatureTriangles;
+    constexpr Features kAll = kStill | kFeatureMovingSpheres | kFeatureInstances;
+    const auto covers = [kinds](Features set) { return (kinds & ~set) == kFeatureNone; };
     if (covers(kFeatureSpheres)) return makeTracer<kFeatureSpheres>();
     if (covers(kFeatureTriangles)) return makeTracer<kFeatureTriangles>();
     if (covers(kBox)) return makeTracer<kBox>();

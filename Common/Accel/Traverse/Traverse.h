@@ -15,7 +15,7 @@ namespace rt::accel {
 namespace {
 
 // The nearest hit with 0 < t < tMax; its t is negative if there is none.
-RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
+RT_FN shared::Hit traceClosest(shared::Features features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.isLinear) return traceLinear(features, view, makeShapeRay(features, ray, true), tMax);
     shared::Hit best{tMax, 0, 0, shared::kNone, 0.0f, 0.0f};
     if (view.quantizedNodes != nullptr) {
@@ -34,7 +34,7 @@ RT_FN shared::Hit traceClosest(shared::uint features, const AccelView& view, con
 }
 
 // Whether anything is hit with 0 < t < tMax.
-RT_FN bool occluded(shared::uint features, const AccelView& view, const shared::Ray& ray, float tMax) {
+RT_FN bool occluded(shared::Features features, const AccelView& view, const shared::Ray& ray, float tMax) {
     if (view.isLinear) return occludedLinear(features, view, makeShapeRay(features, ray, true), tMax);
     if (view.quantizedNodes != nullptr) {
         const LeafRay leafRay = makeLeafRay(features, ray, true);

@@ -30,7 +30,7 @@ RT_FN void acceptLanes(const LaneHits& lanes, const std::uint32_t* names, LaneBe
 
 RT_FN shared::Hit nearestOfLanes(const LaneBest& best, float tMax) {
     shared::Hit hit{-1.0f, 0, 0, shared::kNone, 0.0f, 0.0f};
-    const float t = least(best.t);
+    const float t = minimum(best.t);
     if (!(t < tMax)) return hit;
     const Mask8 nearest = best.t == broadcast(t);
     std::uint32_t name = firstOf(nearest, best.name);
@@ -58,21 +58,21 @@ RT_FN void forEachListedBlock(const LinearList<Block>& list, const Test& test) {
 
 // Calls test(block) for every block of the scene.
 template <class Test>
-RT_FN void forEachListedBlock(shared::uint features, const AccelView& view, const Test& test) {
+RT_FN void forEachListedBlock(shared::Features features, const AccelView& view, const Test& test) {
     if (shared::has(features, shared::kFeatureSpheres)) forEachListedBlock(view.listedSpheres, test);
     if (shared::has(features, shared::kFeatureMovingSpheres)) forEachListedBlock(view.listedMovingSpheres, test);
     if (shared::has(features, shared::kFeatureQuads)) forEachListedBlock(view.listedQuads, test);
     if (shared::has(features, shared::kFeatureTriangles)) forEachListedBlock(view.listedTriangles, test);
 }
 
-RT_FN shared::Hit traceLinear(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+RT_FN shared::Hit traceLinear(shared::Features features, const AccelView& view, const ShapeRay& ray, float tMax) {
     LaneBest best = noLaneHit(tMax);
     forEachListedBlock(features, view,
                        [&](const auto& block) { acceptLanes(intersectBlock(ray, block), block.primitive, best); });
     return nearestOfLanes(best, tMax);
 }
 
-RT_FN bool occludedLinear(shared::uint features, const AccelView& view, const ShapeRay& ray, float tMax) {
+RT_FN bool occludedLinear(shared::Features features, const AccelView& view, const ShapeRay& ray, float tMax) {
     const Float8 end = broadcast(tMax);
     Mask8 hits = end < end;
     forEachListedBlock(features, view, [&](const auto& block) {
@@ -84,7 +84,7 @@ RT_FN bool occludedLinear(shared::uint features, const AccelView& view, const Sh
 
 // Both for two rays from one point, on which most of the tests' work depends: what `ray` hits first, and whether
 // anything lies along `shadow` before shadowEnd.
-RT_FN shared::Hit traceLinearWithShadow(shared::uint features, const AccelView& view, const ShapeRay& ray,
+RT_FN shared::Hit traceLinearWithShadow(shared::Features features, const AccelView& view, const ShapeRay& ray,
                                         const ShapeRay& shadow, float shadowEnd, bool& isOccluded) {
     const Float8 end = broadcast(shadowEnd);
     Mask8 hits = end < end;

@@ -23,7 +23,7 @@ RT_FN void acceptNearest(const LaneHits& lanes, shared::uint kind, const std::ui
     unsigned hits = bits(mask);
     if (hits == 0) return;
     if ((hits & (hits - 1)) != 0) {
-        const float nearest = least(select(mask, lanes.t, broadcast(kLargest)));
+        const float nearest = minimum(select(mask, lanes.t, broadcast(kLargest)));
         hits = bits(mask & (lanes.t == broadcast(nearest)));
     }
     const unsigned i = lowestBit(hits);
@@ -165,7 +165,7 @@ RT_FN void prefetchBytes(const void* at) {
 }
 
 // Starts to fetch what `r` refers to: the first block of a leaf.
-RT_FN void prefetchReference(shared::uint features, const AccelView& view, Reference r) {
+RT_FN void prefetchReference(shared::Features features, const AccelView& view, Reference r) {
     if ((r & kLeafBit) == 0) {
         prefetchBytes<sizeof(WideNode)>(view.nodes + r);
     } else if (shared::has(features, shared::kFeatureTriangles) && leafKind(r) == LeafKind::Triangle) {

@@ -16,10 +16,10 @@ RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray)
 }
 
 template <bool World, bool Ahead>
-RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+RT_FN void traceTree(shared::Features features, const AccelView& view, Reference root, const shared::Ray& ray,
                      shared::uint instance, shared::Hit& best);
 template <bool World, bool Ahead>
-RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+RT_FN bool occludedTree(shared::Features features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax);
 
 // A ray in the space of the tree: as its leaves want it, and as it is.
@@ -28,13 +28,13 @@ struct LeafRay {
     shared::Ray ray;
 };
 
-RT_FN LeafRay makeLeafRay(shared::uint features, const shared::Ray& ray, bool isUnit) {
+RT_FN LeafRay makeLeafRay(shared::Features features, const shared::Ray& ray, bool isUnit) {
     return {makeShapeRay(features, ray, isUnit), ray};
 }
 
 // Instances, which only the world has, are followed one level down.
 template <bool World, bool Ahead>
-RT_FN void traceLeaf(shared::uint features, const AccelView& view, Reference leaf, const LeafRay& ray,
+RT_FN void traceLeaf(shared::Features features, const AccelView& view, Reference leaf, const LeafRay& ray,
                      shared::uint instance, shared::Hit& best) {
     const LeafKind kind = leafKind(leaf);
     if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
@@ -57,7 +57,8 @@ RT_FN void traceLeaf(shared::uint features, const AccelView& view, Reference lea
 }
 
 template <bool World, bool Ahead>
-RT_FN bool occludedLeaf(shared::uint features, const AccelView& view, Reference leaf, const LeafRay& ray, float tMax) {
+RT_FN bool occludedLeaf(shared::Features features, const AccelView& view, Reference leaf, const LeafRay& ray,
+                        float tMax) {
     const LeafKind kind = leafKind(leaf);
     if (shared::has(features, shared::kFeatureTriangles) && kind == LeafKind::Triangle) {
         return testLeafAny(ray.shape, view.triangles, leaf, tMax);
@@ -82,7 +83,7 @@ RT_FN bool occludedLeaf(shared::uint features, const AccelView& view, Reference 
 // Nearest hit below `root`, if nearer than `best`. Ahead: what waits is fetched from memory meanwhile, for trees that a
 // core's own cache does not hold.
 template <bool World, bool Ahead>
-RT_FN void traceTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+RT_FN void traceTree(shared::Features features, const AccelView& view, Reference root, const shared::Ray& ray,
                      shared::uint instance, shared::Hit& best) {
     const BoxRay boxRay = makeBoxRay(ray);
     const LeafRay leafRay = makeLeafRay(features, ray, World);
@@ -116,7 +117,7 @@ RT_FN void traceTree(shared::uint features, const AccelView& view, Reference roo
 // Whether anything is hit below `root`. Nodes are visited some at a time, without a branch that depends on what is met:
 // so a processor overlaps them.
 template <bool World, bool Ahead>
-RT_FN bool occludedTree(shared::uint features, const AccelView& view, Reference root, const shared::Ray& ray,
+RT_FN bool occludedTree(shared::Features features, const AccelView& view, Reference root, const shared::Ray& ray,
                         float tMax) {
     constexpr unsigned kBatch = Ahead ? 4 : 2;
     const BoxRay boxRay = makeBoxRay(ray);

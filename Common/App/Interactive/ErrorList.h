@@ -18,7 +18,7 @@ struct ErrorEntry {
 
 class ErrorList {
   public:
-    static constexpr std::size_t kMost = 50;
+    static constexpr std::size_t kMax = 50;
 
     void add(const std::string& text, ErrorSource source) {
         if (!entries_.empty() && entries_.back().text == text) {
@@ -27,7 +27,7 @@ class ErrorList {
             return;
         }
         entries_.push_back({text, source});
-        if (entries_.size() > kMost) entries_.pop_front();
+        if (entries_.size() > kMax) entries_.pop_front();
     }
     // The latest that is not read yet, of any or of one source; null: none.
     const ErrorEntry* unread() const {

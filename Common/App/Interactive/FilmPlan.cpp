@@ -22,8 +22,8 @@ void RenderSpeed::learn(std::uint64_t samples, double seconds, double weight) {
     perSecond_ = (1 - weight) * perSecond_ + weight * static_cast<double>(samples) / std::max(seconds, 1e-4);
 }
 
-std::uint32_t RenderSpeed::sppIn(double seconds, const RenderSettings& size, double most) const {
-    return static_cast<std::uint32_t>(std::clamp(samplesIn(seconds) / pixelsOf(size), 1.0, most));
+std::uint32_t RenderSpeed::sppIn(double seconds, const RenderSettings& size, double maximum) const {
+    return static_cast<std::uint32_t>(std::clamp(samplesIn(seconds) / pixelsOf(size), 1.0, maximum));
 }
 
 RenderSettings sizedSettings(const RenderRequest& request, const scene::CompiledScene& scene) {

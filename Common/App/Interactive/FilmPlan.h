@@ -13,7 +13,7 @@ class RenderSpeed {
     void learn(std::uint64_t samples, double seconds, double weight = 0.5);
     double samplesIn(double seconds) const { return perSecond_ * seconds; }
     // Of each pixel; 1 to `most`.
-    std::uint32_t sppIn(double seconds, const RenderSettings& size, double most) const;
+    std::uint32_t sppIn(double seconds, const RenderSettings& size, double maximum) const;
 
   private:
     double perSecond_ = 2e5; // a cautious guess at first

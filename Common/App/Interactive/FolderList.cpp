@@ -28,7 +28,7 @@ FolderList listFolder(const std::filesystem::path& folder, const std::vector<std
             extensions.empty() ||
             std::find(extensions.begin(), extensions.end(), lower(at->path().extension().string())) != extensions.end();
         if (!isFolder && !(isWanted && at->is_regular_file(none))) continue;
-        if ((list.isCut = list.entries.size() == FolderList::kMost)) break;
+        if ((list.isCut = list.entries.size() == FolderList::kMax)) break;
         list.entries.push_back({name, isFolder});
     }
     if (failure) list.failure = folder.string() + ": " + failure.message();

@@ -12,7 +12,7 @@ struct FolderEntry {
 };
 
 struct FolderList {
-    static constexpr std::size_t kMost = 2000; // entries: more are left out, and `isCut` says so
+    static constexpr std::size_t kMax = 2000; // entries: more are left out, and `isCut` says so
 
     std::vector<FolderEntry> entries; // folders first, by name whatever the case
     bool isCut = false;

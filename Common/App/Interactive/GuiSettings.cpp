@@ -105,7 +105,7 @@ Json toJson(const RenderRequest& request) {
 void GuiSettings::addRecent(const std::string& file) {
     removeRecent(file);
     recent.insert(recent.begin(), file);
-    if (recent.size() > kMostRecent) recent.resize(kMostRecent);
+    if (recent.size() > kMaxRecent) recent.resize(kMaxRecent);
 }
 void GuiSettings::removeRecent(const std::string& file) {
     recent.erase(std::remove(recent.begin(), recent.end(), file), recent.end());
@@ -116,7 +116,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false); // discarded where it is no JSON
     const Reader reader(json);
     reader.read("color_mode", kColorModes, settings.colorMode);
-    reader.read("ui_scale", settings.uiScale, kLeastUiScale, kMostUiScale);
+    reader.read("ui_scale", settings.uiScale, kMinUiScale, kMaxUiScale);
     reader.read("font", settings.font);
     constexpr double kFar = 100'000;
     reader.read("window_x", settings.windowX, -kFar, kFar);
@@ -143,7 +143,7 @@ GuiSettings parseGuiSettings(std::string_view text) {
     if (settings.scene.empty()) settings.scene = GuiSettings().scene;
     if (const auto* recent = reader.find("recent"); recent != nullptr && recent->is_array()) {
         for (const nlohmann::json& name : *recent)
-            if (name.is_string() && settings.recent.size() < kMostRecent) settings.recent.push_back(name);
+            if (name.is_string() && settings.recent.size() < kMaxRecent) settings.recent.push_back(name);
     }
     if (const auto* render = reader.find("render"); render != nullptr) readRequest(Reader(*render), settings.request);
     if (const auto* engine = reader.find("engine"); engine != nullptr) {

@@ -16,9 +16,9 @@ enum class ColorMode { Dark, Light, HighContrast };
 inline constexpr Named<ColorMode> kColorModes[] = {
     {"dark", ColorMode::Dark}, {"light", ColorMode::Light}, {"high-contrast", ColorMode::HighContrast}};
 
-inline constexpr float kLeastUiScale = 0.75f;
-inline constexpr float kMostUiScale = 3.0f;
-inline constexpr std::size_t kMostRecent = 10; // files
+inline constexpr float kMinUiScale = 0.75f;
+inline constexpr float kMaxUiScale = 3.0f;
+inline constexpr std::size_t kMaxRecent = 10; // files
 
 // Of the panels at the side, those that are folded out.
 struct GuiSettings {

@@ -13,7 +13,7 @@
 #include "Common/App/Options/Names.h"
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/Engine.h"
-#include "Common/App/Session/FileMark.h"
+#include "Common/App/Session/FileFingerprint.h"
 #include "Common/App/Session/ReferenceCache.h"
 #include "Common/App/Session/SceneSource.h"
 #include "Common/App/Session/Settings.h"
@@ -98,19 +98,19 @@ struct SessionState {
     Activity activity = Activity::Preparing;
     std::string stage;       // what keeps the user waiting; empty: nothing
     double stageSeconds = 0; // how long it has
-    static constexpr std::size_t kMostErrors = 16;
+    static constexpr std::size_t kMaxErrors = 16;
     std::vector<ErrorMessage> errors{}; // of requests that failed; the last ones of `errorSerial`, the latest last
     std::uint64_t errorSerial = 0;
     std::string message; // what was last written
     std::uint64_t messageSerial = 0;
     std::exception_ptr fatal; // nothing can be rendered: no engine, or no scene ever
 
-    std::uint64_t sceneSerial = 0;      // grows with each scene; 0: none yet
-    std::string source;                 // of the scene, as it was asked for
-    std::optional<FileMark> sourceMark; // of that file, as it was read
-    std::uint64_t sceneLoads = 0;       // grows with each that was loaded, also anew
-    std::string failedSource;           // of the last scene that could not be had
-    std::uint64_t sceneFailures = 0;    // grows with each of them
+    std::uint64_t sceneSerial = 0;             // grows with each scene; 0: none yet
+    std::string source;                        // of the scene, as it was asked for
+    std::optional<FileFingerprint> sourceMark; // of that file, as it was read
+    std::uint64_t sceneLoads = 0;              // grows with each that was loaded, also anew
+    std::string failedSource;                  // of the last scene that could not be had
+    std::uint64_t sceneFailures = 0;           // grows with each of them
     std::shared_ptr<const scene::CompiledScene> scene;
 
     EngineChoice engine;              // in force

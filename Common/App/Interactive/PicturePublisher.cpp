@@ -11,25 +11,25 @@
 namespace rt::app {
 namespace {
 
-constexpr double kShowShare = 0.2;      // of the session's time, at most, goes into pictures
-constexpr double kPictureShare = 0.1;   // of a film's age passes between two pictures:
-constexpr double kLeastInterval = 0.04; // they cost the render a little, and differ the less the older it is
-constexpr double kMostInterval = 0.25;
+constexpr double kShowShare = 0.2;    // of the session's time, at most, goes into pictures
+constexpr double kPictureShare = 0.1; // of a film's age passes between two pictures:
+constexpr double kMinInterval = 0.04; // they cost the render a little, and differ the less the older it is
+constexpr double kMaxInterval = 0.25;
 constexpr double kEarlySeconds = 2;       // after which a film's pictures have the number of samples that is asked for
 constexpr double kLongFrameSeconds = 0.5; // after which a frame is shown while it is being rendered
 // Drawing one picture by software takes as long as 30 ms of rendering on one core: few pictures of a film, and soon
 // only one a second, when they differ less.
-constexpr double kSoftShare = 0.6, kLeastSoftInterval = 0.3, kMostSoftInterval = 1;
-constexpr double kLeastSlice = 0.02;     // of one call of the engine, at whose end its threads wait for each other
+constexpr double kSoftShare = 0.6, kMinSoftInterval = 0.3, kMaxSoftInterval = 1;
+constexpr double kMinSlice = 0.02;       // of one call of the engine, at whose end its threads wait for each other
 constexpr double kFeatureSeconds = 0.15; // that a view of albedo, depth, cost may take
 constexpr double kFirstHitsPerPath = 6;  // that take as long as tracing a path, at least
 constexpr double kRefineSeconds = 0.04;  // that a few rows of such a view may take at a time
 constexpr double kRestSeconds = 0.3;     // after which a camera rests
-constexpr std::uint32_t kMostPreviewSide = 4096; // pixels that every device draws; larger images are enlarged
+constexpr std::uint32_t kMaxPreviewSide = 4096; // pixels that every device draws; larger images are enlarged
 
 // Seconds from one picture of a film of that age to the next, at least.
-double leastInterval(double age) {
-    return std::clamp(kPictureShare * age, kLeastInterval, kMostInterval);
+double minInterval(double age) {
+    return std::clamp(kPictureShare * age, kMinInterval, kMaxInterval);
 }
 
 bool showsFeatures(ViewMode mode) {
@@ -112,7 +112,7 @@ void PicturePublisher::show(const FilmRun& film, FilmReference& reference, const
     Snapshot snapshot = engine.snapshot();
     auto radiance = std::make_shared<image::Image>(std::move(snapshot.radiance));
     Picture picture;
-    picture.spp = snapshot.leastSamples();
+    picture.spp = snapshot.minSamples();
     if (picture.spp > 0 && isAdaptive(film.settings())) picture.spp = film.status().samplesDone / film.pixels();
     if (picture.spp == 0 && hasDraft()) fillFromDraft(*radiance, snapshot.tileSamples, draft_);
     if (picture.spp > 0) reference.follow(film, *radiance);
@@ -200,13 +200,13 @@ double PicturePublisher::interval(const RenderRequest& request) const {
     if (!request.accumulate) return kLongFrameSeconds;
     const double age = sinceBegin_.seconds();
     if (drawnBySoftware_ && shownSamples_ > 0) // the first picture does not wait
-        return std::clamp(kSoftShare * age, kLeastSoftInterval, kMostSoftInterval);
+        return std::clamp(kSoftShare * age, kMinSoftInterval, kMaxSoftInterval);
     if (request.samplesPerFrame > 0 && age >= kEarlySeconds) return kLongFrameSeconds;
-    return leastInterval(age);
+    return minInterval(age);
 }
 
 double PicturePublisher::secondsUntilDue(const RenderRequest& request) const {
-    return std::max(interval(request) - sinceShown_.seconds(), kLeastSlice);
+    return std::max(interval(request) - sinceShown_.seconds(), kMinSlice);
 }
 
 bool PicturePublisher::isDue(const FilmRun& film, const RenderRequest& request) const {
@@ -214,7 +214,7 @@ bool PicturePublisher::isDue(const FilmRun& film, const RenderRequest& request) 
     if (seconds <= showSeconds_ / kShowShare) return false;
     if (seconds > interval(request)) return true;
     if (!request.accumulate || drawnBySoftware_) return false;
-    return seconds > leastInterval(sinceBegin_.seconds()) &&
+    return seconds > minInterval(sinceBegin_.seconds()) &&
            film.status().samplesDone - shownSamples_ >= request.samplesPerFrame * film.pixels();
 }
 
@@ -222,7 +222,7 @@ bool PicturePublisher::isDue(const FilmRun& film, const RenderRequest& request) 
 Preview drawPreview(Engine& engine, const scene::CameraDesc& camera, const RenderSettings& size, std::uint32_t width) {
     const double ratio = static_cast<double>(size.height) / size.width;
     const std::uint32_t height = std::max(1u, static_cast<std::uint32_t>(std::lround(ratio * width)));
-    const double scale = std::min(1.0, static_cast<double>(kMostPreviewSide) / std::max(width, height));
+    const double scale = std::min(1.0, static_cast<double>(kMaxPreviewSide) / std::max(width, height));
     const auto scaled = [scale](std::uint32_t side) { return std::max(1u, static_cast<std::uint32_t>(side * scale)); };
     Preview preview = engine.renderPreview(camera, scaled(width), scaled(height));
     if (scale < 1) {

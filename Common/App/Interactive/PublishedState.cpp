@@ -36,7 +36,7 @@ void PublishedState::fail(const std::exception_ptr& failure, ErrorSource source,
     if (!fatal) logWarning(message);
     update([&](SessionState& state) {
         state.errors.push_back({message, source});
-        if (state.errors.size() > SessionState::kMostErrors) state.errors.erase(state.errors.begin());
+        if (state.errors.size() > SessionState::kMaxErrors) state.errors.erase(state.errors.begin());
         ++state.errorSerial;
         if (fatal) state.fatal = failure;
     });

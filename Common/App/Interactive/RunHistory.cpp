@@ -223,8 +223,8 @@ void RunHistory::append(const RunRecord& record) {
     fs::create_directories(file_.parent_path(), ignored);
     const FileLock lock(lockFile());
     std::vector<std::string> lines = readLines(file_);
-    if (lines.size() >= kMostLines) {
-        lines.erase(lines.begin(), lines.end() - (kMostLines - 1));
+    if (lines.size() >= kMaxLines) {
+        lines.erase(lines.begin(), lines.end() - (kMaxLines - 1));
         AtomicFile file(file_);
         for (const std::string& line : lines) file.stream() << line << '\n';
         file.stream() << toJsonLine(record) << '\n';

@@ -40,7 +40,7 @@ struct RunRecord {
 // shown.
 class RunHistory {
   public:
-    static constexpr std::size_t kMostLines = 10'000; // kept in the file
+    static constexpr std::size_t kMaxLines = 10'000; // kept in the file
 
     // An empty path: nothing is kept from one program to the next.
     explicit RunHistory(std::filesystem::path file) : file_(std::move(file)) {}

@@ -10,8 +10,8 @@
 namespace rt::app {
 namespace {
 
-constexpr double kMostFirstSeconds = 0.25; // of a draft or first pass when the next change waits already
-constexpr double kPassSlice = 0.005;       // where the picture is shown as soon as it has its first samples
+constexpr double kMaxFirstSeconds = 0.25; // of a draft or first pass when the next change waits already
+constexpr double kPassSlice = 0.005;      // where the picture is shown as soon as it has its first samples
 
 ReferenceKey keyOf(const FilmSubject& subject, const RenderSettings& film) {
     return {subject.scene.hash, subject.camera, film.width, film.height, film.maxDepth};
@@ -125,7 +125,7 @@ void SessionFilm::start(const FilmSubject& subject) {
     }
     begin(subject, settings);
     if (publisher.hasDraft() || !publisher.isAwaited()) return;
-    renderFirst(*run_, kPassSlice, kMostFirstSeconds);
+    renderFirst(*run_, kPassSlice, kMaxFirstSeconds);
     show();
 }
 
@@ -144,7 +144,7 @@ void SessionFilm::renderDraft(const FilmSubject& subject, const RenderSettings& 
 // interrupt them soon: a camera in motion would never show anything.
 void SessionFilm::renderFirst(FilmRun& run, double sliceSeconds, double patience) {
     const auto isTimeLeft = [&] {
-        return run.seconds() < (mailbox_.cancelled(Cancel::Slice) ? kMostFirstSeconds : patience);
+        return run.seconds() < (mailbox_.cancelled(Cancel::Slice) ? kMaxFirstSeconds : patience);
     };
     const std::uint64_t wanted = firstPass(run.settings());
     while (!run.slice(sliceSeconds, mailbox_.cancelled(Cancel::FirstPicture)) && isTimeLeft())

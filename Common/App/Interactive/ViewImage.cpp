@@ -41,11 +41,11 @@ AovRequest aovsFor(ViewMode mode) {
 }
 
 float Legend::level(float value) const {
-    if (!(most > 0)) return 0;
-    return unit > 0 ? std::log1p(value / unit) / std::log1p(most / unit) : value / most;
+    if (!(maximum > 0)) return 0;
+    return unit > 0 ? std::log1p(value / unit) / std::log1p(maximum / unit) : value / maximum;
 }
 float Legend::value(float level) const {
-    return unit > 0 ? unit * std::expm1(level * std::log1p(most / unit)) : level * most;
+    return unit > 0 ? unit * std::expm1(level * std::log1p(maximum / unit)) : level * maximum;
 }
 
 image::Image paint(const Legend& legend, const std::vector<float>& values, std::uint32_t width, std::uint32_t height) {
@@ -60,7 +60,7 @@ ViewImage showFeatures(ViewMode mode, const AovImages& images) {
     if (mode == ViewMode::Depth) {
         const image::Image& depth = images.depth;
         Legend legend{Legend::Quantity::Distance};
-        for (const float distance : depth.data) legend.most = std::max(legend.most, distance);
+        for (const float distance : depth.data) legend.maximum = std::max(legend.maximum, distance);
         return show(legend, depth.data, depth.width, depth.height);
     }
     image::Image normals = images.normal;
@@ -99,7 +99,7 @@ ViewImage showCost(Cost cost, const image::Image& costs, double scale) {
         legend = {Legend::Quantity::Time, sorted[(sorted.size() - 1) * 199 / 200],
                   std::max(0.5f * sorted[sorted.size() / 2], 1e-30f)};
     }
-    legend.most /= static_cast<float>(scale);
+    legend.maximum /= static_cast<float>(scale);
     return show(legend, costs.data, costs.width, costs.height);
 }
 

@@ -34,8 +34,8 @@ struct Legend {
         Distance,      // to the first surface, in the scene's unit; near is bright, 0 stands for no surface
     };
     Quantity quantity = Quantity::Rays;
-    float most = 0; // 0: there is nothing to show
-    float unit = 0; // below it the scale is about linear, above it about logarithmic; 0: it is linear throughout
+    float maximum = 0; // 0: there is nothing to show
+    float unit = 0;    // below it the scale is about linear, above it about logarithmic; 0: it is linear throughout
 
     float level(float value) const; // the value's place on the scale: 0 to 1, or beyond
     float value(float level) const; // the other way round

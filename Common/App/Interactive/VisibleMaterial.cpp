@@ -16,7 +16,7 @@ namespace rt::app {
 namespace {
 
 constexpr float kTime = 0.5f;
-constexpr std::uint64_t kMostTests = 4'000'000; // of shapes: 20 ms or so
+constexpr std::uint64_t kMaxTests = 4'000'000; // of shapes: 20 ms or so
 
 struct Box {
     shared::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
@@ -52,7 +52,7 @@ class Search {
   private:
     bool isWorthIt(const shared::Geometry& g) {
         tests_ += std::uint64_t{1} + g.sphereCount + g.quadCount + g.triangleCount;
-        return tests_ <= kMostTests;
+        return tests_ <= kMaxTests;
     }
 
     shared::vec3 centerOf(std::uint32_t sphere) const {
@@ -144,8 +144,8 @@ class Search {
 std::optional<std::uint32_t> visibleMaterial(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
                                              const glm::uvec2& size, const glm::uvec2& pixel) {
     const shared::Camera record = scene::makeCamera(camera, size.x, size.y, scene.origin);
-    const shared::Ray ray =
-        shared::generateCameraRay(0, record, pixel, size, shared::vec2(0.5f), shared::vec2(0.5f), kTime);
+    const shared::Ray ray = shared::generateCameraRay(shared::kFeatureNone, record, pixel, size, shared::vec2(0.5f),
+                                                      shared::vec2(0.5f), kTime);
     return Search(scene, ray).run();
 }
 

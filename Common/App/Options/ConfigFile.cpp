@@ -11,15 +11,15 @@
 namespace rt::app {
 namespace {
 
-constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 std::string readAll(std::istream& input, const std::string& file) {
-    std::string text(kMostBytes + 1, '\0');
+    std::string text(kMaxBytes + 1, '\0');
     input.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (input.bad()) throw UsageError("--config " + file + ": cannot be read");
     text.resize(static_cast<std::size_t>(input.gcount()));
-    if (text.size() > kMostBytes)
-        throw UsageError("--config " + file + ": must be of at most " + std::to_string(kMostBytes) + " bytes");
+    if (text.size() > kMaxBytes)
+        throw UsageError("--config " + file + ": must be of at most " + std::to_string(kMaxBytes) + " bytes");
     return text;
 }
 

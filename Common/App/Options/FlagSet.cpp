@@ -77,9 +77,9 @@ CLI::Option* FlagSet::addFiles(const std::string& flags, std::vector<std::string
 
 CLI::Option* FlagSet::addSeconds(const std::string& flags, std::optional<double>& target, const std::string& help) {
     return add(flags, "S", help, [&target](const std::string& flag, const std::string& text) {
-        constexpr double kLeast = std::numeric_limits<double>::min();
-        constexpr double kMost = 1e9; // 30 years
-        target = parseReal(flag, text, kLeast, kMost, "a number of seconds above 0, at most 1e9");
+        constexpr double kMin = std::numeric_limits<double>::min();
+        constexpr double kMax = 1e9; // 30 years
+        target = parseReal(flag, text, kMin, kMax, "a number of seconds above 0, at most 1e9");
     });
 }
 

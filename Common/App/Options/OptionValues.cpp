@@ -11,8 +11,8 @@
 namespace rt::app {
 
 std::string excerpt(const std::string& text) {
-    constexpr std::size_t kMost = 60;
-    return text.size() <= kMost ? text : text.substr(0, kMost - 3) + "...";
+    constexpr std::size_t kMax = 60;
+    return text.size() <= kMax ? text : text.substr(0, kMax - 3) + "...";
 }
 
 void refuseValue(const std::string& flag, const std::string& text, const std::string& allowed) {

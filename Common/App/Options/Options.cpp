@@ -120,9 +120,9 @@ void addPart(FlagSet& flags, Options& options) {
               [&options](const std::string& flag, const std::string& text) {
                   const std::vector<std::string> parts = parseList(flag, text);
                   if (parts.size() != 4) refuseValue(flag, text, "X,Y,W,H in pixels");
-                  constexpr std::uint32_t kMost = image::kMaxImageSide;
-                  options.region = Region{parseWhole(flag, parts[0], 0, kMost), parseWhole(flag, parts[1], 0, kMost),
-                                          parseWhole(flag, parts[2], 1, kMost), parseWhole(flag, parts[3], 1, kMost)};
+                  constexpr std::uint32_t kMax = image::kMaxImageSide;
+                  options.region = Region{parseWhole(flag, parts[0], 0, kMax), parseWhole(flag, parts[1], 0, kMax),
+                                          parseWhole(flag, parts[2], 1, kMax), parseWhole(flag, parts[3], 1, kMax)};
               });
     flags.add("--tiles", "I/N",
               "render the I-th of N shares of the image into a checkpoint for ray-tracing-image merge",

@@ -49,11 +49,12 @@ Message toMessage(Bytes bytes) {
 
 nlohmann::json toJson(const EngineReport& report) {
     const RayCounts& rays = report.rays;
+    const shared::Features& features = report.features;
     return {{"engine", report.engine},
             {"device", report.device},
             {"kernel", report.kernel},
             {"threads", report.threads},
-            {"features", report.features},
+            {"features", {features.scene, features.materials, features.methods}},
             {"accel_build", report.accelBuildSeconds},
             {"pipeline", report.pipelineSeconds},
             {"render_device", report.renderDeviceSeconds},
@@ -71,7 +72,8 @@ EngineReport toReport(const nlohmann::json& json) {
     report.device = json.at("device");
     report.kernel = json.at("kernel");
     report.threads = json.at("threads");
-    report.features = json.at("features");
+    const nlohmann::json& features = json.at("features");
+    report.features = {features.at(0), features.at(1), features.at(2)};
     report.accelBuildSeconds = json.at("accel_build");
     report.pipelineSeconds = json.at("pipeline");
     report.renderDeviceSeconds = json.at("render_device");

@@ -140,7 +140,7 @@ RenderStatus RankedEngine::renderSome(const Budget& budget) {
 // Decides on the samples of an adaptive film, whose pilot is done. False: there is nothing to decide, or cancelled.
 bool RankedEngine::planSamples(const std::atomic<bool>* cancel) {
     if (isPart_ || !film_.isPilot()) return false;
-    const std::uint32_t features = report().features;
+    const shared::Features features = report().features;
     std::vector<std::uint32_t> plan =
         image::makeSamplePlan(film_, settings_.spp, dependentSide(features), {.cancel = cancel});
     if (plan.empty()) return false;
@@ -254,8 +254,8 @@ void RankedEngine::takeResult(std::size_t rank, const Message& message) {
 void RankedEngine::lease(std::size_t rank) {
     const RankState& state = states_[rank];
     if (!state.isReady || state.isSilent) return;
-    const std::uint32_t least = state.report.threads > 0 ? kTilesOfThread * state.report.threads : kTilesOfDevice;
-    const std::optional<Lease> lease = pool_->lease(rank, least, clock_.seconds());
+    const std::uint32_t minimum = state.report.threads > 0 ? kTilesOfThread * state.report.threads : kTilesOfDevice;
+    const std::optional<Lease> lease = pool_->lease(rank, minimum, clock_.seconds());
     if (!lease) return;
     if (const auto& recalled = pool_->recalled())
         send(recalled->rank, {MessageKind::Recall, {{"id", recalled->id}}, {}});

@@ -8,21 +8,21 @@
 namespace rt::app {
 namespace {
 
-constexpr std::size_t kAhead = 2;            // leases that a rank holds at most
-constexpr double kPart = 0.25;               // of what is left for a rank when it asks, that it gets
-constexpr double kLongest = 4;               // seconds, of a lease as expected: what is lost with a rank that dies
-constexpr double kLongestLeast = 1;          // seconds, of the least number of tiles
-constexpr double kPatience = 2;              // times as long as expected a lease may take, and
-constexpr double kLeastPatience = 0.25;      // seconds more
-constexpr std::size_t kMostSlots = 1u << 16; // of a lease: 100 MB, or 200 MB with second moments
-constexpr std::size_t kRun = 16;             // tiles side by side
+constexpr std::size_t kAhead = 2;           // leases that a rank holds at most
+constexpr double kPart = 0.25;              // of what is left for a rank when it asks, that it gets
+constexpr double kLongest = 4;              // seconds, of a lease as expected: what is lost with a rank that dies
+constexpr double kLongestMin = 1;           // seconds, of the least number of tiles
+constexpr double kPatience = 2;             // times as long as expected a lease may take, and
+constexpr double kMinPatience = 0.25;       // seconds more
+constexpr std::size_t kMaxSlots = 1u << 16; // of a lease: 100 MB, or 200 MB with second moments
+constexpr std::size_t kRun = 16;            // tiles side by side
 
 double patience(double expectedSeconds) {
-    return kPatience * expectedSeconds + kLeastPatience;
+    return kPatience * expectedSeconds + kMinPatience;
 }
 // What the lease was expected to take when it was made.
 double expectedAtFirst(const Lease& lease) {
-    return (lease.seconds - kLeastPatience) / kPatience;
+    return (lease.seconds - kMinPatience) / kPatience;
 }
 
 // Runs from all over the image, so that a lease costs what any other of its size costs.
@@ -121,7 +121,7 @@ void TilePool::release(const image::TileList& tiles) {
     for (const std::uint32_t tile : tiles) --holders_[tile];
 }
 
-std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, double now) {
+std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t minimum, double now) {
     recalled_.reset();
     const std::size_t held = ranks_[rank].leases.size();
     if (held >= kAhead) return std::nullopt;
@@ -143,16 +143,16 @@ std::optional<Lease> TilePool::lease(std::size_t rank, std::uint32_t least, doub
     double wanted = 0, atLeast = 0; // samples; of `least` tiles no more than these
     if (rate > 0) {
         wanted = std::min(kPart * rate / totalRate() * static_cast<double>(waitingSamples_), kLongest * rate);
-        atLeast = kLongestLeast * rate;
+        atLeast = kLongestMin * rate;
     }
-    const std::size_t most = std::max<std::size_t>(1, kMostSlots / film_.desc().replicates);
+    const std::size_t maximum = std::max<std::size_t>(1, kMaxSlots / film_.desc().replicates);
     Lease lease;
     double samples = 0;
-    while (!waiting_.empty() && lease.tiles.size() < most) {
+    while (!waiting_.empty() && lease.tiles.size() < maximum) {
         const Waiting& next = waiting_.front();
         const double more = samples + static_cast<double>(next.samples);
-        const bool isLeast = lease.tiles.size() < least && (rate <= 0 || more <= atLeast);
-        if (!lease.tiles.empty() && !isLeast && more > wanted) break;
+        const bool isMin = lease.tiles.size() < minimum && (rate <= 0 || more <= atLeast);
+        if (!lease.tiles.empty() && !isMin && more > wanted) break;
         samples = more;
         waitingSamples_ -= next.samples;
         lease.tiles.push_back(next.tile);
@@ -212,16 +212,16 @@ std::optional<Lease> TilePool::copyOverdue(double now) const {
         for (const Lease& lease : rank.leases)
             for (const std::uint32_t tile : lease.tiles) isExpected[tile] = true;
     }
-    double most = 0;
+    double maximum = 0;
     for (const Rank& rank : ranks_) {
         const double late = overdue(rank, now);
-        if (late <= most) continue;
+        if (late <= maximum) continue;
         Lease lease = rank.leases.front();
         std::erase_if(lease.tiles, [&](std::uint32_t tile) {
             return isExpected[tile] || film_.nextSample(tile, lease.spp) == image::Film::kNoSample;
         });
         if (lease.tiles.empty()) continue;
-        most = late;
+        maximum = late;
         copy = std::move(lease);
     }
     return copy;

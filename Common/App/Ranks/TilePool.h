@@ -43,7 +43,7 @@ class TilePool {
     // that they shrink towards the end; of fewer than `least` tiles a rank does not make the best. When no tile is
     // left to be handed out, a rank without a lease gets one that another has not begun, which is then recalled(), or
     // the tiles of one that takes far longer than it was expected to.
-    std::optional<Lease> lease(std::size_t rank, std::uint32_t least, double now);
+    std::optional<Lease> lease(std::size_t rank, std::uint32_t minimum, double now);
     // What the last lease() has taken from another rank.
     const std::optional<Recalled>& recalled() const { return recalled_; }
     // The lease's tiles are on the film, as far as the rank got in `busy` seconds of work.

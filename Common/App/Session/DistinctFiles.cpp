@@ -40,9 +40,9 @@ std::vector<NamedFile> readFiles(const Options& options) {
 
 // What a link that leads to no file yet stands for; it is made where the link says.
 fs::path followed(fs::path path) {
-    constexpr int kMostLinks = 40; // as systems follow
+    constexpr int kMaxLinks = 40; // as systems follow
     std::error_code ignored;
-    for (int links = 0; links < kMostLinks && fs::is_symlink(path, ignored); ++links)
+    for (int links = 0; links < kMaxLinks && fs::is_symlink(path, ignored); ++links)
         path = path.parent_path() / fs::read_symlink(path, ignored);
     return fs::weakly_canonical(fs::absolute(path, ignored), ignored);
 }

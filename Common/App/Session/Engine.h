@@ -77,11 +77,11 @@ struct EngineRate {
 };
 
 struct EngineReport {
-    std::string engine;         // "multi", "single", "pipeline", "compute", "query"
-    std::string device;         // processor or Vulkan device
-    std::string kernel;         // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
-    std::uint32_t threads = 0;  // CPU only
-    std::uint32_t features = 0; // in force, after any forced superset
+    std::string engine;        // "multi", "single", "pipeline", "compute", "query"
+    std::string device;        // processor or Vulkan device
+    std::string kernel;        // which specialisation runs, e.g. "surfaces+lights/x86-64-v4"
+    std::uint32_t threads = 0; // CPU only
+    shared::Features features; // in force, after any forced superset
     double accelBuildSeconds = 0;
     double pipelineSeconds = 0;
     double renderDeviceSeconds = 0;    // time in kernels: GPU timestamps, or wall time inside CPU workers
@@ -117,7 +117,7 @@ struct AovImages {
 struct Snapshot {
     image::Image radiance;                  // linear; the mean of each pixel's samples, 0 where it has none
     std::vector<std::uint64_t> tileSamples; // of a pixel, tile by tile as Film::samples()
-    std::uint64_t leastSamples() const {
+    std::uint64_t minSamples() const {
         return tileSamples.empty() ? 0 : *std::min_element(tileSamples.begin(), tileSamples.end());
     }
 };

@@ -9,76 +9,54 @@ namespace {
 using namespace rt::shared;
 
 // "textures" stands for three bits: present when any of them is.
-constexpr Named<std::uint32_t> kFeatures[] = {
-    {"spheres", kFeatureSpheres},
-    {"moving-spheres", kFeatureMovingSpheres},
-    {"quads", kFeatureQuads},
-    {"triangles", kFeatureTriangles},
-    {"instances", kFeatureInstances},
-    {"smooth-normals", kFeatureSmoothNormals},
-#define RT_SURFACE(Name, kind, bit, name, help, parameters) {name, kFeature##Name},
+constexpr Named<Features> kNames[] = {
+#define RT_FEATURE(Name, bit, name) {name, kFeature##Name},
+#define RT_METHOD(Name, bit, name) {name, kMethod##Name},
+#define RT_SURFACE(Name, kind, name, help, parameters) {name, kFeature##Name},
 #define RT_BLACK(Name, kind, name, help, parameters)
-    RT_MATERIALS(RT_SURFACE, RT_BLACK)
+    {"textures", kTexturedFeatures},
+    RT_SCENE_FEATURES(RT_FEATURE)      //
+    RT_MATERIALS(RT_SURFACE, RT_BLACK) //
+    RT_MATERIAL_FEATURES(RT_FEATURE)   //
+    RT_METHODS(RT_METHOD)              //
+#undef RT_FEATURE
+#undef RT_METHOD
 #undef RT_SURFACE
 #undef RT_BLACK
-        {"fuzz", kFeatureFuzz},
-    {"opacity", kFeatureOpacity},
-    {"coat-normal", kFeatureCoatNormal},
-    {"emissive", kFeatureEmissive},
-    {"textures", kTexturedFeatures},
-    {"checker", kFeatureChecker},
-    {"noise", kFeatureNoise},
-    {"images", kFeatureImages},
-    {"volumes", kFeatureVolumes},
-    {"sky", kFeatureSky},
-    {"sky-image", kFeatureSkyImage},
-    {"thin-lens", kFeatureThinLens},
-    {"lights", kFeatureLights},
-    {"many-lights", kFeatureManyLights},
-    {"sphere-lights", kFeatureSphereLights},
-    {"quad-lights", kFeatureQuadLights},
-    {"triangle-lights", kFeatureTriangleLights},
-    {"ellipsoid-lights", kFeatureEllipsoidLights},
-    {"punctual-lights", kFeaturePunctualLights},
-    {"mixture", kFeatureMixture},
-    {"projected", kFeatureProjected},
-    {"connections", kFeatureConnections},
-    {"path-reuse", kFeatureReuse},
 };
 
-constexpr bool haveOneNameEach() {
-    std::uint32_t named = 0;
-    for (const auto& row : kFeatures) {
+constexpr bool areDistinct() {
+    Features named;
+    for (const Named<Features>& row : kNames) {
         if (row.value == kTexturedFeatures) continue;
-        if ((named & row.value) != 0) return false;
+        if ((named & row.value) != kFeatureNone) return false;
         named |= row.value;
     }
-    return named == kFeatureAll;
+    return true;
 }
-static_assert(haveOneNameEach(), "a feature lacks a name, or two share a bit");
+static_assert(areDistinct(), "two features share a bit");
 
-std::vector<std::string> namesWhere(std::uint32_t features, bool present) {
+std::vector<std::string> namesWhere(Features features, bool present) {
     std::vector<std::string> names;
-    for (const auto& row : kFeatures)
+    for (const Named<Features>& row : kNames)
         if (has(features, row.value) == present) names.emplace_back(row.name);
     return names;
 }
 
 } // namespace
 
-std::uint32_t parseFeatures(const std::string& text) {
+Features parseFeatures(const std::string& text) {
     if (text == "all") return kFeatureAll;
-    std::uint32_t features = 0;
-    for (const std::string& name : parseList("--features", text))
-        features |= parseChoice("--features", name, kFeatures);
+    Features features;
+    for (const std::string& name : parseList("--features", text)) features |= parseChoice("--features", name, kNames);
     return features;
 }
 
-std::vector<std::string> featureNames(std::uint32_t features) {
+std::vector<std::string> featureNames(Features features) {
     return namesWhere(features, true);
 }
 
-std::vector<std::string> absentFeatureNames(std::uint32_t features) {
+std::vector<std::string> absentFeatureNames(Features features) {
     return namesWhere(features, false);
 }
 

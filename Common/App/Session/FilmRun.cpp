@@ -1,10 +1,9 @@
-#include "Common/App/Session/FilmRun.h"
-
 #include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "Common/App/Session/FilmEstimate.h"
+#include "Common/App/Session/FilmSubmission.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"
@@ -13,8 +12,8 @@ namespace rt::app {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kCheckGrowth = 1.1;       // samples between two looks at the error
-constexpr std::uint32_t kLeastSamples = 4; // of each replicate, before a look says anything
+constexpr double kCheckGrowth = 1.1;     // samples between two looks at the error
+constexpr std::uint32_t kMinSamples = 4; // of each replicate, before a look says anything
 
 } // namespace
 
@@ -93,7 +92,7 @@ bool FilmRun::reachesTargetError() {
     if (!limits_.targetError || static_cast<double>(status_.samplesDone) < nextCheck_) return false;
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
     const image::Film& film = engine_->film();
-    if (film.minReplicateSamples() < kLeastSamples) return false;
+    if (film.minReplicateSamples() < kMinSamples) return false;
     const auto relmse = estimateRelMse(film, dependentSide(engine_->report().features));
     const bool isBelow = relmse && relmse->high() < *limits_.targetError;
     return std::exchange(wasBelowTarget_, isBelow) && isBelow;
@@ -112,7 +111,7 @@ ProgressState FilmRun::progress() const {
     const std::vector<RankFigures> ranks = engine_->report().ranks;
     state.ranks = ranks.size();
     const auto isLess = [](const RankFigures& a, const RankFigures& b) { return a.busyShare < b.busyShare; };
-    if (!ranks.empty()) state.leastBusy = std::min_element(ranks.begin(), ranks.end(), isLess)->busyShare;
+    if (!ranks.empty()) state.minBusy = std::min_element(ranks.begin(), ranks.end(), isLess)->busyShare;
     return state;
 }
 

@@ -28,13 +28,13 @@ bool hasExtension(const std::filesystem::path& path, const std::string& lower) {
 }
 
 float largestValue(const ImageRows& image) {
-    float most = -std::numeric_limits<float>::infinity();
+    float maximum = -std::numeric_limits<float>::infinity();
     std::vector<float> row(image.rowValues());
     for (std::uint32_t y = 0; y < image.height; ++y) {
         image.read(y, row);
-        most = std::max(most, *std::max_element(row.begin(), row.end()));
+        maximum = std::max(maximum, *std::max_element(row.begin(), row.end()));
     }
-    return most;
+    return maximum;
 }
 
 // Into the range that the format of `path` can hold.
@@ -46,8 +46,8 @@ ImageRows fitted(const ImageRows& image, Aov aov, const std::filesystem::path& p
         return mapped(positive, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
     }
     if (png && aov != Aov::Albedo)
-        if (const float most = largestValue(image); most > 0)
-            return mapped(image, [most](float value) { return value / most; });
+        if (const float maximum = largestValue(image); maximum > 0)
+            return mapped(image, [maximum](float value) { return value / maximum; });
     return image;
 }
 

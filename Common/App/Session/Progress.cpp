@@ -49,7 +49,7 @@ std::string describeProgress(const ProgressState& state) {
         text += "  " + describeRate(rate) + "  " + describeSeconds(left) + " left";
     }
     if (state.ranks > 0)
-        text += "  " + std::to_string(state.ranks) + " ranks, least busy " + format("%.0f%%", 100 * state.leastBusy);
+        text += "  " + std::to_string(state.ranks) + " ranks, least busy " + format("%.0f%%", 100 * state.minBusy);
     return text;
 }
 

@@ -15,7 +15,7 @@ struct ProgressState {
     double seconds = 0;              // since sampling began
     std::optional<double> timeLimit; // seconds
     std::size_t ranks = 0;           // processes that share the render; 0: it is one
-    double leastBusy = 0;            // of the ranks: share of the time that the one with the least to do has worked
+    double minBusy = 0;              // of the ranks: share of the time that the one with the least to do has worked
 };
 
 // "37/100 spp  37%  4.21 M samples/s  1:05 left"

@@ -106,7 +106,7 @@ void ReferenceCache::shrink() const {
         files.push_back(kept);
     }
     std::sort(files.begin(), files.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
-    for (std::size_t i = 0; i + 1 < files.size() && bytes > mostBytes_; ++i) { // the last was written now
+    for (std::size_t i = 0; i + 1 < files.size() && bytes > maxBytes_; ++i) { // the last was written now
         std::error_code ignored;
         fs::remove(files[i].file, ignored);
         bytes -= files[i].bytes;

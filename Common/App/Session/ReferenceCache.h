@@ -26,12 +26,12 @@ RenderSettings referenceSettings(const ReferenceKey& key, std::uint32_t spp);
 
 class ReferenceCache {
   public:
-    static constexpr std::uintmax_t kMostBytes = std::uintmax_t{2} << 30;
+    static constexpr std::uintmax_t kMaxBytes = std::uintmax_t{2} << 30;
 
     // An empty folder: nothing is kept. When there are more than so many bytes of references, those that were used
     // least recently go.
-    explicit ReferenceCache(std::filesystem::path folder, std::uintmax_t mostBytes = kMostBytes)
-        : folder_(std::move(folder)), mostBytes_(mostBytes) {}
+    explicit ReferenceCache(std::filesystem::path folder, std::uintmax_t maxBytes = kMaxBytes)
+        : folder_(std::move(folder)), maxBytes_(maxBytes) {}
     // In the user's cache folder.
     static ReferenceCache ofUser();
 
@@ -46,7 +46,7 @@ class ReferenceCache {
     void shrink() const;
 
     std::filesystem::path folder_;
-    std::uintmax_t mostBytes_;
+    std::uintmax_t maxBytes_;
 };
 
 } // namespace rt::app

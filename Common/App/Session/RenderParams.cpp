@@ -48,9 +48,9 @@ std::uint32_t rouletteOf(const scene::CompiledScene& scene) {
 }
 
 // RenderParams::edgeRays: a power of two, which keeps Sobol's strata whole, and fewer where that would be more rays for
-// each of the image's samples than kMostEdgeRays in the mean.
+// each of the image's samples than kMaxEdgeRays in the mean.
 constexpr std::uint32_t kRaysAtEdge = 8;
-constexpr double kMostEdgeRays = 1.0;
+constexpr double kMaxEdgeRays = 1.0;
 
 // Whether anything sends light on into a range of directions, and what is of use only there.
 bool scattersWidely(const scene::CompiledScene& scene) {
@@ -58,10 +58,10 @@ bool scattersWidely(const scene::CompiledScene& scene) {
         return shared::scattersWidely(shared::makeBsdf(material, material.albedo));
     });
 }
-constexpr std::uint32_t kLightSampling =
+constexpr shared::Features kLightSampling =
     shared::kFeatureLights | shared::kFeatureManyLights | shared::kFeatureSphereLights | shared::kFeatureQuadLights |
     shared::kFeatureTriangleLights | shared::kFeatureEllipsoidLights | shared::kFeaturePunctualLights |
-    shared::kFeatureMixture | shared::kFeatureProjected;
+    shared::kMethodMixture | shared::kMethodProjected;
 
 bool usesMis(const RenderSettings& settings) {
     return settings.lightSampling == LightSampling::Mis || settings.lightSampling == LightSampling::MisBalance;
@@ -69,14 +69,14 @@ bool usesMis(const RenderSettings& settings) {
 
 // Whether lights are connected to by way of smooth spheres. What layers of partial opacity let through is not traced.
 bool connectsLights(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    return settings.specularConnections && usesMis(settings) && !scene.smoothSpheres.empty() &&
+    return settings.specularConnections && usesMis(settings) && !scene.specularCasters.empty() &&
            !shared::has(scene.features, shared::kFeatureOpacity) && scattersWidely(scene);
 }
 
 // Whether pixels may share what their paths bring: where light goes from one diffuse surface to another, is not
 // scattered in between and finds all as it is at any time.
 bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    constexpr std::uint32_t kPrevents =
+    constexpr shared::Features kPrevents =
         shared::kFeatureVolumes | shared::kFeatureMovingSpheres | shared::kFeatureOpacity;
     return settings.lightSampling != LightSampling::Mixture &&
            shared::has(scene.features, shared::kFeatureLambertian) && !shared::has(scene.features, kPrevents);
@@ -85,7 +85,8 @@ bool mayReusePaths(const scene::CompiledScene& scene, const RenderSettings& sett
 // Whether that gains more than it costs, by error times time (docs/light-sampling.md): where indirect light makes the
 // noise, and not a sky, many lamps, the edges of a mesh's light or blurred mirrors.
 bool gainsByReuse(const scene::CompiledScene& scene) {
-    constexpr std::uint32_t kOtherNoise = shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureFuzz;
+    constexpr shared::Features kOtherNoise =
+        shared::kFeatureSky | shared::kFeatureTriangleLights | shared::kFeatureFuzz;
     return !shared::has(scene.features, kOtherNoise) && scene.globals.lightCount <= kFewLamps &&
            scene.globals.lightCount > 0;
 }
@@ -132,28 +133,28 @@ shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const R
     params.strataX = settings.sampler == SamplerKind::SobolBlue ? logOfBlock(settings) : strata(settings).x;
     params.strataY = strata(settings).y;
     if (connectsLights(scene, settings))
-        params.connectedSpheres = static_cast<std::uint32_t>(scene.smoothSpheres.size());
+        params.connectedSpheres = static_cast<std::uint32_t>(scene.specularCasters.size());
     params.pathReuse = pathReuse(scene, settings);
     if (settings.russianRoulette) params.russianRoulette = rouletteOf(scene);
     return params;
 }
 
-std::uint32_t dependentSide(std::uint32_t features) {
-    return shared::has(features, shared::kFeatureReuse) ? shared::kReuseSide : 1u;
+std::uint32_t dependentSide(shared::Features features) {
+    return shared::has(features, shared::kMethodReuse) ? shared::kReuseSide : 1u;
 }
 
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings) {
-    return settings.edgeRays && scattersWidely(scene) && scene::mayHaveLightEdges(scene);
+    return settings.edgeRays && scattersWidely(scene) && scene::mayHaveSilhouettes(scene);
 }
 
-scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
-                               const RenderSettings& settings, shared::RenderParams& params) {
+scene::Silhouettes splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
+                                const RenderSettings& settings, shared::RenderParams& params) {
     params.edgeRays = 0;
     if (!mayHaveEdges(scene, settings)) return {};
-    scene::LightEdges edges = scene::findLightEdges(scene, camera, settings.width, settings.height);
+    scene::Silhouettes edges = scene::findSilhouettes(scene, camera, settings.width, settings.height);
     const double share = static_cast<double>(edges.count) / settings.width / settings.height;
     std::uint32_t rays = kRaysAtEdge;
-    while (rays > 0 && rays * share > kMostEdgeRays) rays /= 2;
+    while (rays > 0 && rays * share > kMaxEdgeRays) rays /= 2;
     if (edges.count == 0 || rays < 2) return {};
     params.edgeRays = rays;
     return edges;
@@ -177,25 +178,25 @@ image::FilmDesc filmDesc(const RenderSettings& settings) {
     return {settings.width, settings.height, settings.replicates, settings.secondMoments && !adaptive, adaptive};
 }
 
-std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
-                             const RenderSettings& settings) {
+shared::Features renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                                const RenderSettings& settings) {
     // The camera may have been given another lens than the scene's.
-    std::uint32_t features = scene.features & ~shared::kFeatureThinLens;
+    shared::Features features = scene.features & ~shared::kFeatureThinLens;
     if (camera.defocusAngle > 0) features |= shared::kFeatureThinLens;
     if (settings.lightSampling == LightSampling::Mixture && scene.globals.lightCount + scene.globals.targetCount > 0)
-        features |= shared::kFeatureMixture;
-    if (connectsLights(scene, settings)) features |= shared::kFeatureConnections;
-    if (reusesPaths(scene, settings)) features |= shared::kFeatureReuse;
+        features |= shared::kMethodMixture;
+    if (connectsLights(scene, settings)) features |= shared::kMethodConnections;
+    if (reusesPaths(scene, settings)) features |= shared::kMethodReuse;
     for (const ShapeSampling shape : {settings.sphereLight, settings.quadLight, settings.triangleLight})
-        if (shape == ShapeSampling::Projected) features |= shared::kFeatureProjected;
+        if (shape == ShapeSampling::Projected) features |= shared::kMethodProjected;
     // Mirrors, glass and emitters alone leave light sampling nothing to do.
     if (!scattersWidely(scene)) features &= ~kLightSampling;
-    return features | settings.features.value_or(0u);
+    return features | settings.features.value_or(shared::kFeatureNone);
 }
 
-std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features) {
+std::string describeLightShapes(const RenderSettings& settings, shared::Features features) {
     std::string text;
-    const auto describe = [&](std::uint32_t feature, ShapeSampling method, const char* shape, const char* solidAngle,
+    const auto describe = [&](shared::Features feature, ShapeSampling method, const char* shape, const char* solidAngle,
                               const char* strategies) {
         if (!shared::has(features, feature)) return;
         const char* used = method == ShapeSampling::Area        ? "area"

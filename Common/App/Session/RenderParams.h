@@ -5,7 +5,7 @@
 #include "Common/App/Session/Settings.h"
 #include "Common/Image/Film.h"
 #include "Common/Scene/CompiledScene.h"
-#include "Common/Scene/LightEdges.h"
+#include "Common/Scene/Silhouettes.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::app {
@@ -14,13 +14,13 @@ namespace rt::app {
 shared::RenderParams makeRenderParams(const scene::CompiledScene& scene, const RenderSettings& settings);
 
 // Side of the squares of pixels whose noise may be alike in a render with these features.
-std::uint32_t dependentSide(std::uint32_t features);
+std::uint32_t dependentSide(shared::Features features);
 
 // Whether any camera could have edges of lights in sight, at which its rays are to be split.
 bool mayHaveEdges(const scene::CompiledScene& scene, const RenderSettings& settings);
 // Where this camera's are; sets params.edgeRays. The camera is one of makeCamera(). No bits: nowhere.
-scene::LightEdges splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
-                               const RenderSettings& settings, shared::RenderParams& params);
+scene::Silhouettes splitAtEdges(const scene::CompiledScene& scene, const shared::Camera& camera,
+                                const RenderSettings& settings, shared::RenderParams& params);
 
 // Whether they ask for an adaptive film and can have one: strata are made for a number of samples that is known.
 bool isAdaptive(const RenderSettings& settings);
@@ -32,11 +32,11 @@ void settleReplicates(RenderSettings& settings);
 image::FilmDesc filmDesc(const RenderSettings& settings);
 
 // What a kernel needs for this scene, camera and settings, and whatever else the settings force on it.
-std::uint32_t renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
-                             const RenderSettings& settings);
+shared::Features renderFeatures(const scene::CompiledScene& scene, const scene::CameraDesc& camera,
+                                const RenderSettings& settings);
 
 // How each shape of light that exists is sampled, strategies of `auto` named: "sphere: cone, quad: auto (area, strip,
 // ...)".
-std::string describeLightShapes(const RenderSettings& settings, std::uint32_t features);
+std::string describeLightShapes(const RenderSettings& settings, shared::Features features);
 
 } // namespace rt::app

@@ -67,8 +67,8 @@ void checkSpp(const std::string& file, std::uint32_t stored, const RenderSetting
     if (isMadeForSpp(settings) && stored != settings.spp)
         throw InputError(file + ": spp is " + std::to_string(stored) +
                          " in the checkpoint, whose strata allow no other, but " + now);
-    if (const std::uint64_t most = film.maxSamples(); most > settings.spp)
-        throw InputError(file + ": spp is at " + std::to_string(most) + " in the checkpoint already but " + now);
+    if (const std::uint64_t maximum = film.maxSamples(); maximum > settings.spp)
+        throw InputError(file + ": spp is at " + std::to_string(maximum) + " in the checkpoint already but " + now);
 }
 
 } // namespace

@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "Common/App/Session/FileMark.h"
+#include "Common/App/Session/FileFingerprint.h"
 #include "Common/App/Session/SceneSource.h"
 
 namespace rt::app {
@@ -19,7 +19,7 @@ struct LoadedScene {
     std::shared_ptr<const scene::CompiledScene> scene; // empty: it failed
     std::exception_ptr failure;
     SceneRequest request;
-    std::optional<FileMark> mark; // of its file, as it was before it was read
+    std::optional<FileFingerprint> mark; // of its file, as it was before it was read
     double seconds = 0;
 };
 

@@ -14,7 +14,7 @@
 #include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/FilmRun.h"
+#include "Common/App/Session/FilmSubmission.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"
@@ -37,8 +37,8 @@ constexpr std::size_t kMemoryForWriting = std::size_t{4} << 20; // bytes
 constexpr double kCutOffNoticed = 0.01;                         // share of throughput
 
 void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
-    const std::uint32_t missing = settings.features ? scene.features & ~*settings.features : 0;
-    if (missing == 0) return;
+    const shared::Features missing = scene.features & ~settings.features.value_or(shared::kFeatureAll);
+    if (missing == shared::kFeatureNone) return;
     std::string names;
     for (const std::string& name : featureNames(missing)) names += (names.empty() ? "" : ",") + name;
     throw UsageError("--features: the scene also needs " + names);

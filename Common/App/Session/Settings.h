@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "Common/Shared/Base/Features.h"
 #include "Common/Shared/Base/Types.h"
 
 namespace rt::app {
@@ -58,9 +59,9 @@ struct RenderSettings {
     PathReuse pathReuse = PathReuse::Auto; // pixels share what their paths bring
     std::uint32_t seed = 0;
     std::uint32_t replicates = 1;
-    bool secondMoments = false;            // keep what error estimates need
-    bool adaptive = false;                 // spp is the mean; needs an even number of replicates
-    std::optional<std::uint32_t> features; // forced feature mask, a superset of the scene's
+    bool secondMoments = false;               // keep what error estimates need
+    bool adaptive = false;                    // spp is the mean; needs an even number of replicates
+    std::optional<shared::Features> features; // forced feature mask, a superset of the scene's
 
     bool operator==(const RenderSettings&) const = default;
 };

@@ -95,7 +95,7 @@ class Plot {
 
     // The id of the point nearest to the pointer, if it is near.
     std::optional<std::size_t> nearest(const std::vector<ChartSeries>& series, ImVec2 pointer) const {
-        float least = 0.8f * ImGui::GetFontSize();
+        float minimum = 0.8f * ImGui::GetFontSize();
         std::optional<std::size_t> found;
         for (const ChartSeries& s : series) {
             if (!s.id) continue;
@@ -103,8 +103,8 @@ class Plot {
                 if (!isShown(point)) continue;
                 const ImVec2 p = at(point);
                 const float distance = std::hypot(p.x - pointer.x, p.y - pointer.y);
-                if (distance >= least) continue;
-                least = distance;
+                if (distance >= minimum) continue;
+                minimum = distance;
                 found = s.id;
             }
         }

@@ -12,10 +12,10 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kHeight = 1.5f;      // of a chip, in heights of the font
-constexpr float kPadding = 0.5f;     // likewise, at its left and right
-constexpr float kBorder = 10;        // around the picture, at scale 1
-constexpr float kLeastShare = 0.55f; // of the window's part that remains for the picture, or it gets all of it
+constexpr float kHeight = 1.5f;    // of a chip, in heights of the font
+constexpr float kPadding = 0.5f;   // likewise, at its left and right
+constexpr float kBorder = 10;      // around the picture, at scale 1
+constexpr float kMinShare = 0.55f; // of the window's part that remains for the picture, or it gets all of it
 
 float chipWidth(const std::string& text, bool hasDot) {
     const float em = ImGui::GetFontSize();
@@ -88,7 +88,7 @@ Rect innerArea(const Gui& gui, const Rect& area, float scale) {
     const float top = placeChips(gui, area, scale).bottom - area.y + 0.6f * border;
     const float bottom = border + (legend > 0 ? legend + border : 0);
     const Rect inner{area.x + border, area.y + top, area.width - 2 * border, area.height - top - bottom};
-    const bool isEnough = inner.width > kLeastShare * area.width && inner.height > kLeastShare * area.height;
+    const bool isEnough = inner.width > kMinShare * area.width && inner.height > kMinShare * area.height;
     return isEnough ? inner : area;
 }
 

@@ -19,7 +19,7 @@
 namespace rt::gui {
 namespace {
 
-constexpr float kNarrow = 34, kLeastHeight = 8; // of the panel; of table and chart: in heights of the font
+constexpr float kNarrow = 34, kMinHeight = 8; // of the panel; of table and chart: in heights of the font
 
 using app::RunRecord;
 
@@ -220,10 +220,10 @@ void drawComparisonPanel(Gui& gui) {
     drawReferenceTrouble(gui);
     drawRunActions(gui);
     const ImVec2 all = ImGui::GetContentRegionAvail();
-    const float height = std::max(kLeastHeight * font, all.y);
+    const float height = std::max(kMinHeight * font, all.y);
     if (isNarrow) {
-        drawRunTable(gui, {0, kLeastHeight * font});
-        return drawChart(gui, {all.x, kLeastHeight * font});
+        drawRunTable(gui, {0, kMinHeight * font});
+        return drawChart(gui, {all.x, kMinHeight * font});
     }
     const float chart = std::floor(0.35f * all.x);
     ImGui::BeginGroup();

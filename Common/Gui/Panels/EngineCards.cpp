@@ -18,7 +18,7 @@ namespace {
 using app::RunRecord;
 using Phase = app::OtherState::Phase;
 
-constexpr float kWidth = 15, kLeastWidth = 13; // of a card, in heights of the font
+constexpr float kWidth = 15, kMinWidth = 13; // of a card, in heights of the font
 
 // "3.2x faster", "1.31x slower"
 std::string ratioText(double ratio) {
@@ -137,7 +137,7 @@ void drawEngineCards(Gui& gui, const std::function<void()>& drawMore) {
     const bool isPair = pair.cpu != nullptr;
     const float em = ImGui::GetFontSize(), gap = ImGui::GetStyle().ItemSpacing.x, cards = isPair ? 3 : 2;
     const float rest = ImGui::GetContentRegionAvail().x - buttonWidth(otherLabel(gui).c_str()) - cards * gap;
-    const float width = std::floor(std::clamp(rest / cards, kLeastWidth * em, kWidth * em));
+    const float width = std::floor(std::clamp(rest / cards, kMinWidth * em, kWidth * em));
     drawRunCard(gui, width, isPair ? pair.cpu : gui.isGpu ? nullptr : newestOf(gui.runs, false), false);
     besideIfItFits(width);
     drawRunCard(gui, width, isPair ? pair.gpu : gui.isGpu ? newestOf(gui.runs, true) : nullptr, true);

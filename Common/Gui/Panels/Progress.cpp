@@ -56,13 +56,13 @@ void drawStatusLine(Gui& gui) {
     char fps[48];
     std::snprintf(fps, sizeof fps, "%.0f fps   F1 help", gui.figures.window.framesPerSecond);
     const StatusParts parts = statusOf(gui.state);
-    StatusParts leastParts = parts;
-    leastParts.device.clear();
+    StatusParts minParts = parts;
+    minParts.device.clear();
     drawEngineDot(gui);
     const float all = ImGui::GetContentRegionAvail().x;
     const float left = all - textWidth(fps) - 2 * ImGui::GetFontSize();
     const auto wholeOf = [](const StatusParts& some) { return fitStatus(some, 1e9f, textWidth); };
-    const bool hasRight = textWidth(wholeOf(leastParts)) <= left;
+    const bool hasRight = textWidth(wholeOf(minParts)) <= left;
     ImGui::TextUnformatted(fitStatus(parts, hasRight ? left : all, textWidth).c_str());
     tooltip(wholeOf(parts).c_str());
     if (!hasRight) return;

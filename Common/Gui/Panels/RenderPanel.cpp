@@ -19,12 +19,12 @@ namespace {
 
 // Of an image of this aspect ratio whose film, with the pictures made of it, leaves half of the machine's memory to
 // others: one digit too many is not to end the program.
-std::uint32_t mostWidth(double aspect) {
+std::uint32_t maxWidth(double aspect) {
     constexpr double kPixelBytes = 100;
-    const double least = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
+    const double minimum = 1024, side = image::kMaxImageSide * std::min(1.0, aspect);
     const double pixels = 0.5 * static_cast<double>(app::machineBytes()) / kPixelBytes;
     if (pixels == 0) return image::kMaxImageSide;
-    return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), least, std::max(least, side)));
+    return static_cast<std::uint32_t>(std::clamp(std::sqrt(pixels * aspect), minimum, std::max(minimum, side)));
 }
 
 void drawSize(Gui& gui) {
@@ -32,9 +32,10 @@ void drawSize(Gui& gui) {
     const app::RenderSettings& film = gui.state.settings;
     const app::SizeRequest defaults = app::RenderRequest().size;
     std::uint32_t width = size.width.value_or(film.width);
-    const std::uint32_t most = std::max(width, mostWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
+    const std::uint32_t maximum =
+        std::max(width, maxWidth(static_cast<double>(film.width) / std::max(film.height, 1u)));
     markNextRow(size.width != defaults.width);
-    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, most, 20)) {
+    if (inputCount("Width", "Pixels; the height follows from the aspect ratio", width, 1, maximum, 20)) {
         if (size.height && size.width) size.aspect = static_cast<double>(*size.width) / *size.height;
         size.width = width;
         size.height.reset();
@@ -160,14 +161,14 @@ void drawBudget(const char* label, const char* tip, std::optional<double>& budge
 void drawSamples(Gui& gui) {
     app::RenderRequest& request = gui.settings.request;
     std::uint32_t& spp = request.settings.spp;
-    constexpr std::uint32_t kMost = 0x7fffffff, kMore = 100;
+    constexpr std::uint32_t kMax = 0x7fffffff, kMore = 100;
     markNextRow(spp != app::RenderSettings().spp);
     inputCount("Samples (SPP)",
                "Samples per pixel; every number is taken exactly. More go on from those there are, unless strata or "
                "adaptive samples are made for one number",
-               spp, 1, kMost, 10);
+               spp, 1, kMax, 10);
     row("More samples", nullptr);
-    if (button("+100 spp", "Goes on from the samples there are", request.accumulate && spp <= kMost - kMore)) {
+    if (button("+100 spp", "Goes on from the samples there are", request.accumulate && spp <= kMax - kMore)) {
         spp += kMore;
         gui.session.goOn();
     }

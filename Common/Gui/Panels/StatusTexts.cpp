@@ -106,13 +106,13 @@ StatusParts statusOf(const app::SessionState& state) {
 }
 
 std::string fitStatus(const StatusParts& parts, float width, const TextWidth& widthOf) {
-    constexpr std::size_t kLeastDevice = 8; // letters and dots: less of a name tells nothing
+    constexpr std::size_t kMinDevice = 8; // letters and dots: less of a name tells nothing
     const std::string withEngine = joined({parts.title, parts.size, parts.rate, parts.engine});
     const std::string all = joined({withEngine, parts.device});
     if (widthOf(all) <= width) return all;
     if (widthOf(withEngine) <= width) {
         const std::string device = elided(parts.device, width - widthOf(withEngine + kBetween), widthOf);
-        return device.size() >= kLeastDevice ? joined({withEngine, device}) : withEngine;
+        return device.size() >= kMinDevice ? joined({withEngine, device}) : withEngine;
     }
     const std::string figures = joined({parts.size, parts.rate}), rest = joined({parts.title, figures});
     if (widthOf(rest) <= width) return rest;

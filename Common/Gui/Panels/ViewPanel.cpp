@@ -81,7 +81,7 @@ void drawViewPanel(Gui& gui) {
     row("Interface scale", "Ctrl + plus, Ctrl + minus");
     static float draft = 0; // while the slider is held: the slider itself would move away from the mouse
     float shown = draft > 0 ? draft : settings.uiScale;
-    ImGui::SliderFloat("##scale", &shown, app::kLeastUiScale, app::kMostUiScale, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("##scale", &shown, app::kMinUiScale, app::kMaxUiScale, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemActive()) {
         draft = shown;
     } else if (draft > 0) {

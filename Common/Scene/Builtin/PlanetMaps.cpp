@@ -11,7 +11,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Paths.h"
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Shared/Base/Random.h"
 
 namespace rt::scene {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Builtin/SurfaceNet.h"
 
 namespace rt::scene {

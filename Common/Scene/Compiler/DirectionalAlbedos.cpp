@@ -22,7 +22,7 @@ constexpr uint kHeights = 48;         // of wi over sheen
 constexpr uint kTurns = 24;
 constexpr float kQuadratureError = 1.0e-3f;
 constexpr uint kFineSteps = 2 * kAlbedoSteps - 1; // with what is between the entries
-constexpr std::size_t kMostKept = 16;             // tables of glass, 8 KiB each
+constexpr std::size_t kMaxKept = 16;              // tables of glass, 8 KiB each
 
 // The direction in the plane y = 0.
 vec3 outgoing(float cosine) {
@@ -135,14 +135,14 @@ std::vector<vec3> tableOf(const Albedos& albedos) {
     return raised;
 }
 
-float roughnessOf(float least, float row) {
-    return least + (1.0f - least) * row;
+float roughnessOf(float minRoughness, float row) {
+    return minRoughness + (1.0f - minRoughness) * row;
 }
 
 std::vector<vec3> makeTable() {
     return tableOf([](float cosine, float row) {
-        return vec3(facets(cosine, square(roughnessOf(kLeastRoughness, row))),
-                    sheen(cosine, roughnessOf(kLeastSheenRoughness, row)));
+        return vec3(facets(cosine, square(roughnessOf(kMinRoughness, row))),
+                    sheen(cosine, roughnessOf(kMinSheenRoughness, row)));
     });
 }
 
@@ -151,7 +151,7 @@ std::vector<float> makeGlassTable(float ior) {
     std::vector<float> table;
     for (const float eta : {1.0f / ior, ior}) {
         const std::vector<vec3> side = tableOf([eta](float cosine, float row) {
-            return vec3(glass(cosine, square(roughnessOf(kLeastRoughness, row)), eta));
+            return vec3(glass(cosine, square(roughnessOf(kMinRoughness, row)), eta));
         });
         for (const vec3& entry : side) table.push_back(entry.x);
     }
@@ -174,7 +174,7 @@ std::vector<float> glassAlbedos(float ior) {
     }
     std::vector<float> table = makeGlassTable(ior); // whose loop may do other work that asks for a table meanwhile
     const std::scoped_lock lock(mutex);
-    if (kept.size() >= kMostKept) kept.clear();
+    if (kept.size() >= kMaxKept) kept.clear();
     kept.emplace(ior, table);
     return table;
 }

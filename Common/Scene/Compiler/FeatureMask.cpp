@@ -7,8 +7,10 @@ namespace rt::scene {
 
 namespace {
 
-std::uint32_t ofMaterial(const shared::Material& material) {
-    std::uint32_t mask = materialType(static_cast<MaterialKind>(material.kind)).feature;
+using shared::Features;
+
+Features ofMaterial(const shared::Material& material) {
+    Features mask = materialType(static_cast<MaterialKind>(material.kind)).feature;
     const shared::Bsdf bsdf = shared::makeBsdf(material, material.albedo);
     if (shared::isMetal(mask, bsdf) && shared::isFuzzy(shared::kFeatureFuzz, bsdf)) mask |= shared::kFeatureFuzz;
     const shared::vec3 e = material.emission;
@@ -25,10 +27,10 @@ bool hasCoatNormal(const shared::Principled& p) {
     return p.clearcoat.factor > 0 && (p.normalTexture != shared::kNone || p.coatTexture != shared::kNone);
 }
 
-std::uint32_t ofTexture(const shared::Texture& texture) {
+Features ofTexture(const shared::Texture& texture) {
     switch (texture.kind) {
         case shared::kTextureSolid:
-            return 0;
+            return shared::kFeatureNone;
         case shared::kTextureChecker:
             return shared::kFeatureChecker;
         case shared::kTextureImage:
@@ -38,7 +40,7 @@ std::uint32_t ofTexture(const shared::Texture& texture) {
     }
 }
 
-std::uint32_t ofLight(const shared::Light& light) {
+Features ofLight(const shared::Light& light) {
     switch (light.kind) {
         case shared::kLightSphere:
             return shared::kFeatureSphereLights;
@@ -53,20 +55,23 @@ std::uint32_t ofLight(const shared::Light& light) {
         case shared::kLightDirectional:
             return shared::kFeaturePunctualLights;
         default:
-            return 0;
+            return shared::kFeatureNone;
     }
 }
 
-std::uint32_t ofSky(const shared::SceneGlobals& globals) {
-    if (globals.skyKind == shared::kSkyBlack) return 0;
-    return shared::kFeatureSky | (globals.skyKind == shared::kSkyImage ? shared::kFeatureSkyImage : 0u);
+Features ofSky(const shared::SceneGlobals& globals) {
+    if (globals.skyKind == shared::kSkyBlack) return shared::kFeatureNone;
+    return shared::kFeatureSky |
+           (globals.skyKind == shared::kSkyImage ? shared::kFeatureSkyImage : shared::kFeatureNone);
 }
 
 } // namespace
 
-std::uint32_t featureMask(const CompiledScene& scene) {
-    std::uint32_t mask = ofSky(scene.globals);
-    const auto need = [&mask](bool needed, std::uint32_t bits) { mask |= needed ? bits : 0u; };
+shared::Features featureMask(const CompiledScene& scene) {
+    Features mask = ofSky(scene.globals);
+    const auto need = [&mask](bool needed, Features bits) {
+        if (needed) mask |= bits;
+    };
     need(!scene.spheres.empty(), shared::kFeatureSpheres);
     need(!scene.sphereMotions.empty(), shared::kFeatureMovingSpheres);
     need(!scene.quads.empty(), shared::kFeatureQuads);
@@ -80,6 +85,7 @@ std::uint32_t featureMask(const CompiledScene& scene) {
     for (const shared::Material& material : scene.materials) mask |= ofMaterial(material);
     for (std::size_t i = 0; i < scene.principled.size(); ++i)
         if (shared::isPrincipled(shared::kFeatureAll, scene.materials[i])) {
+            need(true, shared::kFeatureVertexAttributes); // which no other kind of material looks at
             need(letsRaysThrough(scene.principled[i]), shared::kFeatureOpacity);
             need(hasCoatNormal(scene.principled[i]), shared::kFeatureCoatNormal);
         }

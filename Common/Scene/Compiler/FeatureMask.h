@@ -6,6 +6,6 @@
 namespace rt::scene {
 
 // What the arrays of a finished scene need of a kernel.
-std::uint32_t featureMask(const CompiledScene& scene);
+shared::Features featureMask(const CompiledScene& scene);
 
 } // namespace rt::scene

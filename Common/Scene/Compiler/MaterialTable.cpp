@@ -12,7 +12,7 @@ namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastAttenuation = 1e-6; // of attenuation colours: black would absorb infinitely much
+constexpr double kMinAttenuation = 1e-6; // of attenuation colours: black would absorb infinitely much
 
 } // namespace
 
@@ -105,7 +105,7 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
     }
     if (desc.attenuationDistance)
         for (int c = 0; c < 3; ++c)
-            p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kLeastAttenuation)) /
+            p.absorption[c] = static_cast<float>(-std::log(std::max(desc.attenuationColor[c], kMinAttenuation)) /
                                                  *desc.attenuationDistance);
     p.normalTexture = normalMap(desc.normalTexture);
     p.normalScale = static_cast<float>(desc.normalScale);

@@ -1,7 +1,7 @@
 #include "Common/Scene/Compiler/ModelCache.h"
 
 #include "Common/Core/Error.h"
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 
 namespace rt::scene {
 
@@ -30,7 +30,7 @@ const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
 }
 
 std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
-    if (const auto* data = std::get_if<Indirect<MeshData>>(&object.source))
+    if (const auto* data = std::get_if<Boxed<MeshData>>(&object.source))
         return {{&**data, &materials_.find(object.material)}};
     const bool hasOwn = object.material.empty();
     const ObjModel& model = this->model(std::get<MeshFile>(object.source), hasOwn);
@@ -48,7 +48,7 @@ std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
 
 std::size_t ModelCache::triangleCount(const MeshDesc& object) {
     std::size_t count = 0;
-    if (const auto* data = std::get_if<Indirect<MeshData>>(&object.source)) return (*data)->triangles.size();
+    if (const auto* data = std::get_if<Boxed<MeshData>>(&object.source)) return (*data)->triangles.size();
     for (const ObjPart& part : model(std::get<MeshFile>(object.source), object.material.empty()).parts)
         count += part.mesh.triangles.size();
     return count;

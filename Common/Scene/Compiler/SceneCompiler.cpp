@@ -12,7 +12,7 @@
 #include "Common/Scene/Compiler/ModelCache.h"
 #include "Common/Scene/Compiler/PrimitiveSink.h"
 #include "Common/Scene/Compiler/SceneHash.h"
-#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/Compiler/SpecularCasters.h"
 #include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Scene/Compiler/TexturesInUse.h"
 
@@ -53,7 +53,7 @@ class Compiler {
         placeDirectionalLights(bounds_, *out_);
         emitSky();
         finishLights(*out_);
-        findSmoothSpheres(*out_);
+        findSpecularCasters(*out_);
         for (const TargetDesc& target : desc_.importanceTargets) addTarget(target, toWorld);
         finish();
         return out_;

@@ -11,9 +11,9 @@ namespace rt::scene {
 
 namespace {
 
-constexpr std::size_t kMostPatches = 4;
-constexpr double kLeastNoise = 0.05; // of the sky's; a patch with less is not worth a place in the list
-constexpr double kDark = 0.1;        // of a patch's greatest radiance
+constexpr std::size_t kMaxPatches = 4;
+constexpr double kMinNoise = 0.05; // of the sky's; a patch with less is not worth a place in the list
+constexpr double kDark = 0.1;      // of a patch's greatest radiance
 
 // Texels as they are sampled, row by row.
 class SkyTexels {
@@ -90,12 +90,12 @@ class PatchFinder {
         sky.irradiance = texels_.irradiance();
         double noise = 0;
         forEachTexel(all(), [&](auto x, auto y) { noise += texels_.irradiance(x, y) * texels_.radiance(x, y); });
-        for (std::size_t i = 0; i < kMostPatches; ++i) {
+        for (std::size_t i = 0; i < kMaxPatches; ++i) {
             const shared::SkyPatch brightest = brightestTexel();
             if (!isFree(brightest) || !(texels_.radiance(brightest.begin.x, brightest.begin.y) > 0)) break;
             const BrightPatch patch = measured(grown(brightest));
             taken_.push_back(patch.texels);
-            if (patch.irradiance * patch.radiance >= kLeastNoise * noise) sky.patches.push_back(patch);
+            if (patch.irradiance * patch.radiance >= kMinNoise * noise) sky.patches.push_back(patch);
         }
         return sky;
     }
@@ -110,11 +110,11 @@ class PatchFinder {
     // Of those that are free; if none is, of all.
     shared::SkyPatch brightestTexel() const {
         shared::SkyPatch brightest = texelAt(0, 0);
-        double most = -1;
+        double maximum = -1;
         forEachTexel(all(), [&](auto x, auto y) {
             const double radiance = texels_.radiance(x, y);
-            if (radiance <= most || !isFree(texelAt(x, y))) return;
-            most = radiance;
+            if (radiance <= maximum || !isFree(texelAt(x, y))) return;
+            maximum = radiance;
             brightest = texelAt(x, y);
         });
         return brightest;
@@ -122,7 +122,7 @@ class PatchFinder {
 
     // Rows and columns are added on all sides until each is dark.
     shared::SkyPatch grown(shared::SkyPatch patch) const {
-        const double least = kDark * texels_.radiance(patch.begin.x, patch.begin.y);
+        const double minimum = kDark * texels_.radiance(patch.begin.x, patch.begin.y);
         for (bool grows = true; grows;) {
             grows = false;
             for (const int axis : {0, 1}) {
@@ -131,8 +131,8 @@ class PatchFinder {
                 before.begin[axis] -= std::min(patch.begin[axis], 1u);
                 behind.begin[axis] = patch.end[axis];
                 behind.end[axis] = std::min(patch.end[axis] + 1, all().end[axis]);
-                const bool growsBefore = isFree(before) && isBright(before, least);
-                const bool growsBehind = isFree(behind) && isBright(behind, least);
+                const bool growsBefore = isFree(before) && isBright(before, minimum);
+                const bool growsBehind = isFree(behind) && isBright(behind, minimum);
                 if (growsBefore) patch.begin[axis] = before.begin[axis];
                 if (growsBehind) patch.end[axis] = behind.end[axis];
                 grows = grows || growsBefore || growsBehind;
@@ -141,9 +141,9 @@ class PatchFinder {
         return patch;
     }
 
-    bool isBright(const shared::SkyPatch& strip, double least) const {
+    bool isBright(const shared::SkyPatch& strip, double minimum) const {
         bool isBright = false;
-        forEachTexel(strip, [&](auto x, auto y) { isBright = isBright || texels_.radiance(x, y) >= least; });
+        forEachTexel(strip, [&](auto x, auto y) { isBright = isBright || texels_.radiance(x, y) >= minimum; });
         return isBright;
     }
 
@@ -160,8 +160,8 @@ class PatchFinder {
         });
         patch.radiance = noise / patch.irradiance;
         const glm::dvec3 axis = glm::length(sum) > 0 ? glm::normalize(sum) : glm::dvec3(0, 1, 0);
-        double least = 1;
-        const auto reach = [&](auto x, auto y) { least = std::min(least, glm::dot(axis, texels_.corner(x, y))); };
+        double minimum = 1;
+        const auto reach = [&](auto x, auto y) { minimum = std::min(minimum, glm::dot(axis, texels_.corner(x, y))); };
         for (std::uint32_t x = texels.begin.x; x <= texels.end.x; ++x) {
             reach(x, texels.begin.y);
             reach(x, texels.end.y);
@@ -171,7 +171,7 @@ class PatchFinder {
             reach(texels.end.x, y);
         }
         patch.axis = texels_.toWorld(axis);
-        patch.angle = std::acos(std::max(least, -1.0));
+        patch.angle = std::acos(std::max(minimum, -1.0));
         return patch;
     }
 

@@ -8,7 +8,7 @@
 #include "Common/Core/Error.h"
 #include "Common/Core/Interruption.h"
 #include "Common/Core/Parallel.h"
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Compiler/PerlinTable.h"
 
 namespace rt::scene {
@@ -193,7 +193,7 @@ void TextureTable::append(const ImageTexture& source, TexelData data) {
 // Few at a time are decoded beside those that are done, and these take their memory once, so that all takes little more
 // than the texels do.
 void TextureTable::loadImages(const std::vector<const ImageTexture*>& sources) {
-    constexpr std::size_t kMostAtATime = 8;
+    constexpr std::size_t kMaxAtATime = 8;
     std::vector<const ImageTexture*> images;
     std::vector<EncodedTexels> encoded;
     std::size_t count = out_.texels.size();
@@ -205,7 +205,7 @@ void TextureTable::loadImages(const std::vector<const ImageTexture*>& sources) {
         count += encoded.back().count;
     }
     if (images.size() > 1) out_.texels.reserve(count);
-    const std::size_t atATime = std::min(threadCount(0), kMostAtATime);
+    const std::size_t atATime = std::min(threadCount(0), kMaxAtATime);
     for (std::size_t first = 0; first < images.size(); first += atATime) {
         std::vector<TexelData> decoded(std::min(atATime, images.size() - first));
         parallelFor(0, decoded.size(), [&](std::size_t i) {
@@ -252,13 +252,13 @@ bool TextureTable::mayShowImage(const std::string& name, int depth) const {
 }
 
 bool TextureTable::isGreyImage(std::uint32_t index) const {
-    constexpr std::size_t kMostTexels = 1 << 16; // looked at
-    constexpr double kMostDifference = 0.02;     // in the mean: compression colours what is grey
+    constexpr std::size_t kMaxTexels = 1 << 16; // looked at
+    constexpr double kMaxDifference = 0.02;     // in the mean: compression colours what is grey
     const shared::Texture& texture = out_.textures[index];
     if (texture.kind != shared::kTextureImage) return false;
     const shared::Image& image = out_.images[texture.first];
     const std::size_t count = std::size_t{image.width} * image.height;
-    const std::size_t step = std::max<std::size_t>(1, count / kMostTexels);
+    const std::size_t step = std::max<std::size_t>(1, count / kMaxTexels);
     double difference = 0;
     std::size_t seen = 0;
     for (std::size_t i = 0; i < count; i += step, ++seen) {
@@ -266,7 +266,7 @@ bool TextureTable::isGreyImage(std::uint32_t index) const {
                                         static_cast<std::uint32_t>(i / image.width));
         difference += std::abs(c.x - c.y) + std::abs(c.y - c.z);
     }
-    return difference <= kMostDifference * static_cast<double>(seen);
+    return difference <= kMaxDifference * static_cast<double>(seen);
 }
 
 glm::dvec3 TextureTable::mean(std::uint32_t index) const {

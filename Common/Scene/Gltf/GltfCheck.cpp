@@ -19,15 +19,15 @@ constexpr std::array kSupported = {
     "EXT_mesh_gpu_instancing"};
 
 // Without a buffer view the values of an accessor are zeros, which cost a file nothing.
-constexpr std::uint64_t kMostImplicit = 1'000'000;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 40; // of offsets and lengths: their sums do not overflow
+constexpr std::uint64_t kMaxImplicit = 1'000'000;
+constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 40; // of offsets and lengths: their sums do not overflow
 
 bool isSupported(const std::string& extension) {
     return std::find(kSupported.begin(), kSupported.end(), extension) != kSupported.end();
 }
 
 std::uint64_t whole(const JsonNode& node) {
-    if (!node.value().is_number_unsigned() || node.value().get<std::uint64_t>() > kMostBytes)
+    if (!node.value().is_number_unsigned() || node.value().get<std::uint64_t>() > kMaxBytes)
         node.failValue("a whole number from 0 to 2^40");
     return node.value().get<std::uint64_t>();
 }
@@ -154,8 +154,8 @@ class Checker {
             if (count == 0 || count > UINT32_MAX) accessor.at("count").failValue("from 1 to 2^32 - 1");
             if (accessor.has("bufferView"))
                 range(accessor, whole(accessor, "byteOffset", 0), count, bytes);
-            else if (count > kMostImplicit)
-                accessor.at("count").failValue("at most " + std::to_string(kMostImplicit) + " without a buffer view");
+            else if (count > kMaxImplicit)
+                accessor.at("count").failValue("at most " + std::to_string(kMaxImplicit) + " without a buffer view");
             const auto sparse = accessor.find("sparse");
             if (!sparse) return;
             const std::uint64_t changed = whole(sparse->at("count"));

@@ -17,12 +17,14 @@ class ParameterReader {
     ParameterReader(const JsonNode& record, const SceneReferences& references)
         : record_(record), references_(references) {}
 
-    void read(const SceneParameter& p, double& value) const { value = at(p).within(p.least, p.most); }
-    void read(const SceneParameter& p, std::optional<double>& value) const { value = at(p).within(p.least, p.most); }
+    void read(const SceneParameter& p, double& value) const { value = at(p).within(p.minimum, p.maximum); }
+    void read(const SceneParameter& p, std::optional<double>& value) const {
+        value = at(p).within(p.minimum, p.maximum);
+    }
     void read(const SceneParameter& p, bool& value) const { value = at(p).boolean(); }
     void read(const SceneParameter& p, std::uint32_t& value) const {
         value = at(p).unsignedInteger();
-        at(p).within(p.least, p.most);
+        at(p).within(p.minimum, p.maximum);
     }
     void read(const SceneParameter& p, std::optional<std::uint32_t>& value) const { read(p, value.emplace()); }
     void read(const SceneParameter& p, glm::dvec3& value) const { value = at(p).vectorWithin(0, 1); }
@@ -108,7 +110,7 @@ MaterialDesc readMaterial(const JsonNode& node, const SceneReferences& reference
         material.albedo = references.colorOrTexture(node.at(color->name));
     forEachNumber(type, [&](const MaterialParameter& parameter, std::size_t i) {
         if (parameter.isRequired || node.has(parameter.name))
-            material.parameters[i] = node.at(parameter.name).within(parameter.least, parameter.most);
+            material.parameters[i] = node.at(parameter.name).within(parameter.minimum, parameter.maximum);
     });
     if (isPrincipled)
         forEachPrincipledParameter([&](const SceneParameter& p, auto member) {

@@ -9,14 +9,14 @@
 #include "Common/Core/Parallel.h"
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Affine.h"
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Json/SceneReader.h"
 
 namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastSpotAngle = 1e-3; // degrees: narrower ones single precision cannot aim
+constexpr double kMinSpotAngle = 1e-3; // degrees: narrower ones single precision cannot aim
 
 // ---- transforms ----------------------------------------------------------------------------------------------------
 
@@ -217,7 +217,7 @@ SpotLightDesc readSpotLight(const JsonNode& node) {
     light.position = node.at("position").vector();
     light.direction = readDirection(node.at("direction"));
     light.intensity = node.at("intensity").vectorWithin(0, kLargest);
-    if (const auto outer = node.find("outer_angle")) light.outerAngle = outer->within(kLeastSpotAngle, 90);
+    if (const auto outer = node.find("outer_angle")) light.outerAngle = outer->within(kMinSpotAngle, 90);
     if (const auto inner = node.find("inner_angle")) {
         light.innerAngle = inner->number();
         if (!(light.innerAngle >= 0 && light.innerAngle < light.outerAngle))

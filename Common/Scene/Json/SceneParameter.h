@@ -13,8 +13,8 @@ struct SceneParameter {
     const char* name;
     bool isRequired; // else a new record's value stands where a file says nothing
     const char* help = "";
-    double least = -kLargest; // numbers
-    double most = kLargest;
+    double minimum = -kLargest; // numbers
+    double maximum = kLargest;
     const std::vector<std::string>& (*choices)() = nullptr; // strings; enumerations, in the order of their values
     const char* section = nullptr;                          // strings: the name of one of its members instead
 };

@@ -258,7 +258,7 @@ OrderedJson json(const MeshDesc& mesh) {
         setUnless(out, "stand_in", source->standIn, std::string());
         return withSurface(std::move(out), mesh);
     }
-    const MeshData& data = *std::get<Indirect<MeshData>>(mesh.source);
+    const MeshData& data = *std::get<Boxed<MeshData>>(mesh.source);
     out = withSurface(std::move(out), mesh);
     out["positions"] = flat(data.positions);
     if (!data.normals.empty()) out["normals"] = flat(data.normals);

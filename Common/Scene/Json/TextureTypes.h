@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 #include "Common/Scene/Json/SceneParameter.h"
 #include "Common/Scene/SceneDesc.h"
 

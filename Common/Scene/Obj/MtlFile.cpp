@@ -59,9 +59,9 @@ class Statement {
         return *value;
     }
     // Up to `most` numbers, as long as words are some.
-    std::vector<double> numbers(std::size_t most) {
+    std::vector<double> numbers(std::size_t maximum) {
         std::vector<double> values;
-        while (values.size() < most && numberOf(peek())) values.push_back(number());
+        while (values.size() < maximum && numberOf(peek())) values.push_back(number());
         return values;
     }
     // Three components, or one that counts for all.

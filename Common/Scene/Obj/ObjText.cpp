@@ -135,8 +135,8 @@ std::string describeLeftOut(std::string_view text) {
 }
 
 std::string listed(const std::set<std::string>& names) {
-    constexpr std::size_t kMost = 3, kLongest = 100;
-    const std::size_t shown = std::min(names.size(), kMost);
+    constexpr std::size_t kMax = 3, kLongest = 100;
+    const std::size_t shown = std::min(names.size(), kMax);
     const std::size_t others = names.size() - shown;
     std::string text;
     auto name = names.begin();

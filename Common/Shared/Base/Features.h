@@ -1,47 +1,89 @@
-// The feature mask: what a scene and its settings need. The scene compiler ORs the bits while it flattens; a bit that
-// is absent means that the code, the buffers and the shader groups behind it are absent too. `features` is a plain
-// first argument of shared functions: a template constant on the CPU, a specialization constant on the GPU.
+// The feature mask: what a scene has and what the settings ask for. The scene compiler ORs the bits while it flattens, the
+// settings add theirs; a bit that is absent means that the code, the buffers and the shader groups behind it are absent
+// too. `features` is a plain first argument of shared functions: a template constant on the CPU, a specialization
+// constant on the GPU. Its three words, see Shim.h: what the scene is made of, its materials, and methods.
+//
+// A row is a bit and its name for --features and the statistics; all else follows from the tables.
 #ifndef RT_SHARED_FEATURES_H
 #define RT_SHARED_FEATURES_H
 #include "Common/Shared/Base/Shim.h"
 
+// clang-format off
+// What the scene is made of.
+//   MovingSpheres     then the time of a ray matters
+//   VertexAttributes  tangents, colours, second texture coordinates
+//   Emissive          some surface emits
+//   Noise             Perlin textures of every kind
+//   Volumes           constant media
+//   Sky               a background that is not black
+//   Lights            the light table is not empty
+//   ManyLights        more lights than kContributionLights
+//   PunctualLights    point, spot and directional lights
+#define RT_SCENE_FEATURES(FEATURE)                    \
+    FEATURE(Spheres, 0u, "spheres")                   \
+    FEATURE(MovingSpheres, 1u, "moving-spheres")      \
+    FEATURE(Quads, 2u, "quads")                       \
+    FEATURE(Triangles, 3u, "triangles")               \
+    FEATURE(Instances, 4u, "instances")               \
+    FEATURE(SmoothNormals, 5u, "smooth-normals")      \
+    FEATURE(VertexAttributes, 6u, "vertex-attributes") \
+    FEATURE(Emissive, 7u, "emissive")                 \
+    FEATURE(Checker, 8u, "checker")                   \
+    FEATURE(Noise, 9u, "noise")                       \
+    FEATURE(Images, 10u, "images")                    \
+    FEATURE(Volumes, 11u, "volumes")                  \
+    FEATURE(Sky, 12u, "sky")                          \
+    FEATURE(SkyImage, 13u, "sky-image")               \
+    FEATURE(ThinLens, 14u, "thin-lens")               \
+    FEATURE(Lights, 15u, "lights")                    \
+    FEATURE(ManyLights, 16u, "many-lights")           \
+    FEATURE(SphereLights, 17u, "sphere-lights")       \
+    FEATURE(QuadLights, 18u, "quad-lights")           \
+    FEATURE(TriangleLights, 19u, "triangle-lights")   \
+    FEATURE(EllipsoidLights, 20u, "ellipsoid-lights") \
+    FEATURE(PunctualLights, 21u, "punctual-lights")
+
+// What only some materials of a kind have: bits from the upper end of a word whose bit k stands for materials of kind k,
+// see their table, Common/Shared/Material/Materials.h.
+//   Fuzz        metal with fuzz above kMirrorFuzz
+//   CoatNormal  clear coats over or under a map of normals
+//   Opacity     surfaces that let a part of rays through
+#define RT_MATERIAL_FEATURES(FEATURE)          \
+    FEATURE(Fuzz, 31u, "fuzz")                 \
+    FEATURE(CoatNormal, 30u, "coat-normal")    \
+    FEATURE(Opacity, 29u, "opacity")
+
+// Methods that settings ask for.
+//   Mixture      Shirley's mixture, where there are lights or targets
+//   Projected    lights by projected solid angle
+//   Connections  lights connected to by way of smooth spheres
+//   Reuse        pixels share what their paths bring
+#define RT_METHODS(METHOD)                        \
+    METHOD(Mixture, 0u, "mixture")                \
+    METHOD(Projected, 1u, "projected")            \
+    METHOD(Connections, 2u, "connections")        \
+    METHOD(Reuse, 3u, "path-reuse")
+// clang-format on
+
 RT_SHARED_BEGIN
 
-const uint kFeatureSpheres = 1u << 0u;
-const uint kFeatureMovingSpheres = 1u << 1u; // then the time of a ray matters
-const uint kFeatureQuads = 1u << 2u;
-const uint kFeatureTriangles = 1u << 3u;
-const uint kFeatureInstances = 1u << 4u;
-// Bits of materials: see their table, Common/Shared/Material/Materials.h. 5, 6, 7 and 28 are taken.
-const uint kFeatureEmissive = 1u << 8u; // some surface emits
-const uint kFeatureChecker = 1u << 9u;
-const uint kFeatureNoise = 1u << 10u;   // Perlin textures of every kind
-const uint kFeatureImages = 1u << 11u;  // image textures
-const uint kFeatureVolumes = 1u << 12u; // constant media
-const uint kFeatureSky = 1u << 13u;     // a background that is not black
-const uint kFeatureSkyImage = 1u << 14u;
-const uint kFeatureThinLens = 1u << 15u;
-const uint kFeatureLights = 1u << 16u;     // the light table is not empty
-const uint kFeatureManyLights = 1u << 17u; // more lights than kContributionLights
-const uint kFeatureSphereLights = 1u << 18u;
-const uint kFeatureQuadLights = 1u << 19u;
-const uint kFeatureTriangleLights = 1u << 20u;
-const uint kFeatureSmoothNormals = 1u << 21u;
-const uint kFeatureFuzz = 1u << 22u;        // metal with fuzz above kMirrorFuzz
-const uint kFeatureReuse = 1u << 23u;       // a setting: pixels share what their paths bring
-const uint kFeatureConnections = 1u << 24u; // a setting: lights connected to by way of smooth spheres
-const uint kFeatureMixture = 1u << 25u;     // a setting: Shirley's mixture, where there are lights or targets
-const uint kFeatureProjected = 1u << 26u;   // a setting: lights by projected solid angle
-const uint kFeatureEllipsoidLights = 1u << 27u;
-const uint kFeatureDetail = 1u << 28u;         // tangents, vertex colours, second uvs: the bit of principled materials
-const uint kFeatureCoatNormal = 1u << 29u;     // clear coats over or under a map of normals
-const uint kFeaturePunctualLights = 1u << 30u; // point, spot and directional lights
-const uint kFeatureOpacity = 1u << 31u;        // principled surfaces that let a part of rays through
-const uint kFeatureAll = 0xffffffffu;
-const uint kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
+RT_CONST Features kFeatureNone = Features(0u, 0u, 0u);
+RT_CONST Features kFeatureAll = Features(0xffffffffu, 0xffffffffu, 0xffffffffu);
 
-RT_FN bool has(uint features, uint bits) {
-    return (features & bits) != 0u;
+#define RT_SCENE_FEATURE(Name, bit, name) RT_CONST Features kFeature##Name = Features(1u << bit, 0u, 0u);
+#define RT_MATERIAL_FEATURE(Name, bit, name) RT_CONST Features kFeature##Name = Features(0u, 1u << bit, 0u);
+#define RT_METHOD(Name, bit, name) RT_CONST Features kMethod##Name = Features(0u, 0u, 1u << bit);
+RT_SCENE_FEATURES(RT_SCENE_FEATURE)
+RT_MATERIAL_FEATURES(RT_MATERIAL_FEATURE)
+RT_METHODS(RT_METHOD)
+#undef RT_SCENE_FEATURE
+#undef RT_MATERIAL_FEATURE
+#undef RT_METHOD
+
+RT_CONST Features kTexturedFeatures = kFeatureChecker | kFeatureNoise | kFeatureImages;
+
+RT_FN bool has(Features features, Features bits) {
+    return (features & bits) != kFeatureNone;
 }
 
 RT_SHARED_END

@@ -213,7 +213,7 @@ RT_FN float sampleFine(RT_IN(Sampler) s, uint dimension) {
 }
 
 // u, known to lie in [low, high) of a distribution function, stretched to [0,1): reuses a number after a choice.
-RT_FN float stretch(float u, float low, float high) {
+RT_FN float remapSample(float u, float low, float high) {
     return clamp((u - low) / (high - low), 0.0f, 0.999999940395355f);
 }
 

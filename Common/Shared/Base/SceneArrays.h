@@ -36,8 +36,8 @@
     PLAIN(vec3, directionalAlbedos, loadDirectionalAlbedo, "materials") /* see PrincipledSurface.h; empty without */ \
     PLAIN(float, glassAlbedos, loadGlassAlbedo, "materials") /* of each index of refraction; PrincipledSurface.h */ \
     PLAIN(uint, triangleMesh, loadTriangleMesh, "triangles") /* mesh of each triangle */ \
-    PLAIN(SmoothSphere, smoothSpheres, loadSmoothSphere, "connections") /* kConnectedSpheres at most */ \
-    PLAIN(SphereReach, sphereReaches, loadSphereReach, "connections") /* of each of them, see SmoothSphere */ \
+    PLAIN(SpecularCaster, specularCasters, loadSpecularCaster, "connections") /* kConnectedSpheres at most */ \
+    PLAIN(CasterLight, casterLights, loadCasterLight, "connections") /* of each of them, see SpecularCaster */ \
     PLAIN(SkyPatch, skyPatches, loadSkyPatch, "connections") /* apart from each other */ \
     OWN(LightBound, lightBounds, loadLightBound, "lights") /* one for each light */ \
     OWN(LightNode, lightNodes, loadLightCluster, "the light tree") /* over more than kContributionLights lights */ \

@@ -6,9 +6,10 @@
 //   RT_CALL          the same for a function that is worth a call: never inlined in kernels.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
-//   RT_FULL          not defined where the code of few scenes and settings is left out: in shaders but those variants
+//   RT_HEAVY_FEATURES          not defined where the code of few scenes and settings is left out: in shaders but those variants
 //                    that are chosen for such (RayTracingGPU/Kernels.cpp). Drivers take long over code that a
 //                    specialization constant leaves unused (docs/gpu-engine.md); C++ compilers drop it.
+//   RT_CONST         prefix of a constant that is no number, such as a set of features.
 //   RT_SHARED_BEGIN  opens namespace rt::shared in C++; RT_SHARED_END closes it.
 #ifndef RT_SHARED_SHIM_H
 #define RT_SHARED_SHIM_H
@@ -43,9 +44,10 @@
 #define RT_IN(T) const T&
 #define RT_INOUT(T) T&
 #define RT_OUT(T) T&
+#define RT_CONST constexpr
 #define RT_SHARED_BEGIN namespace rt::shared {
 #define RT_SHARED_END }
-#define RT_FULL
+#define RT_HEAVY_FEATURES
 
 RT_SHARED_BEGIN
 
@@ -117,15 +119,40 @@ RT_FN uint bitfieldReverse(uint x) {
     return (x >> 16) | (x << 16);
 }
 
+// A set of features, see Features.h: three words of bits, which work as the components of GLSL's uvec3 do.
+struct Features {
+    uint scene = 0;
+    uint materials = 0;
+    uint methods = 0;
+
+    constexpr Features() = default;
+    constexpr Features(uint sceneBits, uint materialBits, uint methodBits)
+        : scene(sceneBits), materials(materialBits), methods(methodBits) {}
+
+    constexpr Features operator&(const Features& other) const {
+        return {scene & other.scene, materials & other.materials, methods & other.methods};
+    }
+    constexpr Features operator|(const Features& other) const {
+        return {scene | other.scene, materials | other.materials, methods | other.methods};
+    }
+    constexpr Features operator~() const { return {~scene, ~materials, ~methods}; }
+    constexpr Features& operator|=(const Features& other) { return *this = *this | other; }
+    constexpr Features& operator&=(const Features& other) { return *this = *this & other; }
+    constexpr bool operator==(const Features&) const = default;
+};
+
 RT_SHARED_END
 
 #else
+
+#define Features uvec3
 
 #define RT_FN
 #define RT_CALL
 #define RT_IN(T) T
 #define RT_INOUT(T) inout T
 #define RT_OUT(T) out T
+#define RT_CONST const
 #define RT_SHARED_BEGIN
 #define RT_SHARED_END
 

@@ -214,7 +214,7 @@ const uint kReflectedInside = 2u; // and in between once, after which it crosses
 
 // A sphere of glass or a mirror, and a way by which light goes on from it to a point: one sphere of glass may be there
 // three times.
-struct SmoothSphere {
+struct SpecularCaster {
     vec3 center; // at time 0
     float radius;
     vec3 motion;             // displacement over the shutter
@@ -225,16 +225,16 @@ struct SmoothSphere {
     uint instance;           // into instances; kNone: it is one of the world's own
     float error;             // what the instance's map adds to the rounding of points on the surface
     float nearest;           // least radius over distance at which light through it is thought to matter; 1: nowhere
-    uint firstReach;         // into sphereReaches: the lights that are connected to by way of it
-    uint reachCount;         // kReachedLights at most
+    uint firstLight;         // into casterLights: the lights that are connected to by way of it
+    uint lightCount;         // kCasterLights at most
     vec2 reach[kReachSteps]; // by that ratio: cosine of how far, seen from the centre, a point may be from opposite
                              // a light, and irradiance there over that at the centre
 };
 
-const uint kReachedLights = 32u; // by way of one sphere, at most
+const uint kCasterLights = 32u; // by way of one sphere, at most
 
 // A light, or a patch of the sky image, as one of these spheres sees it.
-struct SphereReach {
+struct CasterLight {
     vec3 axis;     // unit, from the sphere to the light; from the light to the sphere where that reflects
     vec2 extent;   // cosine and sine of the angle that bounds the light
     float weight;  // irradiance at the sphere, > 0
@@ -315,8 +315,8 @@ struct SceneGlobals {
     uint targetCount; // importance targets, stored behind the lights
     uint mediumCount;
     uint instanceCount;
-    float sceneRadius; // half the diagonal of the bounds
-    float litSpheres;  // greatest irradiance of one of smoothSpheres by the lights that are connected to
+    float sceneRadius;         // half the diagonal of the bounds
+    float maxCasterIrradiance; // greatest irradiance of one of specularCasters by the lights that are connected to
     AimedSphere aimed;
 };
 
@@ -370,7 +370,7 @@ struct RenderParams {
     uint strataX; // stratified: cells per round, strataX * strataY >= samples per pixel; kSamplerSobolBlue: binary
                   // logarithm of the samples of a pixel that are next to each other in the sequence
     uint strataY;
-    uint connectedSpheres; // of smoothSpheres: lights are connected to through them; 0: none
+    uint connectedSpheres; // of specularCasters: lights are connected to through them; 0: none
     uint russianRoulette;  // a path of throughput T goes on with probability russianRoulette * T; 0: there is none
     uint edgeRays;         // of each sample in a pixel that the edge of a light crosses, see EdgeRays.h; 0: none
     uint pathReuse;        // kPathReuse...: whether pixels share what their paths bring, see PathReuse.h
@@ -418,11 +418,11 @@ const uint kChainInsideAgain = 3u; // and reflected there
 const uint kChainBeyond = 4u;      // plus the crossings: then gone on from the sphere
 
 // How a path goes on since it scattered, for the weight against a connection from there through a sphere.
-struct SphereChain {
+struct SpecularChain {
     vec3 from;   // where it scattered
     float pdf;   // density of the direction that it took there
     float rate;  // probability of a connection there over the sum of weights that it was chosen by; 0: there was none
-    uint sphere; // the first of smoothSpheres that is at the path's vertex; kNone: another surface
+    uint sphere; // the first of specularCasters that is at the path's vertex; kNone: another surface
     uint met;    // the one that the path was refracted into or reflected on
     uint state;  // kChain...
 };
@@ -446,11 +446,11 @@ struct PathState {
     Ray ray;
     vec3 throughput;
     vec3 radiance;
-    float pdf;         // density over solid angle of ray.direction; 0: from the camera or a delta lobe
-    uint vertex;       // surfaces and collisions met so far
-    LightContext last; // where ray starts, for the weights of multiple importance sampling
-    SphereChain chain; // where it scattered, for the weights against connections
-    uint reuse;        // kReuse...
+    float pdf;           // density over solid angle of ray.direction; 0: from the camera or a delta lobe
+    uint vertex;         // surfaces and collisions met so far
+    LightContext last;   // where ray starts, for the weights of multiple importance sampling
+    SpecularChain chain; // where it scattered, for the weights against connections
+    uint reuse;          // kReuse...
 };
 
 // What next-event estimation adds to a path unless something is in the way. The shadow ray starts where the path goes
@@ -469,7 +469,7 @@ const uint kSegmentInside = 4u; // from where it enters to where it leaves, or i
 const uint kSegmentAgain = 8u;  // from there to where it leaves
 
 // What a connection by way of a sphere adds to a path unless something is in the way of one of its segments.
-struct Passage {
+struct SpecularConnection {
     vec3 radiance;
     vec3 begin;    // where the path scattered
     vec3 entry[2]; // where the light leaves the sphere's surface and arrives there: outside, inside

@@ -8,7 +8,8 @@ RT_SHARED_BEGIN
 
 // Whether a quad or triangle is sampled by projected solid angle from a point, `corner` relative to it. One that should
 // be but is too small for it is sampled by area.
-RT_FN bool isFlatProjected(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 corner, vec3 normal) {
+RT_FN bool isFlatProjected(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 corner,
+                           vec3 normal) {
     bool quad = has(features, kFeatureQuadLights) && light.kind == kLightQuad &&
                 wantsProjected(features, params.quadLight, normal);
     bool triangle = has(features, kFeatureTriangleLights) && light.kind == kLightTriangle &&

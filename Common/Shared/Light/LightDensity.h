@@ -49,14 +49,14 @@ RT_FN LightIntersection intersectFlatLight(RT_IN(Light) light, vec3 position, ve
     float t = dot(light.normal, light.position - position) / cosine;
     if (!(t > 0.0f && t < kInfinity)) return c;
     vec2 at = edgeCoordinates(light, position + wi * t - light.position);
-    float most = light.kind == kLightTriangle ? at.x + at.y : max(at.x, at.y);
-    bool inside = at.x >= 0.0f && at.y >= 0.0f && most <= 1.0f;
+    float maximum = light.kind == kLightTriangle ? at.x + at.y : max(at.x, at.y);
+    bool inside = at.x >= 0.0f && at.y >= 0.0f && maximum <= 1.0f;
     if (inside) c.distance = t;
     return c;
 }
 
 // Density over solid angle of wi under sampleLight; 0 where wi misses the light.
-RT_FN float lightPdfAlong(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float lightPdfAlong(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                           float time, vec3 wi) {
     LightIntersection c;
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {

@@ -50,8 +50,8 @@ RT_FN bool isSurface(vec3 normal) {
 const float kTinyExtent = 1.0e-3f;
 
 // Whether a shape that is to be sampled by `method` gets its projected sampler, if it is not too small for that.
-RT_FN bool wantsProjected(uint features, uint method, vec3 normal) {
-    return has(features, kFeatureProjected) && method == kShapeProjected && isSurface(normal);
+RT_FN bool wantsProjected(Features features, uint method, vec3 normal) {
+    return has(features, kMethodProjected) && method == kShapeProjected && isSurface(normal);
 }
 
 // Uniform over all directions for a point in a medium, by the cosine for a point on a surface.

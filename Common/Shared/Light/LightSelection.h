@@ -10,7 +10,7 @@
 RT_SHARED_BEGIN
 
 // A table that `contribution` does not weigh light by light.
-RT_FN bool usesLightTree(uint features, uint count) {
+RT_FN bool usesLightTree(Features features, uint count) {
     return has(features, kFeatureManyLights) && count > kContributionLights;
 }
 
@@ -29,7 +29,7 @@ RT_FN LightChoice chooseByPower(SceneRef scene, uint count, float u) {
     LightChoice choice;
     choice.light = light.selection > 0.0f ? low : kNone;
     choice.probability = light.selection;
-    choice.u = light.selection > 0.0f ? stretch(u, light.cdf - light.selection, light.cdf) : 0.0f;
+    choice.u = light.selection > 0.0f ? remapSample(u, light.cdf - light.selection, light.cdf) : 0.0f;
     return choice;
 }
 
@@ -37,7 +37,7 @@ RT_FN LightChoice chooseUniformly(uint count, float u) {
     LightChoice choice;
     choice.light = min(uint(u * float(count)), count - 1u);
     choice.probability = 1.0f / float(count);
-    choice.u = stretch(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
+    choice.u = remapSample(u, float(choice.light) / float(count), float(choice.light + 1u) / float(count));
     return choice;
 }
 
@@ -128,7 +128,7 @@ RT_FN LightChoice chooseByContribution(SceneRef scene, uint count, float u, RT_I
 
 // Chooses among the lights proper by u.x, or in a tree by both coordinates, and completes `context` with what
 // lightProbability needs.
-RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
+RT_FN LightChoice chooseLight(Features features, SceneRef scene, uint count, vec2 u, RT_INOUT(LightContext) context) {
     context.total = 0.0f;
     if (count == 0u) return noLightChoice();
     if (context.policy == kSelectPower) return chooseByPower(scene, count, u.x);
@@ -140,7 +140,7 @@ RT_FN LightChoice chooseLight(uint features, SceneRef scene, uint count, vec2 u,
 }
 
 // Probability with which chooseLight picks `light` in this context.
-RT_FN float lightProbability(uint features, SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
+RT_FN float lightProbability(Features features, SceneRef scene, uint count, uint light, RT_IN(LightContext) context) {
     if (context.policy == kSelectPower) return loadLight(scene, light).selection;
     if (context.policy == kSelectUniform) return 1.0f / float(count);
     if (!(context.total > 0.0f)) return 0.0f;

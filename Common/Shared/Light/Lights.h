@@ -17,7 +17,7 @@ RT_FN bool isLit(RT_IN(Light) light, vec3 position) {
 // Bound of the error per axis of a point sampled on the light, for offsetOrigin at the light's end of a shadow ray:
 // several times that of the point itself, since the device that traces the ray also rounds when it tests the light's
 // shape.
-RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
+RT_FN vec3 lightPointError(Features features, RT_IN(Light) light) {
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         return ellipsoidError(ellipsoidOf(light), light.position);
     }
@@ -30,7 +30,7 @@ RT_FN vec3 lightPointError(uint features, RT_IN(Light) light) {
 }
 
 // A sample of `light` as its shape gave it, with what all shapes have in common, and the density 0 where it is useless.
-RT_FN LightSample completeSample(uint features, RT_IN(Light) light, vec3 normal, RT_IN(LightSample) drawn) {
+RT_FN LightSample completeSample(Features features, RT_IN(Light) light, vec3 normal, RT_IN(LightSample) drawn) {
     LightSample s = drawn;
     s.radiance = light.emission;
     s.error = lightPointError(features, light);
@@ -44,8 +44,8 @@ RT_FN LightSample completeSample(uint features, RT_IN(Light) light, vec3 normal,
 
 // `normal` is the shading point's geometric normal on the side of wo, zero for a point in a medium. The sky is not
 // sampled here (Sky.h).
-RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                              float time, vec2 u) {
+RT_FN LightSample sampleLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                              vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         s = sampleSphereLight(features, params, light, position, normal, time, u);
@@ -66,7 +66,7 @@ RT_FN LightSample sampleLight(uint features, RT_IN(RenderParams) params, RT_IN(L
 
 // Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal
 // `lightNormal`.
-RT_FN float lightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float lightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                      float time, vec3 wi, float distance, vec3 lightNormal) {
     if (has(features, kFeatureSphereLights) && light.kind == kLightSphere) {
         return sphereLightPdf(features, params, light, position, normal, time, wi, distance, lightNormal);

@@ -6,7 +6,7 @@
 
 RT_SHARED_BEGIN
 
-RT_FN bool isPunctual(uint features, RT_IN(Light) light) {
+RT_FN bool isPunctual(Features features, RT_IN(Light) light) {
     return has(features, kFeaturePunctualLights) && light.kind >= kLightPoint;
 }
 

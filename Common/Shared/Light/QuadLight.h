@@ -62,7 +62,7 @@ struct QuadView {
 
 // Automatic: a rectangle at twice its short edge or farther is sampled as a strip, a nearer one more and more with
 // regard to the cosine. Without a branch but for the method, for loops over lights.
-RT_FN QuadView viewQuad(uint features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
+RT_FN QuadView viewQuad(Features features, uint method, RT_IN(Light) light, vec3 position, vec3 normal) {
     QuadView q;
     q.corner = light.position - position;
     q.swapped = false;
@@ -114,8 +114,8 @@ RT_FN vec4 cornerCosines(RT_IN(SphericalRectangle) r, vec3 normal, float weighti
     float z = dot(normal, r.zAxis) * r.h;
     vec4 heights = vec4(u0 + v0 + z, u1 + v0 + z, u0 + v1 + z, u1 + v1 + z);
     vec4 cosines = heights * cornerReciprocals(r.x0, x1, r.y0, y1, r.h);
-    float most = max(max(max(cosines.x, cosines.y), max(cosines.z, cosines.w)), 0.01f);
-    return mix(vec4(most), max(cosines, vec4(0.1f * most)), weighting);
+    float maximum = max(max(max(cosines.x, cosines.y), max(cosines.z, cosines.w)), 0.01f);
+    return mix(vec4(maximum), max(cosines, vec4(0.1f * maximum)), weighting);
 }
 
 // By solid angle: uniform, or weighted by the cosines at the corners, if the rectangle is not so small that they hardly
@@ -187,7 +187,7 @@ RT_FN LightSample sampleQuadApart(RT_IN(QuadView) view, RT_IN(Light) light, vec3
     return s;
 }
 
-RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+RT_FN LightSample sampleQuadLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                   vec3 normal, vec2 u) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.strategy == kStrategySolidAngle) {
@@ -199,7 +199,7 @@ RT_FN LightSample sampleQuadLight(uint features, RT_IN(RenderParams) params, RT_
     return sampleQuadApart(view, light, position, u);
 }
 
-RT_FN float quadLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
+RT_FN float quadLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
                          vec3 wi, float distance) {
     QuadView view = viewQuad(features, params.quadLight, light, position, normal);
     if (view.strategy == kStrategySolidAngle) {

@@ -30,7 +30,7 @@ RT_FN uvec2 skyTexel(RT_IN(Image) image, vec2 uv) {
                  min(uint(uv.y * float(image.height)), image.height - 1u));
 }
 
-RT_FN vec3 skyRadiance(uint features, SceneRef scene, vec3 direction) {
+RT_FN vec3 skyRadiance(Features features, SceneRef scene, vec3 direction) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     if (globals.skyKind == kSkyBlack) return vec3(0.0f, 0.0f, 0.0f);
     if (globals.skyKind == kSkyGradient) return mix(globals.skyBottom, globals.skyTop, 0.5f * (direction.y + 1.0f));
@@ -85,8 +85,8 @@ RT_FN LightSample sampleSkyTexel(SceneRef scene, uvec2 texel, vec2 u) {
     uint row = texel.y;
     uint column = texel.x;
     uint columns = skyColumns(image, row);
-    float inRow = stretch(u.y, loadSkyCdf(scene, row), loadSkyCdf(scene, row + 1u));
-    float inColumn = stretch(u.x, loadSkyCdf(scene, columns + column), loadSkyCdf(scene, columns + column + 1u));
+    float inRow = remapSample(u.y, loadSkyCdf(scene, row), loadSkyCdf(scene, row + 1u));
+    float inColumn = remapSample(u.x, loadSkyCdf(scene, columns + column), loadSkyCdf(scene, columns + column + 1u));
     float top = sinCos2Pi(0.5f * float(row) / float(image.height)).y;
     float bottom = sinCos2Pi(0.5f * float(row + 1u) / float(image.height)).y;
     float y = mix(top, bottom, inRow);

@@ -6,17 +6,17 @@
 
 RT_SHARED_BEGIN
 
-RT_FN vec3 sphereLightCenter(uint features, RT_IN(Light) light, float time) {
+RT_FN vec3 sphereLightCenter(Features features, RT_IN(Light) light, float time) {
     return has(features, kFeatureMovingSpheres) ? light.position + light.edgeU * time : light.position;
 }
 
-RT_FN uint sphereLightStrategy(uint features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
+RT_FN uint sphereLightStrategy(Features features, uint method, RT_IN(Light) light, vec3 toCenter, vec3 normal) {
     float d2 = dot(toCenter, toCenter);
     float r2 = light.radius * light.radius;
     uint strategy = method == kShapeArea ? kStrategyArea : kStrategySolidAngle;
     if (method == kShapeAuto) {
         uint near = isSurface(normal) ? kStrategyVisibleCap : kStrategySolidAngle;
-        strategy = r2 >= kLeastCapSine2 * d2 ? near : kStrategySolidAngle;
+        strategy = r2 >= kMinCapSine2 * d2 ? near : kStrategySolidAngle;
     }
     if (wantsProjected(features, method, normal)) {
         strategy = r2 >= kTinyExtent * kTinyExtent * d2 ? kStrategyProjected : kStrategySolidAngle;
@@ -70,14 +70,14 @@ RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, 
     return s;
 }
 
-RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+RT_FN LightSample sampleSphereLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                     vec3 normal, float time, vec2 u) {
     LightSample s = noLightSample();
     vec3 center = sphereLightCenter(features, light, time);
     vec3 toCenter = center - position;
     float radius = light.radius;
     uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
-    if (has(features, kFeatureProjected) && strategy == kStrategyProjected) {
+    if (has(features, kMethodProjected) && strategy == kStrategyProjected) {
         s = sampleSphereProjected(light, center, toCenter, position, normal, u);
     } else if (strategy == kStrategySolidAngle || strategy == kStrategyVisibleCap) {
         s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, position, normal, u);
@@ -103,14 +103,14 @@ RT_FN LightSample sampleSphereLight(uint features, RT_IN(RenderParams) params, R
     return s;
 }
 
-RT_FN float sphereLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                           float time, vec3 wi, float distance, vec3 lightNormal) {
+RT_FN float sphereLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                           vec3 normal, float time, vec3 wi, float distance, vec3 lightNormal) {
     vec3 toCenter = sphereLightCenter(features, light, time) - position;
     uint strategy = sphereLightStrategy(features, params.sphereLight, light, toCenter, normal);
     // Samples lie on the near side, from inside on the far one. Near a huge sphere rounding may take the point to be
     // inside.
     if ((dot(lightNormal, wi) > 0.0f) != (strategy == kStrategyInside)) return 0.0f;
-    if (has(features, kFeatureProjected) && strategy == kStrategyProjected)
+    if (has(features, kMethodProjected) && strategy == kStrategyProjected)
         return sphereProjectedPdf(light, toCenter, normal, wi);
     if (strategy == kStrategySolidAngle) return sphereConePdf(makeSphereCone(toCenter, light.radius));
     if (strategy == kStrategyVisibleCap) return visibleCapPdf(makeSphereCone(toCenter, light.radius), normal, wi);

@@ -101,7 +101,7 @@ RT_FN float clampedSineOfDifference(vec2 a, vec2 b) {
     return abs(rise) < 2.0f ? (d.x > 0.0f ? d.y : beyond) : beyond;
 }
 
-const uint kLeastSteps = 10u;
+const uint kMinSteps = 10u;
 const uint kRootSteps = 8u;
 
 // The angle whose half has this tangent, in [0, 1].
@@ -112,8 +112,8 @@ RT_FN vec2 angleOfHalfTangent(float t) {
 
 // The angle of incidence of least turn; 0 where the turn rises throughout. The turn is level there, so that halving the
 // interval a few times gives its least value to a part in a million. Tangents of half angles, from (0, 1) on: halved
-// kLeastSteps times the interval is that of the angle.
-RT_FN vec2 halvedLeast(RT_IN(RefractionPair) p, vec2 interval) {
+// kMinSteps times the interval is that of the angle.
+RT_FN vec2 halvedMin(RT_IN(RefractionPair) p, vec2 interval) {
     float t = 0.5f * (interval.x + interval.y);
     bool falls = refractionAt(p, angleOfHalfTangent(t)).slope < 0.0f;
     return vec2(falls ? t : interval.x, falls ? interval.y : t);
@@ -124,15 +124,15 @@ RT_FN bool risesThroughout(RT_IN(RefractionPair) p) {
     return 2.0f - 2.0f * float(p.crossings) * p.inverseEta - p.nearX - p.nearY >= 0.0f;
 }
 
-RT_FN vec2 leastWithin(RT_IN(RefractionPair) p, vec2 interval) {
+RT_FN vec2 minWithin(RT_IN(RefractionPair) p, vec2 interval) {
     return angleOfHalfTangent(risesThroughout(p) ? 0.0f : 0.5f * (interval.x + interval.y));
 }
 
-RT_FN vec2 leastTurn(RT_IN(RefractionPair) p) {
+RT_FN vec2 minTurn(RT_IN(RefractionPair) p) {
     vec2 interval = vec2(0.0f, 1.0f);
-    if (risesThroughout(p)) return leastWithin(p, interval);
-    for (uint k = 0u; k < kLeastSteps; k++) interval = halvedLeast(p, interval);
-    return leastWithin(p, interval);
+    if (risesThroughout(p)) return minWithin(p, interval);
+    for (uint k = 0u; k < kMinSteps; k++) interval = halvedMin(p, interval);
+    return minWithin(p, interval);
 }
 
 // How many paths there are: beyond the minimum that turn by +bend and by -bend, and before it that turn by -bend.
@@ -143,9 +143,9 @@ struct RefractionRoots {
     uint before;   // 1: -bend before the minimum
 };
 
-RT_FN RefractionRoots refractionRoots(RT_IN(RefractionPair) p, vec2 least) {
+RT_FN RefractionRoots refractionRoots(RT_IN(RefractionPair) p, vec2 minimum) {
     vec2 grazing = refractionAt(p, vec2(0.0f, 1.0f)).turn;
-    vec2 lowest = refractionAt(p, least).turn;
+    vec2 lowest = refractionAt(p, minimum).turn;
     vec2 back = vec2(p.bend.x, -p.bend.y);
     RefractionRoots n;
     n.opposite = clampedSineOfDifference(grazing, p.bend) > 0.0f ? 1u : 0u;

@@ -6,7 +6,7 @@
 
 RT_SHARED_BEGIN
 
-RT_FN uint triangleLightStrategy(uint features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
+RT_FN uint triangleLightStrategy(Features features, uint method, RT_IN(Light) light, vec3 corner, vec3 normal) {
     bool area = method == kShapeArea || wantsProjected(features, method, normal);
     if (method == kShapeAuto)
         area = isFar(corner + (light.edgeU + light.edgeV) * (1.0f / 3.0f), light.edgeU, light.edgeV);
@@ -18,7 +18,7 @@ RT_FN SphericalTriangle triangleShape(RT_IN(Light) light, vec3 corner) {
                                  light.normal * (2.0f * light.area));
 }
 
-RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+RT_FN LightSample sampleTriangleLight(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
                                       vec3 normal, vec2 u) {
     LightSample s = noLightSample();
     vec3 corner = light.position - position;
@@ -38,8 +38,8 @@ RT_FN LightSample sampleTriangleLight(uint features, RT_IN(RenderParams) params,
     return s;
 }
 
-RT_FN float triangleLightPdf(uint features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position, vec3 normal,
-                             vec3 wi, float distance) {
+RT_FN float triangleLightPdf(Features features, RT_IN(RenderParams) params, RT_IN(Light) light, vec3 position,
+                             vec3 normal, vec3 wi, float distance) {
     vec3 corner = light.position - position;
     uint strategy = triangleLightStrategy(features, params.triangleLight, light, corner, normal);
     if (strategy == kStrategySolidAngle) {

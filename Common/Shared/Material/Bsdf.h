@@ -17,17 +17,16 @@ RT_FN Bsdf makeBsdf(RT_IN(Material) m, vec3 albedo) {
 
 // isLambertian(features, m), and so on. Kinds that the scene lacks are false by `features` alone, which keeps them out
 // of the code.
-#define RT_IS_KIND(Name, kind_, bit, name, help, parameters)     \
-    RT_FN bool is##Name(uint features, RT_IN(Bsdf) m) {          \
+#define RT_IS_KIND(Name, kind_, name, help, parameters)          \
+    RT_FN bool is##Name(Features features, RT_IN(Bsdf) m) {      \
         return has(features, kFeature##Name) && m.kind == kind_; \
     }
 #define RT_NOTHING(Name, kind_, name, help, parameters)
 RT_MATERIALS(RT_IS_KIND, RT_NOTHING)
 
 // Whether every lobe is a delta: no direction can be evaluated, lights need not be sampled.
-RT_FN bool isDelta(uint features, RT_IN(Bsdf) m) {
-#define RT_OR_IS_DELTA(Name, kind_, bit, name, help, parameters) \
-    || (is##Name(features, m) && isDelta##Name(features, m))
+RT_FN bool isDelta(Features features, RT_IN(Bsdf) m) {
+#define RT_OR_IS_DELTA(Name, kind_, name, help, parameters) || (is##Name(features, m) && isDelta##Name(features, m))
     return false RT_MATERIALS(RT_OR_IS_DELTA, RT_NOTHING);
 }
 
@@ -38,16 +37,16 @@ RT_FN bool scattersWidely(RT_IN(Bsdf) m) {
 
 // `u` chooses the direction, `uLobe` between reflection and refraction.
 // A material that does not scatter returns weight 0.
-RT_FN BsdfSample sampleBsdf(uint features, RT_IN(Bsdf) m, vec3 n, uint frontFace, vec3 wo, vec2 u, float uLobe) {
-#define RT_SAMPLE(Name, kind_, bit, name, help, parameters) \
+RT_FN BsdfSample sampleBsdf(Features features, RT_IN(Bsdf) m, vec3 n, uint frontFace, vec3 wo, vec2 u, float uLobe) {
+#define RT_SAMPLE(Name, kind_, name, help, parameters) \
     if (is##Name(features, m)) return sample##Name(features, m, n, frontFace, wo, u, uLobe);
     RT_MATERIALS(RT_SAMPLE, RT_NOTHING)
     return absorbed();
 }
 
 // (value * |cosine| per channel, density with which sampleBsdf chooses wi); zero for delta lobes.
-RT_FN vec4 evalBsdf(uint features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
-#define RT_EVALUATE(Name, kind_, bit, name, help, parameters)   \
+RT_FN vec4 evalBsdf(Features features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+#define RT_EVALUATE(Name, kind_, name, help, parameters)        \
     if (is##Name(features, m) && !isDelta##Name(features, m)) { \
         return eval##Name(features, m, n, wo, wi);              \
     }

@@ -14,6 +14,10 @@ const uint kLobeCoat = 1u << 1u;
 const uint kLobeGlass = 1u << 2u;
 const uint kLobesAll = kLobeSheen | kLobeCoat | kLobeGlass;
 
+RT_FN bool hasLobe(uint lobes, uint wanted) {
+    return (lobes & wanted) != 0u;
+}
+
 // Of a principled material, for one wo: what each lobe is multiplied by, and the probability with which it is sampled.
 struct PrincipledLobes {
     uint others;         // kLobe...: those that may be there. What is not is zero, and left out of all formulas

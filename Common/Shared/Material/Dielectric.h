@@ -7,7 +7,7 @@ RT_SHARED_BEGIN
 
 const uint kDielectricIor = 0u; // of Bsdf::parameter: index of refraction inside over outside, > 0
 
-RT_FN bool isDeltaDielectric(uint, RT_IN(Bsdf)) {
+RT_FN bool isDeltaDielectric(Features, RT_IN(Bsdf)) {
     return true;
 }
 
@@ -26,7 +26,7 @@ RT_FN vec2 fresnel(float c, float eta) {
 
 // Reflects with the probability that Fresnel's equations give, else refracts; radiance is not scaled by the indices, as
 // long as camera and lights stand in the same medium.
-RT_FN BsdfSample sampleDielectric(uint, RT_IN(Bsdf) m, vec3 n, uint frontFace, vec3 wo, vec2, float uLobe) {
+RT_FN BsdfSample sampleDielectric(Features, RT_IN(Bsdf) m, vec3 n, uint frontFace, vec3 wo, vec2, float uLobe) {
     BsdfSample s = absorbed();
     s.weight = m.albedo;
     s.delta = 1u;
@@ -44,7 +44,7 @@ RT_FN BsdfSample sampleDielectric(uint, RT_IN(Bsdf) m, vec3 n, uint frontFace, v
     return s;
 }
 
-RT_FN vec4 evalDielectric(uint, RT_IN(Bsdf), vec3, vec3, vec3) {
+RT_FN vec4 evalDielectric(Features, RT_IN(Bsdf), vec3, vec3, vec3) {
     return vec4(0.0f);
 }
 

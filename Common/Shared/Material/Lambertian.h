@@ -5,7 +5,7 @@
 
 RT_SHARED_BEGIN
 
-RT_FN bool isDeltaLambertian(uint, RT_IN(Bsdf)) {
+RT_FN bool isDeltaLambertian(Features, RT_IN(Bsdf)) {
     return false;
 }
 
@@ -18,11 +18,11 @@ RT_FN BsdfSample sampleLambertian(vec3 albedo, vec3 n, vec2 u) {
     return s;
 }
 
-RT_FN BsdfSample sampleLambertian(uint, RT_IN(Bsdf) m, vec3 n, uint, vec3, vec2 u, float) {
+RT_FN BsdfSample sampleLambertian(Features, RT_IN(Bsdf) m, vec3 n, uint, vec3, vec2 u, float) {
     return sampleLambertian(m.albedo, n, u);
 }
 
-RT_FN vec4 evalLambertian(uint, RT_IN(Bsdf) m, vec3 n, vec3, vec3 wi) {
+RT_FN vec4 evalLambertian(Features, RT_IN(Bsdf) m, vec3 n, vec3, vec3 wi) {
     float pdf = max(dot(n, wi), 0.0f) * kInvPi;
     return vec4(m.albedo * pdf, pdf);
 }

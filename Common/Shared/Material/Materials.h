@@ -1,7 +1,7 @@
 // The table of materials. Everything else follows from a row: scene files and their schema, the compiled scene, feature
 // bits and their names, what kernels and shaders sample, and the tests that hold for every material.
 //
-// SURFACE(Name, kind, feature bit, name in scene files, what it is, (parameters)) scatters. Its header defines
+// SURFACE(Name, kind, name in scene files, what it is, (parameters)) scatters. Its header defines
 //     bool isDelta<Name>(features, m)                                       whether every lobe of m is a delta
 //     BsdfSample sample<Name>(features, m, n, frontFace, wo, u, uLobe)
 //     vec4 eval<Name>(features, m, n, wo, wi)                               as evalBsdf; not called where isDelta<Name>
@@ -20,21 +20,21 @@
 
 // clang-format off
 #define RT_MATERIALS(SURFACE, BLACK) \
-    SURFACE(Lambertian, 0u, 5u, "lambertian", "Diffuse", (color("albedo", kRequired, ""))) \
-    SURFACE(Metal, 1u, 6u, "metal", "A mirror, blurred by fuzz", \
+    SURFACE(Lambertian, 0u, "lambertian", "Diffuse", (color("albedo", kRequired, ""))) \
+    SURFACE(Metal, 1u, "metal", "A mirror, blurred by fuzz", \
             (color("albedo", kRequired, ""), number("fuzz", kOptional, 0, 1, 0, ""))) \
-    SURFACE(Dielectric, 2u, 7u, "dielectric", "Clear: albedo tints, ior is the index inside over that outside", \
+    SURFACE(Dielectric, 2u, "dielectric", "Clear: albedo tints, ior is the index inside over that outside", \
             (color("albedo", kOptional, ""), number("ior", kRequired, 1e-9, 1e9, 1.5, ""))) \
-    SURFACE(Principled, 4u, 28u, "principled", "Layers of glTF 2.0: metal, dielectric over diffuse, glass, clearcoat, sheen", \
+    SURFACE(Principled, 4u, "principled", "Layers of glTF 2.0: metal, dielectric over diffuse, glass, clearcoat, sheen", \
             (color("base_color", kOptional, ""))) \
     BLACK(Emitter, 3u, "emitter", "Emits and absorbs", ())
 // clang-format on
 
 RT_SHARED_BEGIN
 
-#define RT_SURFACE(Name, kind_, bit, name, help, parameters) \
-    const uint kMaterial##Name = kind_;                      \
-    const uint kFeature##Name = 1u << bit;
+#define RT_SURFACE(Name, kind_, name, help, parameters) \
+    const uint kMaterial##Name = kind_;                 \
+    RT_CONST Features kFeature##Name = Features(0u, 1u << kind_, 0u);
 #define RT_BLACK(Name, kind_, name, help, parameters) const uint kMaterial##Name = kind_;
 RT_MATERIALS(RT_SURFACE, RT_BLACK)
 #undef RT_SURFACE

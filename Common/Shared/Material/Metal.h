@@ -11,15 +11,15 @@ const float kMirrorFuzz = 1.0e-3f; // below it a metal is a perfect mirror
 const float kBlurredFuzz = 0.1f;   // up to it a metal shows lights as blurred images
 
 // kFeatureFuzz says that some metal of the scene is.
-RT_FN bool isFuzzy(uint features, RT_IN(Bsdf) m) {
+RT_FN bool isFuzzy(Features features, RT_IN(Bsdf) m) {
     return has(features, kFeatureFuzz) && m.parameter[kMetalFuzz] > kMirrorFuzz;
 }
 
-RT_FN bool isBlurredMirror(uint features, RT_IN(Bsdf) m) {
+RT_FN bool isBlurredMirror(Features features, RT_IN(Bsdf) m) {
     return isFuzzy(features, m) && m.parameter[kMetalFuzz] <= kBlurredFuzz;
 }
 
-RT_FN bool isDeltaMetal(uint features, RT_IN(Bsdf) m) {
+RT_FN bool isDeltaMetal(Features features, RT_IN(Bsdf) m) {
     return !isFuzzy(features, m);
 }
 
@@ -38,7 +38,7 @@ RT_FN float fuzzPdf(vec3 r, float fuzz, vec3 w) {
     return x > -blur && cosine > 0.0f ? (square(cosine) + square(root)) / (2.0f * kPi * fuzz * root) : 0.0f;
 }
 
-RT_FN BsdfSample sampleMetal(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
+RT_FN BsdfSample sampleMetal(Features features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     BsdfSample s = absorbed();
     s.wi = mirrorDirection(wo, n);
     s.weight = m.albedo;
@@ -55,7 +55,7 @@ RT_FN BsdfSample sampleMetal(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo
     return s;
 }
 
-RT_FN vec4 evalMetal(uint, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalMetal(Features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     float pdf = fuzzPdf(mirrorDirection(wo, n), m.parameter[kMetalFuzz], wi);
     return vec4(m.albedo * (dot(n, wi) > 0.0f ? pdf : 0.0f), pdf);
 }

@@ -6,7 +6,7 @@
 
 RT_SHARED_BEGIN
 
-const float kLeastAlpha = 1.0e-3f; // below it a lobe is a mirror: floats no longer resolve its directions
+const float kMinAlpha = 1.0e-3f; // below it a lobe is a mirror: floats no longer resolve its directions
 
 // Density of microfacet normals h per steradian and projected area. 1 - h.z^2 would cancel for small alpha.
 RT_FN float ggxDensity(vec3 h, float alpha) {

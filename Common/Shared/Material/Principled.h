@@ -2,7 +2,7 @@
 // glass; over them sheen and a clear coat. Here are the lobes that the layers come down to for one outgoing direction,
 // which PrincipledSurface.h finds.
 //
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_H
 #define RT_SHARED_PRINCIPLED_H
 #include "Common/Shared/Base/Random.h"
@@ -11,15 +11,15 @@
 
 RT_SHARED_BEGIN
 
-RT_FN bool isDeltaPrincipled(uint, RT_IN(Bsdf)) {
+RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
     return false; // few are, and the choice among their lobes tells
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
-const float kLeastRoughness = 0.0316227766f; // square root of kLeastAlpha
-const float kLeastSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
-const float kCoatReflectance = 0.04f;        // of a clear coat at normal incidence
+const float kMinRoughness = 0.0316227766f; // square root of kMinAlpha
+const float kMinSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
+const float kCoatReflectance = 0.04f;      // of a clear coat at normal incidence
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -31,15 +31,15 @@ RT_FN float schlick(float cosine) {
 }
 
 RT_FN bool isMirror(float alpha) {
-    return alpha < kLeastAlpha;
+    return alpha < kMinAlpha;
 }
 
 // Below this difference of 1 to a ratio of indices glass does not bend what it transmits: refracted directions would
 // lie so near each other, however rough it is, that floats could not tell by which facet one came.
-const float kLeastBend = 2.0e-4f;
+const float kMinBend = 2.0e-4f;
 
 RT_FN bool isStraight(RT_IN(PrincipledLobes) lobes) {
-    return lobes.thin == 0u && abs(lobes.eta - 1.0f) < kLeastBend;
+    return lobes.thin == 0u && abs(lobes.eta - 1.0f) < kMinBend;
 }
 
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
@@ -55,38 +55,38 @@ RT_FN vec3 toLocal(RT_IN(Frame) f, vec3 w) {
 }
 
 // From the frame of the normal to that of the clear coat's.
-RT_FN vec3 toCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+RT_FN vec3 toCoat(Features features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     if (!has(features, kFeatureCoatNormal)) return w;
     return toLocal(makeFrame(lobes.coatNormal), w);
 }
 
-RT_FN vec3 fromCoat(uint features, RT_IN(PrincipledLobes) lobes, vec3 w) {
+RT_FN vec3 fromCoat(Features features, RT_IN(PrincipledLobes) lobes, vec3 w) {
     if (!has(features, kFeatureCoatNormal)) return w;
     return toWorld(makeFrame(lobes.coatNormal), w);
 }
 
 // The lobes on wo's side of the surface, each above its own normal: f cos in rgb, density in w. Without a branch but
 // for lobes.others, for loops over samples.
-RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lobes, vec3 wo, vec3 wi) {
     vec3 h = normalize(wo + wi);
     float c = clamp(dot(wo, h), 0.0f, 1.0f);
     float grazing = schlick(c);
     float cosine = wi.z * kInvPi;
     bool isAbove = min(wo.z, wi.z) > 0.0f;
 
-    float alpha = max(lobes.alpha, kLeastAlpha);
+    float alpha = max(lobes.alpha, kMinAlpha);
     float density = isMirror(lobes.alpha) ? 0.0f : ggxDensity(h, alpha);
     float facets = density * smithVisibility(wo.z, wi.z, alpha) * wi.z;
     vec3 value = lobes.diffuse * cosine + mix(lobes.f0, lobes.f90, grazing) * facets;
     float pdf = lobes.diffuseShare * cosine + lobes.specularShare * density * reflectionJacobian(wo, alpha);
-    if (has(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
-    if (!has(lobes.others, kLobeCoat | kLobeGlass)) {
+    if (hasLobe(lobes.others, kLobeSheen)) value += lobes.sheen * (sheenValue(lobes.sheenExponent, wo, wi, h) * wi.z);
+    if (!hasLobe(lobes.others, kLobeCoat | kLobeGlass)) {
         return vec4(select(isAbove, value, vec3(0.0f)), isAbove ? pdf : 0.0f);
     }
 
     float uncoloured = 0.0f;
     float glassPdf = 0.0f;
-    if (has(lobes.others, kLobeGlass)) {
+    if (hasLobe(lobes.others, kLobeGlass)) {
         float reflected = fresnel(c, lobes.eta).x;
         uncoloured = lobes.glass * reflected * facets;
         // The normals of glass are all that are visible.
@@ -95,10 +95,10 @@ RT_FN vec4 evalPrincipledReflection(uint features, RT_IN(PrincipledLobes) lobes,
     float coat = 0.0f;
     float coatPdf = 0.0f;
     bool isCoatAbove = isAbove;
-    if (has(lobes.others, kLobeCoat)) {
+    if (hasLobe(lobes.others, kLobeCoat)) {
         vec3 coatWo = toCoat(features, lobes, wo);
         vec3 coatWi = toCoat(features, lobes, wi);
-        float coatAlpha = max(lobes.coatAlpha, kLeastAlpha);
+        float coatAlpha = max(lobes.coatAlpha, kMinAlpha);
         float coatDensity = isMirror(lobes.coatAlpha) ? 0.0f : ggxDensity(toCoat(features, lobes, h), coatAlpha);
         float coatFacets = coatDensity * smithVisibility(coatWo.z, coatWi.z, coatAlpha) * coatWi.z;
         coat = lobes.coat * mix(kCoatReflectance, 1.0f, grazing) * coatFacets;
@@ -133,7 +133,7 @@ RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
 }
 
 // Of reflection only: transmission is a matter of sampling.
-RT_FN vec4 evalPrincipled(uint features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
+RT_FN vec4 evalPrincipled(Features features, RT_IN(Bsdf) m, vec3 n, vec3 wo, vec3 wi) {
     Frame frame = makeFrame(n);
     return evalPrincipledReflection(features, m.lobes, toLocal(frame, wo), toLocal(frame, wi));
 }
@@ -153,8 +153,8 @@ RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
     bool isDiffuse = u.x < lobes.diffuseShare;
     bool isMirrored = isMirror(isDiffuse ? 1.0f : lobes.alpha); // GCC makes no vectors of && here
-    vec3 diffuse = sampleCosineHemisphere(vec2(stretch(u.x, 0.0f, lobes.diffuseShare), u.y));
-    vec3 h = sampleReflectionNormal(wo, lobes.alpha, vec2(stretch(u.x, lobes.diffuseShare, beyondDiffuse), u.y));
+    vec3 diffuse = sampleCosineHemisphere(vec2(remapSample(u.x, 0.0f, lobes.diffuseShare), u.y));
+    vec3 h = sampleReflectionNormal(wo, lobes.alpha, vec2(remapSample(u.x, lobes.diffuseShare, beyondDiffuse), u.y));
     vec3 glossy = h * (2.0f * dot(wo, h)) - wo;
     vec3 mirror = mix(lobes.f0, lobes.f90, schlick(wo.z)) / lobes.specularShare;
     BsdfSample s = absorbed();
@@ -165,7 +165,7 @@ RT_FN BsdfSample proposeReflection(RT_IN(PrincipledLobes) lobes, vec3 wo, vec2 u
 }
 
 // One sample of one lobe, in the frame of the normal; but for mirrors it has yet to be weighed. wo.z > 0.
-RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
+RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, vec2 u) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
     float beyondDiffuse = lobes.diffuseShare + lobes.specularShare;
     float beyondSpecular = beyondDiffuse + lobes.coatShare;
@@ -180,12 +180,12 @@ RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u
             vec3 reflected = fromCoat(features, lobes, vec3(-coatWo.x, -coatWo.y, coatWo.z));
             return mirrorSample(reflected, vec3(f), lobes.coatShare);
         }
-        vec2 v = vec2(stretch(u.x, beyondDiffuse, beyondSpecular), u.y);
+        vec2 v = vec2(remapSample(u.x, beyondDiffuse, beyondSpecular), u.y);
         vec3 h = sampleReflectionNormal(coatWo, lobes.coatAlpha, v);
         wi = fromCoat(features, lobes, h * (2.0f * dot(coatWo, h)) - coatWo);
     } else if (lobes.glassShare > 0.0f) {
         // Of rough glass the last digits choose between reflection and refraction, since all choose the normal.
-        float pick = stretch(u.x, beyondSpecular, 1.0f);
+        float pick = remapSample(u.x, beyondSpecular, 1.0f);
         float choice = isMirror(lobes.alpha) ? pick : pick * 4096.0f - floor(pick * 4096.0f);
         vec3 h = vec3(0.0f, 0.0f, 1.0f);
         if (!isMirror(lobes.alpha)) h = sampleVisibleNormal(wo, lobes.alpha, vec2(pick, u.y));
@@ -216,7 +216,7 @@ RT_FN BsdfSample proposePrincipled(uint features, RT_IN(Bsdf) m, vec3 wo, vec2 u
 }
 
 // f cos and density of a proposal: of the lobes that send light to its side.
-RT_FN vec4 evalProposal(uint features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
+RT_FN vec4 evalProposal(Features features, RT_IN(Bsdf) m, vec3 wo, RT_IN(BsdfSample) s) {
     if (s.transmitted == 0u) return evalPrincipledReflection(features, m.lobes, wo, s.wi);
     return s.wi.z < 0.0f ? evalPrincipledTransmission(m, wo, s.wi) : vec4(0.0f);
 }
@@ -229,7 +229,7 @@ RT_FN void weighProposal(vec4 f, RT_INOUT(BsdfSample) s) {
     s.weight = select(isWeighed, vec3(f) / density, s.weight);
 }
 
-RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
+RT_FN BsdfSample samplePrincipled(Features features, RT_IN(Bsdf) m, vec3 n, uint, vec3 wo, vec2 u, float) {
     Frame frame = makeFrame(n);
     vec3 local = toLocal(frame, wo);
     if (!(local.z > 0.0f)) return absorbed();
@@ -241,10 +241,10 @@ RT_FN BsdfSample samplePrincipled(uint features, RT_IN(Bsdf) m, vec3 n, uint, ve
 
 #else
 
-vec4 evalPrincipled(uint features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
+vec4 evalPrincipled(Features features, Bsdf m, vec3 n, vec3 wo, vec3 wi) {
     return vec4(0.0f);
 }
-BsdfSample samplePrincipled(uint features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
+BsdfSample samplePrincipled(Features features, Bsdf m, vec3 n, uint front, vec3 wo, vec2 u, float uLobe) {
     return absorbed();
 }
 

@@ -1,7 +1,7 @@
 // From a principled material and a hit to the lobes of Principled.h: textures, normal map, what the layers leave to
 // those below them, and the choice among lobes.
 //
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_PRINCIPLED_SURFACE_H
 #define RT_SHARED_PRINCIPLED_SURFACE_H
 #include "Common/Shared/Material/Bsdf.h"
@@ -10,15 +10,11 @@
 
 RT_SHARED_BEGIN
 
-#ifdef __cplusplus
-static_assert(kFeatureDetail == kFeaturePrincipled, "surfaces give principled materials what they ask for");
-#endif
-
-RT_FN bool isPrincipled(uint features, RT_IN(Material) m) {
+RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
     return has(features, kFeaturePrincipled) && m.kind == kMaterialPrincipled;
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // ---- directional albedo --------------------------------------------------------------------------------------------
 
@@ -26,13 +22,13 @@ RT_FN bool isPrincipled(uint features, RT_IN(Material) m) {
 // albedos are never too low: what is left to the layers below, and what makes up for losses, would add up to more than
 // arrives.
 
-const float kLeastAlbedoCosine = 1.0e-4f; // of the first column; its fourth root, by which columns lie, is 0.1
+const float kMinAlbedoCosine = 1.0e-4f; // of the first column; its fourth root, by which columns lie, is 0.1
 
-// (column, row) of a lobe that has no roughness below `least`, that of the first row. Albedos change fastest at grazing
+// (column, row) of a lobe that has no roughness below `minRoughness`, that of the first row. Albedos change fastest at grazing
 // angles and with little roughness.
-RT_FN vec2 albedoPlace(float cosine, float roughness, float least) {
-    float column = (sqrt(sqrt(max(cosine, kLeastAlbedoCosine))) - 0.1f) * (1.0f / 0.9f);
-    float row = sqrt(max(roughness - least, 0.0f) * (1.0f / (1.0f - least)));
+RT_FN vec2 albedoPlace(float cosine, float roughness, float minRoughness) {
+    float column = (sqrt(sqrt(max(cosine, kMinAlbedoCosine))) - 0.1f) * (1.0f / 0.9f);
+    float row = sqrt(max(roughness - minRoughness, 0.0f) * (1.0f / (1.0f - minRoughness)));
     return vec2(column, row) * float(kAlbedoSteps - 1u);
 }
 
@@ -50,20 +46,20 @@ RT_FN vec3 tabledAlbedo(SceneRef scene, vec2 at) {
 // What GGX facets reflect in all: x and y are the factors of the reflectance at normal and at grazing incidence (Karis,
 // "Real Shading in Unreal Engine 4", 2013).
 RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
-    vec3 rough = tabledAlbedo(scene, albedoPlace(cosine, roughness, kLeastRoughness));
+    vec3 rough = tabledAlbedo(scene, albedoPlace(cosine, roughness, kMinRoughness));
     float grazing = schlick(cosine);
     return select(isMirror(square(roughness)), vec3(1.0f - grazing, grazing, 0.0f), rough);
 }
 
 // What white sheen would reflect in all: more than arrives, where it grazes fibres that are smooth.
 RT_FN float sheenAlbedo(SceneRef scene, float cosine, float roughness) {
-    return tabledAlbedo(scene, albedoPlace(cosine, roughness, kLeastSheenRoughness)).z;
+    return tabledAlbedo(scene, albedoPlace(cosine, roughness, kMinSheenRoughness)).z;
 }
 
 // What rough glass reflects and transmits in all, from outside or from inside: two such tables, one after the other,
 // from `first` on.
 RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, float roughness) {
-    vec2 at = albedoPlace(cosine, roughness, kLeastRoughness);
+    vec2 at = albedoPlace(cosine, roughness, kMinRoughness);
     uint column = min(uint(at.x), kAlbedoSteps - 2u);
     uint row = min(uint(at.y), kAlbedoSteps - 2u);
     vec2 part = at - vec2(float(column), float(row));
@@ -76,11 +72,11 @@ RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, f
 // ---- textures ------------------------------------------------------------------------------------------------------
 
 // A texture's colour and opacity on a surface.
-RT_FN vec4 surfaceTexture(uint features, SceneRef scene, uint texture, RT_IN(Surface) s) {
+RT_FN vec4 surfaceTexture(Features features, SceneRef scene, uint texture, RT_IN(Surface) s) {
     return evalTexture(features, scene, texture, s.position + loadGlobals(scene).origin, s.uv, s.uv2);
 }
 
-RT_FN float surfaceNumber(uint features, SceneRef scene, RT_IN(ScaledChannel) number, RT_IN(Surface) s) {
+RT_FN float surfaceNumber(Features features, SceneRef scene, RT_IN(ScaledChannel) number, RT_IN(Surface) s) {
     if (!has(features, kTexturedFeatures) || number.texture == kNone) return number.factor;
     vec4 texel = surfaceTexture(features, scene, number.texture, s);
     float high = number.channel == 2u ? texel.z : texel.w;
@@ -88,13 +84,13 @@ RT_FN float surfaceNumber(uint features, SceneRef scene, RT_IN(ScaledChannel) nu
     return clamp(number.factor * (number.channel < 2u ? low : high), 0.0f, 1.0f);
 }
 
-RT_FN vec3 surfaceColor(uint features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {
+RT_FN vec3 surfaceColor(Features features, SceneRef scene, RT_IN(TintedTexture) source, RT_IN(Surface) s) {
     if (!has(features, kTexturedFeatures) || source.texture == kNone) return source.color;
     return vec3(surfaceTexture(features, scene, source.texture, s));
 }
 
 // Share of rays that meet the surface.
-RT_FN float surfaceOpacity(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+RT_FN float surfaceOpacity(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     float opacity = surfaceNumber(features, scene, p.opacity, s) * s.color.w;
     if (p.alphaCutoff < 0.0f) return opacity;
     return opacity < p.alphaCutoff ? 0.0f : 1.0f;
@@ -103,7 +99,7 @@ RT_FN float surfaceOpacity(uint features, SceneRef scene, RT_IN(Principled) p, R
 // ---- normal map ----------------------------------------------------------------------------------------------------
 
 // The least cosine with the geometric normal of the reflection at a bent shading normal.
-const float kLeastReflection = 0.01f;
+const float kMinReflection = 0.01f;
 
 // The normal n, bent back so far towards the geometric one that the mirror direction of wo stays above the surface:
 // otherwise bumps seen at grazing angles would be black.
@@ -111,15 +107,15 @@ RT_FN vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
     vec3 reflected = n * (2.0f * dot(n, wo)) - wo;
     float above = dot(reflected, geometric);
     // At grazing angles the flat surface's own reflection is as low as wo.
-    float least = min(kLeastReflection, 0.5f * dot(wo, geometric));
-    if (above >= least) return n;
-    vec3 half_ = wo + normalize(reflected + geometric * (least - above));
+    float minimum = min(kMinReflection, 0.5f * dot(wo, geometric));
+    if (above >= minimum) return n;
+    vec3 half_ = wo + normalize(reflected + geometric * (minimum - above));
     return normalize(half_);
 }
 
 // The shading normal that a map asks for, on the side of `shading`; `facing` is 1 on the front and -1 on the back.
 // `scale` is that of the map's x and y.
-RT_FN vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, RT_IN(Surface) s, vec3 shading,
+RT_FN vec3 mappedNormal(Features features, SceneRef scene, uint texture, float scale, RT_IN(Surface) s, vec3 shading,
                         float facing) {
     if (!has(features, kTexturedFeatures) || texture == kNone || s.tangent.w == 0.0f) return shading;
     vec3 tangent = vec3(s.tangent) - shading * dot(vec3(s.tangent), shading);
@@ -137,7 +133,7 @@ RT_FN vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale
 
 // The normal of the clear coat in the frame of n, the normal of what is below it: each has its own map, and without one
 // is smooth. Other arguments as of mappedNormal() and keepReflectionAbove().
-RT_FN vec3 coatNormalOf(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
+RT_FN vec3 coatNormalOf(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s, vec3 shading,
                         float facing, vec3 geometric, vec3 wo, vec3 n) {
     bool isOwn = has(features, kFeatureCoatNormal) && (p.normalTexture != kNone || p.coatTexture != kNone);
     if (!isOwn) return vec3(0.0f, 0.0f, 1.0f);
@@ -154,7 +150,7 @@ RT_FN vec3 compensation(vec3 f0, float whole) {
 }
 
 // Of the principled material p at a point.
-RT_FN PrincipledValues principledValues(uint features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
+RT_FN PrincipledValues principledValues(Features features, SceneRef scene, RT_IN(Principled) p, RT_IN(Surface) s) {
     PrincipledValues values;
     values.metallic = surfaceNumber(features, scene, p.metallic, s);
     values.roughness = surfaceNumber(features, scene, p.roughness, s);
@@ -162,7 +158,7 @@ RT_FN PrincipledValues principledValues(uint features, SceneRef scene, RT_IN(Pri
     values.transmission = surfaceNumber(features, scene, p.transmission, s);
     values.clearcoat = surfaceNumber(features, scene, p.clearcoat, s);
     values.clearcoatRoughness = surfaceNumber(features, scene, p.clearcoatRoughness, s);
-    values.sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kLeastSheenRoughness);
+    values.sheenRoughness = max(surfaceNumber(features, scene, p.sheenRoughness, s), kMinSheenRoughness);
     values.specularColor = surfaceColor(features, scene, p.specularColor, s);
     values.sheenColor = surfaceColor(features, scene, p.sheenColor, s);
     values.ior = p.ior;
@@ -182,10 +178,10 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.others = values.others;
 
     // Clear coat and sheen leave the rest to what is below. From inside of glass there is neither.
-    bool inside = has(values.others, kLobeGlass) && !front && values.thin == 0u;
+    bool inside = hasLobe(values.others, kLobeGlass) && !front && values.thin == 0u;
     float coat = 0.0f;
     float coatAlbedo = 0.0f;
-    if (has(values.others, kLobeCoat)) {
+    if (hasLobe(values.others, kLobeCoat)) {
         vec3 c = directionalAlbedo(scene, coatCosine, values.clearcoatRoughness);
         float boost = compensation(vec3(kCoatReflectance), c.x + c.y).x;
         coat = inside ? 0.0f : values.clearcoat * boost;
@@ -193,7 +189,7 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     }
     vec3 sheen = vec3(0.0f);
     float reflectedBySheen = 0.0f;
-    if (has(values.others, kLobeSheen)) {
+    if (hasLobe(values.others, kLobeSheen)) {
         // Bounded to what arrives: the visibility of these fibres is an approximation without a bound of its own.
         float whole = sheenAlbedo(scene, cosine, values.sheenRoughness);
         sheen = select(inside, vec3(0.0f), values.sheenColor * (1.0f / max(whole, 1.0f)));
@@ -217,7 +213,7 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
     lobes.thin = values.thin;
     lobes.glass = 0.0f;
-    if (has(values.others, kLobeGlass)) {
+    if (hasLobe(values.others, kLobeGlass)) {
         lobes.glass = (1.0f - metallic) * values.transmission * below;
         if (lobes.glass > 0.0f && !isMirror(lobes.alpha) && !isStraight(lobes)) {
             // A sheet mirrors to its other side what it does not reflect.
@@ -243,23 +239,23 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
 
 #else
 
-float surfaceOpacity(uint features, SceneRef scene, Principled p, Surface s) {
+float surfaceOpacity(Features features, SceneRef scene, Principled p, Surface s) {
     return 1.0f;
 }
 vec3 keepReflectionAbove(vec3 n, vec3 geometric, vec3 wo) {
     return n;
 }
-vec3 mappedNormal(uint features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
+vec3 mappedNormal(Features features, SceneRef scene, uint texture, float scale, Surface s, vec3 shading, float facing) {
     return shading;
 }
-vec3 coatNormalOf(uint features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing, vec3 geometric,
-                  vec3 wo, vec3 n) {
+vec3 coatNormalOf(Features features, SceneRef scene, Principled p, Surface s, vec3 shading, float facing,
+                  vec3 geometric, vec3 wo, vec3 n) {
     return vec3(0.0f, 0.0f, 1.0f);
 }
 vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
     return vec3(0.0f);
 }
-PrincipledValues principledValues(uint features, SceneRef scene, Principled p, Surface s) {
+PrincipledValues principledValues(Features features, SceneRef scene, Principled p, Surface s) {
     PrincipledValues values;
     values.others = 0u;
     values.roughness = 0.0f;

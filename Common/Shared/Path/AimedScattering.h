@@ -11,10 +11,10 @@
 RT_SHARED_BEGIN
 
 // Of the directions from a vertex to which all light comes by way of the sphere.
-const float kMostAimed = 0.7f;
+const float kMaxAimed = 0.7f;
 
-RT_FN bool aimsPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse == kPathReuseAimed;
+RT_FN bool aimsPaths(Features features, RT_IN(RenderParams) params) {
+    return has(features, kMethodReuse) && params.pathReuse == kPathReuseAimed;
 }
 
 // Share of the directions from x that are drawn towards the sphere; `direct` is LightContext::total there.
@@ -25,7 +25,7 @@ RT_FN float aimedShare(RT_IN(AimedSphere) sphere, vec3 x, float direct) {
     float aimed = sphere.gain * near * near;
     bool isOutside = near < kNearestToSphere;
     bool isReached = -dot(toCenter, sphere.axis) * inverse > sphere.limit;
-    float share = isOutside ? kMostAimed * aimed / (aimed + direct) : 0.0f;
+    float share = isOutside ? kMaxAimed * aimed / (aimed + direct) : 0.0f;
     return isReached ? share : 0.0f;
 }
 

@@ -5,7 +5,7 @@
 // scattering, which finds the same paths (ConnectionChain.h). What connections do not cover counts in full where
 // scattering finds it: other orders of surfaces, lights around the sphere, and vertices that no light is thought to
 // reach.
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_H
 #define RT_SHARED_CONNECTION_H
 #include "Common/Shared/Light/SkyPatches.h"
@@ -16,8 +16,8 @@
 
 RT_SHARED_BEGIN
 
-RT_FN Passage noPassage() {
-    Passage p;
+RT_FN SpecularConnection noConnection() {
+    SpecularConnection p;
     p.radiance = vec3(0.0f);
     p.begin = vec3(0.0f);
     p.entry[0] = vec3(0.0f);
@@ -30,7 +30,7 @@ RT_FN Passage noPassage() {
     return p;
 }
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // ---- the light's end -----------------------------------------------------------------------------------------------
 
@@ -64,10 +64,10 @@ RT_FN float skyEndDensity(float distance, float pdf) {
     return pdf / square(distance);
 }
 
-// `rate` as in SphereChain.
+// `rate` as in SpecularChain.
 RT_FN LightEnd sampleSkyEnd(SceneRef scene, RT_IN(ConnectionChoice) choice, vec3 center, float rate, vec2 u) {
     LightSample s = sampleSkyPatch(scene, loadSkyPatch(scene, choice.skyPatch), u);
-    float distance = skyDistance(scene, loadSmoothSphere(scene, choice.sphere).radius);
+    float distance = skyDistance(scene, loadSpecularCaster(scene, choice.sphere).radius);
     LightEnd end;
     end.point = center + s.wi * distance;
     end.error = vec3(0.0f);
@@ -78,7 +78,7 @@ RT_FN LightEnd sampleSkyEnd(SceneRef scene, RT_IN(ConnectionChoice) choice, vec3
     return end;
 }
 
-RT_FN LightEnd sampleEnd(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
+RT_FN LightEnd sampleEnd(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(ConnectionChoice) choice,
                          vec3 center, float time, float rate, vec2 u) {
     if (has(features, kFeatureSkyImage) && choice.skyPatch != kNone) {
         return sampleSkyEnd(scene, choice, center, rate, u);
@@ -111,7 +111,7 @@ struct ConnectionPair {
 
 // Where light goes back to the side that it comes from, the sides are changed, and the angle to turn by is the
 // supplement; see SphereRefraction.h.
-RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, vec3 y) {
+RT_FN ConnectionPair connectionPair(RT_IN(SpecularCaster) sphere, RT_IN(SphereView) view, vec3 y) {
     ConnectionPair c;
     vec3 toY = y - view.center;
     float inverse = 1.0f / sqrt(max(dot(toY, toY), 1.0e-30f));
@@ -131,7 +131,7 @@ RT_FN ConnectionPair connectionPair(RT_IN(SmoothSphere) sphere, RT_IN(SphereView
 }
 
 // Sum of the radius over both ends' distances, beyond which what is reflected inside might turn by more than half a
-// circle where the index is the compiler's kLeastIorInside.
+// circle where the index is the compiler's kMinIorInside.
 const float kNearestInside = 1.8f;
 
 // Whether both ends lie outside the sphere.
@@ -205,12 +205,13 @@ RT_FN SpherePath pickPath(RT_IN(SpherePath) a, RT_IN(SpherePath) b, RT_IN(Sphere
 
 // Points on the surface are moved off it by this fraction of the radius, which is more than the angle of a path is
 // known to.
-const float kPassageMargin = 5.0e-5f;
+const float kConnectionMargin = 5.0e-5f;
 
 // A path weighed against scattering at v, which the path before reached with this throughput.
-RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, vec3 center,
-                           RT_IN(SpherePath) path, RT_IN(LightEnd) end, RT_IN(Vertex) v, vec3 throughput) {
-    Passage p = noPassage();
+RT_FN SpecularConnection weighConnection(Features features, RT_IN(RenderParams) params, RT_IN(SpecularCaster) sphere,
+                                         vec3 center, RT_IN(SpherePath) path, RT_IN(LightEnd) end, RT_IN(Vertex) v,
+                                         vec3 throughput) {
+    SpecularConnection p = noConnection();
     if (!(path.share > 0.0f)) return p;
     vec4 f = evalScattering(features, v, path.atX);
     float connecting = end.density / path.spread;
@@ -220,8 +221,8 @@ RT_FN Passage weighPassage(uint features, RT_IN(RenderParams) params, RT_IN(Smoo
     p.radiance = throughput * vec3(f) * light;
     float strongest = maxComponent(p.radiance);
     if (!(strongest > 0.0f && strongest < kInfinity)) return p;
-    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) + kPassageMargin * sphere.radius +
-                      sphere.error);
+    vec3 error = vec3(32.0f * kEpsilon * (maxComponent(abs(center)) + sphere.radius) +
+                      kConnectionMargin * sphere.radius + sphere.error);
     vec3 entry = center + path.entry * sphere.radius;
     vec3 bounce = center + path.bounce * sphere.radius;
     vec3 leave = center + path.leave * sphere.radius;
@@ -245,27 +246,27 @@ RT_FN vec2 connectionSample(RT_IN(Sampler) smp, RT_IN(Vertex) v) {
 }
 
 // A connection from v, where a light has been chosen for next-event estimation.
-RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
-                           RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s) {
+RT_FN SpecularConnection connectLight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp,
+                                      RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_INOUT(PathState) s) {
     s.chain.rate = 0.0f;
-    if (params.connectedSpheres == 0u || !connects(features, v)) return noPassage();
+    if (params.connectedSpheres == 0u || !connects(features, v)) return noConnection();
     float total = totalWeight(scene, params, v.origin, s.ray.time);
-    if (!(total > 0.0f)) return noPassage();
-    float typical = loadGlobals(scene).litSpheres;
+    if (!(total > 0.0f)) return noConnection();
+    float typical = loadGlobals(scene).maxCasterIrradiance;
     float chance = connectionChance(total, s.last.total, typical, s.throughput * v.bsdf.albedo);
     s.chain.rate = chance / total;
-    if (!(u.roulette.y < chance)) return noPassage();
+    if (!(u.roulette.y < chance)) return noConnection();
     float target = u.roulette.y / chance * total;
     ConnectionChoice choice = chooseConnection(scene, params, v.origin, s.ray.time, target);
-    if (!(choice.weight > 0.0f)) return noPassage();
-    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, choice.sphere);
-    if (!isInTime(params, sphere, v)) return noPassage();
+    if (!(choice.weight > 0.0f)) return noConnection();
+    RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, choice.sphere);
+    if (!isInTime(params, sphere, v)) return noConnection();
     SphereView view = viewSphere(sphere, v.origin, s.ray.time);
     LightEnd end =
         sampleEnd(features, scene, params, choice, view.center, s.ray.time, s.chain.rate, connectionSample(smp, v));
-    if (!(end.density > 0.0f)) return noPassage();
+    if (!(end.density > 0.0f)) return noConnection();
     ConnectionPair c = connectionPair(sphere, view, end.point);
-    RefractionRoots roots = refractionRoots(c.angles, leastTurn(c.angles));
+    RefractionRoots roots = refractionRoots(c.angles, minTurn(c.angles));
     SpherePath paths[kRefractedPaths];
     for (uint kind = 0u; kind < kRefractedPaths; kind++) {
         vec2 angle = firstAngle(kind);
@@ -273,13 +274,13 @@ RT_FN Passage connectLight(uint features, SceneRef scene, RT_IN(RenderParams) pa
         paths[kind] = pathAt(c, kind, hasPath(roots, kind), angle, sphere.radius, view.center, end, v.shading);
     }
     SpherePath path = pickPath(paths[0], paths[1], paths[2], choice.u);
-    return weighPassage(features, params, sphere, view.center, path, end, v, s.throughput);
+    return weighConnection(features, params, sphere, view.center, path, end, v, s.throughput);
 }
 
 // ---- segments ------------------------------------------------------------------------------------------------------
 
 // The next segment of the passage that has to be free, up to tMax.
-RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
+RT_FN Ray connectionRay(RT_IN(SpecularConnection) p, float time, RT_OUT(float) tMax) {
     bool isBeyond = (p.segments & kSegmentBeyond) != 0u;
     bool isBefore = (p.segments & kSegmentBefore) != 0u;
     bool isInside = (p.segments & kSegmentInside) != 0u;
@@ -297,8 +298,8 @@ RT_FN Ray passageRay(RT_IN(Passage) p, float time, RT_OUT(float) tMax) {
 }
 
 // What becomes of the passage when its next segment has been traced; the last one adds to `radiance`.
-RT_FN void endSegment(uint features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax, RT_INOUT(Passage) p,
-                      RT_INOUT(vec3) radiance) {
+RT_FN void endSegment(Features features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax,
+                      RT_INOUT(SpecularConnection) p, RT_INOUT(vec3) radiance) {
     if (!isFree) {
         p.segments = 0u;
         return;

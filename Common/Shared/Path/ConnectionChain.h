@@ -1,19 +1,19 @@
 // The side of scattering: a path that finds a light by way of a smooth sphere, as a connection from where it scattered
 // might have, and the weight of what it finds there. PathState::chain carries along what that takes.
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHAIN_H
 #define RT_SHARED_CONNECTION_CHAIN_H
 #include "Common/Shared/Path/Connection.h"
 
 RT_SHARED_BEGIN
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // Which of the spheres a path has hit.
 RT_FN uint connectedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit) {
     if (hit.kind != kSphere) return kNone;
     for (uint k = 0u; k < params.connectedSpheres; k++) {
-        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, k);
         if (sphere.primitive == hit.primitive && sphere.instance == hit.instance) return k;
     }
     return kNone;
@@ -47,23 +47,23 @@ RT_FN void goOnChain(RT_IN(Vertex) v, RT_IN(BsdfSample) b, RT_INOUT(PathState) s
     s.chain.state = state;
 }
 
-// The element of smoothSpheres for what the path's chain has met, and how; kNone: there is none.
-RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(SphereChain) chain) {
-    RT_IN(SmoothSphere) met = loadSmoothSphere(scene, chain.met);
+// The element of specularCasters for what the path's chain has met, and how; kNone: there is none.
+RT_FN uint passedSphere(SceneRef scene, RT_IN(RenderParams) params, RT_IN(SpecularChain) chain) {
+    RT_IN(SpecularCaster) met = loadSpecularCaster(scene, chain.met);
     uint crossings = chain.state - kChainBeyond;
     for (uint k = chain.met; k < params.connectedSpheres; k++) {
-        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, k);
         bool isMet = sphere.primitive == met.primitive && sphere.instance == met.instance;
         if (isMet && sphere.crossings == crossings) return k;
     }
     return kNone;
 }
 
-// The element of sphereReaches for a light by way of the sphere, for the sky that of the patch which holds this texel;
+// The element of casterLights for a light by way of the sphere, for the sky that of the patch which holds this texel;
 // kNone: it is not connected to.
-RT_FN uint reachOf(uint features, SceneRef scene, RT_IN(SmoothSphere) sphere, uint light, uvec2 texel) {
-    for (uint i = sphere.firstReach; i < sphere.firstReach + sphere.reachCount; i++) {
-        RT_IN(SphereReach) reach = loadSphereReach(scene, i);
+RT_FN uint reachOf(Features features, SceneRef scene, RT_IN(SpecularCaster) sphere, uint light, uvec2 texel) {
+    for (uint i = sphere.firstLight; i < sphere.firstLight + sphere.lightCount; i++) {
+        RT_IN(CasterLight) reach = loadCasterLight(scene, i);
         if (reach.light != light) continue;
         if (!has(features, kFeatureSkyImage) || reach.skyPatch == kNone) return i;
         if (isInPatch(loadSkyPatch(scene, reach.skyPatch), texel)) return i;
@@ -81,8 +81,8 @@ struct LightMet {
 
 // Density over area with which a connection to `met`, where the chain scattered, would end there; 0: none would.
 // Completes the point and the normal of the sky as sampleEnd() has them.
-RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
-                              RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view, RT_INOUT(LightMet) met) {
+RT_FN float connectingDensity(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
+                              RT_IN(SpecularCaster) sphere, RT_IN(SphereView) view, RT_INOUT(LightMet) met) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
     bool isSky = has(features, kFeatureSkyImage) && met.index == globals.skyLight;
     uvec2 texel = uvec2(0u, 0u);
@@ -93,7 +93,7 @@ RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams)
     }
     uint i = reachOf(features, scene, sphere, met.index, texel);
     if (i == kNone) return 0.0f;
-    RT_IN(SphereReach) reach = loadSphereReach(scene, i);
+    RT_IN(CasterLight) reach = loadCasterLight(scene, i);
     float weight = reachWeight(reach, view);
     if (!(weight > 0.0f)) return 0.0f;
     float density = s.chain.rate * weight;
@@ -111,11 +111,11 @@ RT_FN float connectingDensity(uint features, SceneRef scene, RT_IN(RenderParams)
 }
 
 // Weight of what the path of s hit beyond a sphere, against connections. Rarely asked for, and long.
-RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s, uint index,
-                            vec3 y, vec3 normal) {
+RT_CALL float connectionWeight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s,
+                               uint index, vec3 y, vec3 normal) {
     uint k = passedSphere(scene, params, s.chain);
     if (k == kNone) return 1.0f;
-    RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+    RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, k);
     SphereView view = viewSphere(sphere, s.chain.from, s.ray.time);
     LightMet met;
     met.index = index;
@@ -131,7 +131,7 @@ RT_CALL float passageWeight(uint features, SceneRef scene, RT_IN(RenderParams) p
     float side = sideAfter(c.angles.crossings);
     bool isOpposite = c.angles.crossings == kReflectedOutside || side * dot(moment, c.axis) > 0.0f;
     uint kind = isOpposite ? kOppositePath : r.slope < 0.0f ? kBeforePath : kBeyondPath;
-    if (!hasPath(refractionRoots(c.angles, leastTurn(c.angles)), kind)) return 1.0f;
+    if (!hasPath(refractionRoots(c.angles, minTurn(c.angles)), kind)) return 1.0f;
     float spread = pathSpread(c.angles, r, sphere.radius, abs(dot(met.normal, s.ray.direction)));
     float scattering = s.chain.pdf * lightFraction(c.angles, r);
     return emissionWeight(params, scattering, density / max(spread, 1.0e-37f));

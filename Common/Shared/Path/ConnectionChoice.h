@@ -1,6 +1,6 @@
 // Which light a vertex connects to, and by way of which smooth sphere: in proportion to an estimate of the irradiance
 // that it brings, and with a probability that says how much that can matter.
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h.
 #ifndef RT_SHARED_CONNECTION_CHOICE_H
 #define RT_SHARED_CONNECTION_CHOICE_H
 #include "Common/Shared/Path/Vertex.h"
@@ -8,19 +8,19 @@
 
 RT_SHARED_BEGIN
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 // A sphere as a point sees it.
 struct SphereView {
     vec3 center;
     vec3 along; // unit, to the centre
     float near; // radius over distance
-    vec2 reach; // of SmoothSphere
+    vec2 reach; // of SpecularCaster
     bool isNear;
 };
 
 // All but the reach.
-RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+RT_FN SphereView seeSphere(RT_IN(SpecularCaster) sphere, vec3 x, float time) {
     SphereView view;
     view.center = sphere.center + sphere.motion * time;
     vec3 toCenter = view.center - x;
@@ -32,28 +32,28 @@ RT_FN SphereView seeSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
     return view;
 }
 
-RT_FN vec2 reachAt(RT_IN(SmoothSphere) sphere, float near) {
+RT_FN vec2 reachAt(RT_IN(SpecularCaster) sphere, float near) {
     return sphere.reach[uint(min(near * float(kReachSteps), float(kReachSteps - 1u)))];
 }
 
-RT_FN SphereView viewSphere(RT_IN(SmoothSphere) sphere, vec3 x, float time) {
+RT_FN SphereView viewSphere(RT_IN(SpecularCaster) sphere, vec3 x, float time) {
     SphereView view = seeSphere(sphere, x, time);
     view.reach = reachAt(sphere, view.near);
     return view;
 }
 
 // What the choice of a light by way of the sphere is proportional to: an estimate of the irradiance that it brings.
-RT_FN float reachWeight(RT_IN(SphereReach) light, RT_IN(SphereView) view) {
+RT_FN float reachWeight(RT_IN(CasterLight) light, RT_IN(SphereView) view) {
     float sine = sqrt(max((1.0f - view.reach.x) * (1.0f + view.reach.x), 0.0f));
     float limit = view.reach.x * light.extent.x - sine * light.extent.y;
     return view.isNear && dot(light.axis, view.along) > limit ? light.weight * view.reach.y : 0.0f;
 }
 
 // Sum of the weights of all lights by way of one sphere.
-RT_FN float sphereWeight(SceneRef scene, RT_IN(SmoothSphere) sphere, RT_IN(SphereView) view) {
+RT_FN float sphereWeight(SceneRef scene, RT_IN(SpecularCaster) sphere, RT_IN(SphereView) view) {
     float sum = 0.0f;
-    for (uint i = 0u; i < sphere.reachCount; i++) {
-        sum += reachWeight(loadSphereReach(scene, sphere.firstReach + i), view);
+    for (uint i = 0u; i < sphere.lightCount; i++) {
+        sum += reachWeight(loadCasterLight(scene, sphere.firstLight + i), view);
     }
     return sum;
 }
@@ -61,7 +61,7 @@ RT_FN float sphereWeight(SceneRef scene, RT_IN(SmoothSphere) sphere, RT_IN(Spher
 RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, float time) {
     float sum = 0.0f;
     for (uint k = 0u; k < params.connectedSpheres; k++) {
-        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, k);
         SphereView view = viewSphere(sphere, x, time);
         if (view.isNear) sum += sphereWeight(scene, sphere, view);
     }
@@ -69,12 +69,12 @@ RT_FN float totalWeight(SceneRef scene, RT_IN(RenderParams) params, vec3 x, floa
 }
 
 // Connections leave from diffuse surfaces, rough ones and media.
-RT_FN bool connects(uint features, RT_IN(Vertex) v) {
+RT_FN bool connects(Features features, RT_IN(Vertex) v) {
     return v.inMedium != 0u || isLambertian(features, v.bsdf) || isPrincipled(features, v.bsdf);
 }
 
 // Whether a path may be long enough for a connection from v: where it enters, is reflected and leaves, and the light.
-RT_FN bool isInTime(RT_IN(RenderParams) params, RT_IN(SmoothSphere) sphere, RT_IN(Vertex) v) {
+RT_FN bool isInTime(RT_IN(RenderParams) params, RT_IN(SpecularCaster) sphere, RT_IN(Vertex) v) {
     return v.index + sphere.crossings + 3u <= params.maxDepth;
 }
 
@@ -90,7 +90,7 @@ RT_FN float connectionChance(float total, float direct, float typical, vec3 thro
 struct ConnectionChoice {
     uint sphere;
     uint light;
-    uint skyPatch; // SphereReach::skyPatch
+    uint skyPatch; // CasterLight::skyPatch
     float weight;  // 0: none
     float u;       // what is left of the number that chose, for further use
 };
@@ -105,11 +105,11 @@ RT_FN ConnectionChoice chooseConnection(SceneRef scene, RT_IN(RenderParams) para
     choice.u = 0.0f;
     float left = target;
     for (uint k = 0u; k < params.connectedSpheres; k++) {
-        RT_IN(SmoothSphere) sphere = loadSmoothSphere(scene, k);
+        RT_IN(SpecularCaster) sphere = loadSpecularCaster(scene, k);
         SphereView view = viewSphere(sphere, x, time);
         if (!view.isNear) continue;
-        for (uint i = 0u; i < sphere.reachCount; i++) {
-            RT_IN(SphereReach) reach = loadSphereReach(scene, sphere.firstReach + i);
+        for (uint i = 0u; i < sphere.lightCount; i++) {
+            RT_IN(CasterLight) reach = loadCasterLight(scene, sphere.firstLight + i);
             float weight = reachWeight(reach, view);
             if (!(weight > 0.0f)) continue;
             choice.sphere = k;

@@ -11,7 +11,7 @@
 RT_SHARED_BEGIN
 
 // Fraction of light that media let through along the ray up to tMax.
-RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, float tMax) {
+RT_FN float rayTransmittance(Features features, SceneRef scene, RT_IN(Ray) ray, float tMax) {
     if (!has(features, kFeatureVolumes)) return 1.0f;
     float depth = 0.0f;
     uint count = loadGlobals(scene).mediumCount;
@@ -23,12 +23,12 @@ RT_FN float rayTransmittance(uint features, SceneRef scene, RT_IN(Ray) ray, floa
 }
 
 // Whether lights are sampled beside scattering: all of them, or only the punctual ones, which scattering never finds.
-RT_FN bool samplesLights(uint features, RT_IN(RenderParams) params) {
+RT_FN bool samplesLights(Features features, RT_IN(RenderParams) params) {
     return usesMis(params) || has(features, kFeaturePunctualLights);
 }
 
 // Whether a light is chosen and sampled at v, whose light is added if it arrives.
-RT_FN bool usesNextEventEstimation(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+RT_FN bool usesNextEventEstimation(Features features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                                    RT_IN(Vertex) v) {
     return has(features, kFeatureLights) && samplesLights(features, params) && globals.lightCount > 0u &&
            !isDeltaVertex(features, v);
@@ -36,18 +36,18 @@ RT_FN bool usesNextEventEstimation(uint features, RT_IN(RenderParams) params, RT
 
 // The sample that chooses the light: the one whose second coordinate also places the point on it, unless there are so
 // many lights that the choice would use up its bits.
-RT_FN vec2 selectionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(VertexSamples) u) {
+RT_FN vec2 selectionSample(Features features, RT_IN(SceneGlobals) globals, RT_IN(VertexSamples) u) {
     return usesLightTree(features, globals.lightCount) ? u.selection : u.light;
 }
 
 // The sample that places the point on the light: in its first coordinate what the choice from a short table left of it.
-RT_FN vec2 positionSample(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice,
+RT_FN vec2 positionSample(Features features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice,
                           RT_IN(VertexSamples) u) {
     return usesLightTree(features, globals.lightCount) ? u.light : vec2(choice.u, u.light.y);
 }
 
 // Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
-RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
+RT_FN void applyEmissionTexture(Features features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
     if (!has(features, kTexturedFeatures) || light.material == kNone) return;
     if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
@@ -64,7 +64,7 @@ RT_FN void applyEmissionTexture(uint features, SceneRef scene, RT_IN(Light) ligh
     sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, uv, uv2);
 }
 
-RT_FN LightSample sampleChosenLight(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
+RT_FN LightSample sampleChosenLight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
                                     RT_IN(Vertex) v, float time, vec2 u) {
     if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
     if (isPunctual(features, light)) return samplePunctualLight(light, v.origin, v.shading);
@@ -88,7 +88,7 @@ RT_FN DirectLight noDirectLight() {
 // The contribution of a light that was chosen with `probability` and sampled, to a path of this throughput that
 // scatters at v, weighed against the bsdf's density. A punctual light's sample has nothing to be weighed against; where
 // the estimator is not mis that of any other is left to scattering. Without a branch, for loops over samples.
-RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float probability, bool isPunctualSample,
+RT_FN DirectLight weighSample(Features features, RT_IN(RenderParams) params, float probability, bool isPunctualSample,
                               RT_IN(LightSample) sampled, RT_IN(Vertex) v, vec3 throughput) {
     vec4 f = evalScattering(features, v, sampled.wi);
     vec3 unweighted = throughput * vec3(f) * sampled.radiance;
@@ -115,7 +115,7 @@ RT_FN DirectLight weighSample(uint features, RT_IN(RenderParams) params, float p
 }
 
 // Next-event estimation at v with the light that was chosen: one sample, one shadow ray.
-RT_FN DirectLight sampleDirectLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+RT_FN DirectLight sampleDirectLight(Features features, SceneRef scene, RT_IN(RenderParams) params,
                                     RT_IN(LightChoice) choice, RT_IN(Vertex) v, RT_IN(VertexSamples) u,
                                     RT_IN(PathState) s) {
     if (choice.light == kNone) return noDirectLight();
@@ -139,7 +139,7 @@ RT_FN Ray shadowRay(RT_IN(PathState) s, RT_IN(DirectLight) direct) {
 }
 
 // To be called where no surface is in the way of shadowRay(s, direct).
-RT_FN void addDirectLight(uint features, SceneRef scene, RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
+RT_FN void addDirectLight(Features features, SceneRef scene, RT_IN(DirectLight) direct, RT_INOUT(PathState) s) {
     s.radiance += direct.radiance * rayTransmittance(features, scene, shadowRay(s, direct), direct.distance);
 }
 

@@ -1,4 +1,4 @@
-// Camera rays that are split where the edge of a light crosses a pixel (LightEdges.h). In sight a light adds all of its
+// Camera rays that are split where the edge of a light crosses a pixel (Silhouettes.h). In sight a light adds all of its
 // radiance to a sample or nothing, and against that noise only camera rays help, a small part of what a path costs. So
 // there RenderParams::edgeRays rays of the sample's own tell what is emitted at the first vertex and behind mirrors and
 // glass, by their mean, and the path counts what comes after it. Where that vertex is a blurred mirror, they tell the

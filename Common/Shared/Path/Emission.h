@@ -17,15 +17,15 @@ const float kBlurCountedApart = -3.0f;
 // And of a path that max depth has ended, though it would have gone on.
 const float kCutOff = -4.0f;
 
-RT_FN bool isBehindBlur(uint features, RT_IN(PathState) s) {
+RT_FN bool isBehindGlossyHit(Features features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && has(features, kFeatureFuzz) && s.pdf == kBlurCountedApart;
 }
 
-RT_FN bool isCountedApart(uint features, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindBlur(features, s));
+RT_FN bool isCountedApart(Features features, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && (s.pdf == kCountedApart || isBehindGlossyHit(features, s));
 }
 
-RT_FN bool isEdgeRay(uint features, RT_IN(PathState) s) {
+RT_FN bool isEdgeRay(Features features, RT_IN(PathState) s) {
     return has(features, kFeatureLights) && s.pdf == kEdgeRay;
 }
 
@@ -48,7 +48,8 @@ RT_FN float emissionWeight(RT_IN(RenderParams) params, float pdf, float lightDen
 }
 
 // `chainWeight`: against what else may have found it.
-RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, float chainWeight, RT_INOUT(PathState) s) {
+RT_FN void addSky(Features features, SceneRef scene, RT_IN(RenderParams) params, float chainWeight,
+                  RT_INOUT(PathState) s) {
     if (!has(features, kFeatureSky) || isCountedApart(features, s)) return;
     float weight = chainWeight;
     if (has(features, kFeatureSkyImage)) {
@@ -62,14 +63,15 @@ RT_FN void addSky(uint features, SceneRef scene, RT_IN(RenderParams) params, flo
 }
 
 // Emitted radiance at a point of a surface with this material, both sides alike.
-RT_FN vec3 emittedRadiance(uint features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv, vec2 uv2) {
+RT_FN vec3 emittedRadiance(Features features, SceneRef scene, RT_IN(Material) material, vec3 position, vec2 uv,
+                           vec2 uv2) {
     if (material.emissionTexture == kNone) return material.emission;
     return material.emission *
            vec3(evalTexture(features, scene, material.emissionTexture, position + loadGlobals(scene).origin, uv, uv2));
 }
 
 // `chainWeight`: against what else may have found it.
-RT_FN void addEmission(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
+RT_FN void addEmission(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Surface) surface,
                        RT_IN(Material) material, float distance, float chainWeight, RT_INOUT(PathState) s) {
     if (!has(features, kFeatureEmissive) || maxComponent(material.emission) == 0.0f) return;
     bool front = dot(s.ray.direction, surface.normal) < 0.0f;

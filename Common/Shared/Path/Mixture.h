@@ -7,8 +7,8 @@
 RT_SHARED_BEGIN
 
 // Whether the direction in which v scatters is drawn from the mixture.
-RT_FN bool usesMixture(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals, RT_IN(Vertex) v) {
-    return has(features, kFeatureMixture) && params.lightSampling == kSampleMixture &&
+RT_FN bool usesMixture(Features features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals, RT_IN(Vertex) v) {
+    return has(features, kMethodMixture) && params.lightSampling == kSampleMixture &&
            globals.lightCount + globals.targetCount > 0u && !isDeltaVertex(features, v);
 }
 
@@ -19,17 +19,17 @@ RT_FN float targetShare(RT_IN(SceneGlobals) globals) {
 
 // The sample that chooses among the lights proper: of the mixture's the part that does not choose a target. (The light
 // is chosen even when a target is sampled, since the density of the direction sums over all of them.)
-RT_FN vec2 lightSelectionSample(uint features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+RT_FN vec2 lightSelectionSample(Features features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                                 RT_IN(VertexSamples) u) {
     vec2 selection = selectionSample(features, globals, u);
-    if (has(features, kFeatureMixture) && params.lightSampling == kSampleMixture) {
-        selection.x = stretch(selection.x, targetShare(globals), 1.0f);
+    if (has(features, kMethodMixture) && params.lightSampling == kSampleMixture) {
+        selection.x = remapSample(selection.x, targetShare(globals), 1.0f);
     }
     return selection;
 }
 
 // Probability of choosing entry i of lights and targets: targets share count / total, each the same.
-RT_FN float mixtureProbability(uint features, SceneRef scene, RT_IN(SceneGlobals) globals, uint i,
+RT_FN float mixtureProbability(Features features, SceneRef scene, RT_IN(SceneGlobals) globals, uint i,
                                RT_IN(LightContext) context) {
     float all = float(globals.lightCount + globals.targetCount);
     if (i >= globals.lightCount) return 1.0f / all;
@@ -37,7 +37,7 @@ RT_FN float mixtureProbability(uint features, SceneRef scene, RT_IN(SceneGlobals
 }
 
 // Density over solid angle with which light sampling as a whole, occluded or not, proposes wi.
-RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
+RT_FN float mixtureLightPdf(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                             float time, vec3 wi, RT_IN(LightContext) context) {
     float sum = 0.0f;
     uint count = globals.lightCount + globals.targetCount;
@@ -55,7 +55,7 @@ RT_FN float mixtureLightPdf(uint features, SceneRef scene, RT_IN(RenderParams) p
 }
 
 // The light or target that the mixture samples, given the light that was chosen.
-RT_FN LightChoice mixtureChoice(uint features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light,
+RT_FN LightChoice mixtureChoice(Features features, RT_IN(SceneGlobals) globals, RT_IN(LightChoice) light,
                                 RT_IN(VertexSamples) u) {
     LightChoice choice = light;
     float pick = selectionSample(features, globals, u).x;
@@ -71,7 +71,7 @@ RT_FN LightChoice mixtureChoice(uint features, RT_IN(SceneGlobals) globals, RT_I
 
 // Share of the bsdf in the mixture: half, and of the lights' half what falls to punctual lights, which no direction
 // hits.
-RT_FN float bsdfShare(uint features, SceneRef scene, RT_IN(SceneGlobals) globals, RT_IN(LightContext) context) {
+RT_FN float bsdfShare(Features features, SceneRef scene, RT_IN(SceneGlobals) globals, RT_IN(LightContext) context) {
     float share = 0.5f;
     if (!has(features, kFeaturePunctualLights)) return share;
     for (uint i = 0u; i < globals.lightCount; i++) {
@@ -82,13 +82,13 @@ RT_FN float bsdfShare(uint features, SceneRef scene, RT_IN(SceneGlobals) globals
 }
 
 // Whether a direction can be drawn for the choice, or the bsdf's is taken in its place.
-RT_FN bool hasDirections(uint features, SceneRef scene, RT_IN(LightChoice) choice) {
+RT_FN bool hasDirections(Features features, SceneRef scene, RT_IN(LightChoice) choice) {
     if (!has(features, kFeaturePunctualLights) || choice.light == kNone) return true;
     return !isPunctual(features, loadLight(scene, choice.light));
 }
 
 // Samples a direction to the light or target of mixtureChoice(); a pdf of 0 where there is none.
-RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(RenderParams) params,
+RT_FN LightSample sampleMixtureLight(Features features, SceneRef scene, RT_IN(RenderParams) params,
                                      RT_IN(SceneGlobals) globals, RT_IN(LightChoice) choice, RT_IN(Vertex) v,
                                      RT_IN(VertexSamples) u, float time) {
     if (choice.light == kNone) return noLightSample();
@@ -98,7 +98,7 @@ RT_FN LightSample sampleMixtureLight(uint features, SceneRef scene, RT_IN(Render
 
 // Replaces b, the bsdf's sample, by that of the one-sample mixture: half from the lights, half from the bsdf. `light`
 // was chosen in this context by lightSelectionSample().
-RT_FN BsdfSample sampleMixture(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(LightChoice) light,
+RT_FN BsdfSample sampleMixture(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(LightChoice) light,
                                RT_IN(Vertex) v, RT_IN(VertexSamples) u, RT_IN(BsdfSample) b, float time,
                                RT_IN(LightContext) context) {
     RT_IN(SceneGlobals) globals = loadGlobals(scene);

@@ -6,7 +6,7 @@
 
 RT_SHARED_BEGIN
 
-const uint kMostLayers = 4096u; // that a ray may go through
+const uint kMaxLayers = 4096u; // that a ray may go through
 
 // A ray on its way through layers.
 struct LayeredRay {
@@ -25,13 +25,13 @@ RT_FN LayeredRay beforeLayers(RT_IN(Ray) ray) {
 
 // Whether the ray goes on through what it hits, from r on; then r is moved beyond. `ray` is the number of the ray in
 // the path of this sample: 2 vertices, and 1 for a shadow ray.
-RT_FN bool goesThrough(uint features, SceneRef scene, RT_IN(Sampler) smp, uint ray, RT_IN(Hit) hit,
+RT_FN bool goesThrough(Features features, SceneRef scene, RT_IN(Sampler) smp, uint ray, RT_IN(Hit) hit,
                        RT_INOUT(LayeredRay) r) {
-    if (hit.t < 0.0f || r.layers == kMostLayers) return false;
+    if (hit.t < 0.0f || r.layers == kMaxLayers) return false;
     Surface s = makeSurface(features, scene, r.ray, hit);
     if (!isPrincipled(features, loadMaterial(scene, s.material))) return false;
     float opacity = surfaceOpacity(features, scene, loadPrincipled(scene, s.material), s);
-    uvec3 word = uvec3(smp.key ^ 0x7feb352du, smp.base + smp.index, ray * kMostLayers + r.layers);
+    uvec3 word = uvec3(smp.key ^ 0x7feb352du, smp.base + smp.index, ray * kMaxLayers + r.layers);
     if (toUniform(hash3(word).x) < opacity) return false;
     vec3 origin = offsetOrigin(s.position, s.error, s.normal, r.ray.direction);
     r.from += dot(origin - r.ray.origin, r.ray.direction);

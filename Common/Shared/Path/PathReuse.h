@@ -19,15 +19,15 @@ RT_SHARED_BEGIN
 const float kReuseSurvival = 0.6f;
 
 // Of the vertex that has drawn y, where rounding leaves none.
-const float kLeastReuseDensity = 1.0e-37f;
+const float kMinReuseDensity = 1.0e-37f;
 
-RT_FN bool reusesPaths(uint features, RT_IN(RenderParams) params) {
-    return has(features, kFeatureReuse) && params.pathReuse != kPathReuseOff;
+RT_FN bool reusesPaths(Features features, RT_IN(RenderParams) params) {
+    return has(features, kMethodReuse) && params.pathReuse != kPathReuseOff;
 }
 
 // Follows a path to v, on this surface. Where v is its second vertex, s goes on as the path of what v sends out, and
 // `prefix` is what it had brought before.
-RT_FN void followReuse(uint features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
+RT_FN void followReuse(Features features, RT_IN(Surface) surface, RT_IN(Vertex) v, RT_INOUT(PathState) s,
                        RT_INOUT(vec3) prefix) {
     // Where normals are interpolated, how v scatters depends on where it is seen from.
     bool isPlain = isLambertian(features, v.bsdf) && surface.shading == surface.normal;
@@ -55,7 +55,7 @@ RT_FN float reuseDensity(vec3 x, vec3 n, vec3 y, vec3 nY) {
     vec3 d = y - x;
     float squared = dot(d, d);
     float cosine = dot(d, n);
-    bool sees = cosine > 0.0f && dot(d, nY) < 0.0f && squared > kLeastReuseDensity;
+    bool sees = cosine > 0.0f && dot(d, nY) < 0.0f && squared > kMinReuseDensity;
     return sees ? cosine / sqrt(squared) / squared : 0.0f;
 }
 

@@ -8,15 +8,15 @@
 RT_SHARED_BEGIN
 
 // Whether a camera ray uses a dimension, kDimensionPixel to kDimensionTime.
-RT_FN bool cameraUses(uint features, uint dimension) {
+RT_FN bool cameraUses(Features features, uint dimension) {
     if (dimension == kDimensionLens) return has(features, kFeatureThinLens);
     if (dimension == kDimensionTime) return has(features, kFeatureMovingSpheres);
     return true;
 }
 
 // Whether a vertex may use a dimension, kDimensionLight to kDimensionSelection.
-RT_FN bool vertexUses(uint features, uint dimension) {
-    if (dimension == kDimensionLight) return has(features, kFeatureLights | kFeatureMixture);
+RT_FN bool vertexUses(Features features, uint dimension) {
+    if (dimension == kDimensionLight) return has(features, kFeatureLights | kMethodMixture);
     if (dimension == kDimensionSelection) return has(features, kFeatureManyLights);
     return true;
 }
@@ -34,11 +34,11 @@ struct VertexSamples {
     vec2 selection;
 };
 
-RT_FN vec2 cameraSample(uint features, RT_IN(Sampler) s, uint dimension) {
+RT_FN vec2 cameraSample(Features features, RT_IN(Sampler) s, uint dimension) {
     return cameraUses(features, dimension) ? sample2D(s, dimension) : vec2(0.0f, 0.0f);
 }
 
-RT_FN CameraSamples cameraSamples(uint features, RT_IN(Sampler) s) {
+RT_FN CameraSamples cameraSamples(Features features, RT_IN(Sampler) s) {
     CameraSamples c;
     c.pixel = cameraSample(features, s, kDimensionPixel);
     c.lens = cameraSample(features, s, kDimensionLens);
@@ -46,11 +46,11 @@ RT_FN CameraSamples cameraSamples(uint features, RT_IN(Sampler) s) {
     return c;
 }
 
-RT_FN vec2 vertexSample(uint features, RT_IN(Sampler) s, uint vertex, uint dimension) {
+RT_FN vec2 vertexSample(Features features, RT_IN(Sampler) s, uint vertex, uint dimension) {
     return vertexUses(features, dimension) ? sample2D(s, vertexDimension(vertex, dimension)) : vec2(0.0f, 0.0f);
 }
 
-RT_FN VertexSamples vertexSamples(uint features, RT_IN(Sampler) s, uint vertex) {
+RT_FN VertexSamples vertexSamples(Features features, RT_IN(Sampler) s, uint vertex) {
     VertexSamples v;
     v.light = vertexSample(features, s, vertex, kDimensionLight);
     v.bsdf = vertexSample(features, s, vertex, kDimensionBsdf);

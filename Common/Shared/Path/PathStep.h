@@ -26,10 +26,10 @@
 
 RT_SHARED_BEGIN
 
-const float kLeastSurvival = 0.05f; // of the roulette: bounds what a path may weigh
+const float kMinSurvival = 0.05f; // of the roulette: bounds what a path may weigh
 
 // The ray of a sample from the camera.
-RT_FN Ray cameraRay(uint features, RT_IN(RenderParams) params, RT_IN(Camera) camera, uvec2 pixel,
+RT_FN Ray cameraRay(Features features, RT_IN(RenderParams) params, RT_IN(Camera) camera, uvec2 pixel,
                     RT_IN(CameraSamples) u) {
     return generateCameraRay(features, camera, pixel, uvec2(params.width, params.height), u.pixel, u.lens, u.time.x);
 }
@@ -87,45 +87,45 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
     s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
 }
 
-// With kFeatureConnections: follows the path's chain to what it has hit, and returns the weight of emission there.
-RT_FN float weighChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
+// With kMethodConnections: follows the path's chain to what it has hit, and returns the weight of emission there.
+RT_FN float weighChain(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Hit) hit,
                        RT_IN(Surface) surface, RT_INOUT(PathState) s) {
-#ifdef RT_FULL
-    if (has(features, kFeatureConnections)) {
+#ifdef RT_HEAVY_FEATURES
+    if (has(features, kMethodConnections)) {
         arriveChain(scene, params, hit, s);
         if (s.chain.state >= kChainBeyond && surface.light != kNone) {
-            return passageWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
+            return connectionWeight(features, scene, params, s, surface.light, surface.position, surface.normal);
         }
     }
 #endif
     return 1.0f;
 }
 
-// With kFeatureConnections: the weight of the sky that the path has left for.
-RT_FN float weighSkyChain(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
-#ifdef RT_FULL
-    if (has(features, kFeatureConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
+// With kMethodConnections: the weight of the sky that the path has left for.
+RT_FN float weighSkyChain(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(PathState) s) {
+#ifdef RT_HEAVY_FEATURES
+    if (has(features, kMethodConnections) && has(features, kFeatureSkyImage) && s.chain.state >= kChainBeyond) {
         uint sky = loadGlobals(scene).skyLight;
-        if (sky != kNone) return passageWeight(features, scene, params, s, sky, vec3(0.0f), vec3(0.0f));
+        if (sky != kNone) return connectionWeight(features, scene, params, s, sky, vec3(0.0f), vec3(0.0f));
     }
 #endif
     return 1.0f;
 }
 
 // Whether edge rays that arrive at v take a sample of the light that it reflects.
-RT_FN bool splitsBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
+RT_FN bool splitsGlossyHit(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v) {
     return has(features, kFeatureLights) && usesMis(params) && v.inMedium == 0u && isMetal(features, v.bsdf) &&
            isBlurredMirror(features, v.bsdf);
 }
 
 // Whether that light is left to edge rays by the path, which has arrived at v.
-RT_FN bool leavesBlur(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(PathState) s) {
-    return has(features, kFeatureLights) && s.pdf == kCountedApart && splitsBlur(features, params, v);
+RT_FN bool leavesGlossyHit(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(PathState) s) {
+    return has(features, kFeatureLights) && s.pdf == kCountedApart && splitsGlossyHit(features, params, v);
 }
 
 // Arrives at the next vertex of the path, v, given what s.ray hits; it has yet to be completed. `prefix`: see
 // followReuse(). False: the path has ended.
-RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+RT_FN bool arrive(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                   RT_INOUT(PathState) s, RT_INOUT(vec3) prefix, RT_OUT(Vertex) v) {
     uint medium = kNone;
     float t = hit.t < 0.0f ? kInfinity : hit.t;
@@ -151,7 +151,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
             return false;
         }
         placeOnSurface(features, scene, s, surface, material, v);
-        if (isEdgeRay(features, s) && !isDelta(features, v.bsdf) && !splitsBlur(features, params, v)) return false;
+        if (isEdgeRay(features, s) && !isDelta(features, v.bsdf) && !splitsGlossyHit(features, params, v)) return false;
         if (reusesPaths(features, params)) followReuse(features, surface, v, s, prefix);
     }
     s.last = lightContext(params, v);
@@ -159,7 +159,7 @@ RT_FN bool arrive(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_
 }
 
 // Goes on from v into the direction that b sampled; `survival` decides the roulette. False: the path ends here.
-RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
+RT_FN bool goOn(Features features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_IN(BsdfSample) b, float survival,
                 RT_INOUT(PathState) s) {
     s.throughput *= b.weight;
     float strongest = maxComponent(s.throughput);
@@ -175,10 +175,10 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
     s.ray.direction = b.wi;
     // Light beyond the surface is not sampled from v, so what transmitted rays meet counts in full.
     // What edge rays count, they count behind mirrors and glass, too, and behind the first mirror that is blurred.
-    bool leaves = leavesBlur(features, params, v, s);
-    bool isSplit = splitsBlur(features, params, v) && isEdgeRay(features, s);
+    bool leaves = leavesGlossyHit(features, params, v, s);
+    bool isSplit = splitsGlossyHit(features, params, v) && isEdgeRay(features, s);
     bool staysApart = has(features, kFeatureLights) && s.pdf < 0.0f && v.inMedium == 0u && isDelta(features, v.bsdf);
-    if (isBehindBlur(features, s)) staysApart = false;
+    if (isBehindGlossyHit(features, s)) staysApart = false;
     if (!staysApart) s.pdf = b.delta != 0u || b.transmitted != 0u ? 0.0f : b.pdf;
     if (leaves) s.pdf = kBlurCountedApart;
     if (isSplit) s.vertex = params.maxDepth - 1u; // it ends at the next one
@@ -191,7 +191,7 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
         float survivors = float(params.russianRoulette) * strongest;
         if (isEdgeRay(features, s)) survivors *= float(params.edgeRays);
         if (reusesPaths(features, params) && s.reuse == kReuseSuffix) survivors *= kReuseSurvival;
-        float probability = clamp(survivors, kLeastSurvival, 1.0f);
+        float probability = clamp(survivors, kMinSurvival, 1.0f);
         if (survival >= probability) return false;
         s.throughput /= probability;
     }
@@ -199,16 +199,16 @@ RT_FN bool goOn(uint features, RT_IN(RenderParams) params, RT_IN(Vertex) v, RT_I
 }
 
 // All stages of one vertex of a path, given what s.ray hits. False: it has ended, and s.radiance is its estimate once
-// `passage` and `direct`, which the caller sets to noPassage() and noDirectLight(), have been added if they arrive.
-RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
+// `passage` and `direct`, which the caller sets to noConnection() and noDirectLight(), have been added if they arrive.
+RT_FN bool stepPath(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
                     RT_INOUT(PathState) s, RT_INOUT(SharedPart) part, RT_INOUT(DirectLight) direct,
-                    RT_INOUT(Passage) passage) {
+                    RT_INOUT(SpecularConnection) connection) {
     Vertex v;
     if (!arrive(features, scene, params, smp, hit, s, part.prefix, v)) return false;
     completeVertex(features, scene, v);
     VertexSamples u = vertexSamples(features, smp, v.index);
     RT_IN(SceneGlobals) globals = loadGlobals(scene);
-    bool nextEvent = usesNextEventEstimation(features, params, globals, v) && !leavesBlur(features, params, v, s);
+    bool nextEvent = usesNextEventEstimation(features, params, globals, v) && !leavesGlossyHit(features, params, v, s);
     bool mixture = usesMixture(features, params, globals, v);
     LightChoice choice = noLightChoice();
     if (nextEvent || mixture) {
@@ -219,8 +219,9 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         direct = sampleDirectLight(features, scene, params, choice, v, u, s);
         addUnshadowed(direct, s);
     }
-#ifdef RT_FULL
-    if (has(features, kFeatureConnections) && nextEvent) passage = connectLight(features, scene, params, smp, v, u, s);
+#ifdef RT_HEAVY_FEATURES
+    if (has(features, kMethodConnections) && nextEvent)
+        connection = connectLight(features, scene, params, smp, v, u, s);
 #endif
     BsdfSample b = sampleScattering(features, v, u.bsdf);
     if (mixture) b = sampleMixture(features, scene, params, choice, v, u, b, s.ray.time, s.last);
@@ -229,8 +230,8 @@ RT_FN bool stepPath(uint features, SceneRef scene, RT_IN(RenderParams) params, R
         part.aimed = aimedShare(globals.aimed, v.origin, s.last.total);
         if (part.aimed > 0.0f) b = aimScattering(globals.aimed, v, u.bsdf, u.roulette.y, part.aimed, b);
     }
-#ifdef RT_FULL
-    if (has(features, kFeatureConnections)) goOnChain(v, b, s);
+#ifdef RT_HEAVY_FEATURES
+    if (has(features, kMethodConnections)) goOnChain(v, b, s);
 #endif
     return goOn(features, params, v, b, u.roulette.x, s);
 }

@@ -25,14 +25,14 @@ struct Vertex {
 };
 
 // A medium's albedo.
-RT_FN vec3 texturedAlbedo(uint features, SceneRef scene, vec3 constant, uint texture, vec3 position) {
+RT_FN vec3 texturedAlbedo(Features features, SceneRef scene, vec3 constant, uint texture, vec3 position) {
     if (!has(features, kTexturedFeatures) || texture == kNone) return constant;
     vec2 none = vec2(0.0f, 0.0f);
     return vec3(evalTexture(features, scene, texture, position + loadGlobals(scene).origin, none, none));
 }
 
 // A surface's albedo, or base colour.
-RT_FN vec3 surfaceAlbedo(uint features, SceneRef scene, RT_IN(Material) material, RT_IN(Surface) s) {
+RT_FN vec3 surfaceAlbedo(Features features, SceneRef scene, RT_IN(Material) material, RT_IN(Surface) s) {
     vec3 albedo = material.albedo;
     if (has(features, kTexturedFeatures) && material.texture != kNone) {
         albedo =
@@ -53,7 +53,7 @@ RT_FN Bsdf mediumBsdf(vec3 albedo) {
 }
 
 // The vertex of a collision in medium `index` at the distance t along the path's ray.
-RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, float t, uint index, RT_OUT(Vertex) v) {
+RT_FN void placeInMedium(Features features, SceneRef scene, RT_IN(PathState) s, float t, uint index, RT_OUT(Vertex) v) {
     RT_IN(Medium) medium = loadMedium(scene, index);
     v.index = s.vertex - 1u;
     v.inMedium = 1u;
@@ -68,7 +68,7 @@ RT_FN void placeInMedium(uint features, SceneRef scene, RT_IN(PathState) s, floa
 }
 
 // The vertex on a surface that the path's ray hit.
-RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
+RT_FN void placeOnSurface(Features features, SceneRef scene, RT_IN(PathState) s, RT_IN(Surface) surface,
                           RT_IN(Material) material, RT_OUT(Vertex) v) {
     v.index = s.vertex - 1u;
     v.inMedium = 0u;
@@ -93,7 +93,7 @@ RT_FN void placeOnSurface(uint features, SceneRef scene, RT_IN(PathState) s, RT_
 }
 
 // Gives a vertex of a principled material its lobes. Apart from its place, as packets of paths do it in lanes.
-RT_FN void completeVertex(uint features, SceneRef scene, RT_INOUT(Vertex) v) {
+RT_FN void completeVertex(Features features, SceneRef scene, RT_INOUT(Vertex) v) {
     if (!isPrincipled(features, v.bsdf)) return;
     vec3 coat = v.bsdf.lobes.coatNormal;
     float cosine = clamp(dot(v.wo, v.shading), 0.0f, 1.0f);
@@ -107,7 +107,7 @@ RT_FN void completeVertex(uint features, SceneRef scene, RT_INOUT(Vertex) v) {
 
 // f |cos| in rgb, density over solid angle of the bsdf's own sampling in w. Directions that cross the geometric surface
 // are black, whatever the interpolated normal says.
-RT_FN vec4 evalScattering(uint features, RT_IN(Vertex) v, vec3 wi) {
+RT_FN vec4 evalScattering(Features features, RT_IN(Vertex) v, vec3 wi) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) {
         return vec4(v.bsdf.albedo * kPhasePdf, kPhasePdf);
     }
@@ -115,12 +115,12 @@ RT_FN vec4 evalScattering(uint features, RT_IN(Vertex) v, vec3 wi) {
     return evalBsdf(features, v.bsdf, v.shading, v.wo, wi);
 }
 
-RT_FN bool isDeltaVertex(uint features, RT_IN(Vertex) v) {
+RT_FN bool isDeltaVertex(Features features, RT_IN(Vertex) v) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) return false;
     return isDelta(features, v.bsdf);
 }
 
-RT_FN BsdfSample sampleScattering(uint features, RT_IN(Vertex) v, vec2 u) {
+RT_FN BsdfSample sampleScattering(Features features, RT_IN(Vertex) v, vec2 u) {
     if (has(features, kFeatureVolumes) && v.inMedium != 0u) return samplePhase(v.bsdf.albedo, u);
     return sampleBsdf(features, v.bsdf, v.shading, v.front, v.wo, u, u.x);
 }

@@ -47,12 +47,12 @@ RT_FN vec3 transformNormal(vec4 row0, vec4 row1, vec4 row2, vec3 n) {
     return normalize(vec3(row0) * n.x + vec3(row1) * n.y + vec3(row2) * n.z);
 }
 
-RT_FN vec3 sphereCenter(uint features, SceneRef scene, RT_IN(Sphere) sphere, uint index, float time) {
+RT_FN vec3 sphereCenter(Features features, SceneRef scene, RT_IN(Sphere) sphere, uint index, float time) {
     if (!has(features, kFeatureMovingSpheres)) return sphere.center;
     return sphere.center + loadSphereMotion(scene, index) * time;
 }
 
-RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
+RT_FN Surface sphereSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     RT_IN(Sphere) sphere = loadSphere(scene, hit.primitive);
     vec3 center = sphereCenter(features, scene, sphere, hit.primitive, ray.time);
     SpherePoint point = spherePoint(ray, center, sphere.radius, hit.t);
@@ -64,13 +64,13 @@ RT_FN Surface sphereSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN
     s.uv = vec2(0.0f, 0.0f);
     if (has(features, kFeatureImages)) s.uv = sphereUv(s.normal);
     // u runs eastwards.
-    if (has(features, kFeatureDetail)) addDetail(s.uv, vec4(s.normal.z, 0.0f, -s.normal.x, 1.0f), s);
+    if (has(features, kFeatureVertexAttributes)) addDetail(s.uv, vec4(s.normal.z, 0.0f, -s.normal.x, 1.0f), s);
     s.material = sphere.material;
     s.light = sphere.light;
     return s;
 }
 
-RT_FN Surface quadSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
+RT_FN Surface quadSurface(Features features, SceneRef scene, RT_IN(Hit) hit) {
     RT_IN(Quad) quad = loadQuad(scene, hit.primitive);
     Surface s;
     vec3 alongU = quad.edgeU * hit.u;
@@ -81,7 +81,7 @@ RT_FN Surface quadSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     s.normal = quad.normal;
     s.shading = quad.normal;
     s.uv = vec2(hit.u, hit.v);
-    if (has(features, kFeatureDetail)) addDetail(s.uv, vec4(quad.edgeU, 1.0f), s);
+    if (has(features, kFeatureVertexAttributes)) addDetail(s.uv, vec4(quad.edgeU, 1.0f), s);
     s.material = quad.material;
     s.light = quad.light;
     return s;
@@ -111,7 +111,7 @@ RT_FN void addMeshDetail(SceneRef scene, RT_IN(Mesh) mesh, uvec3 index, RT_IN(Hi
     }
 }
 
-RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
+RT_FN Surface triangleSurface(Features features, SceneRef scene, RT_IN(Hit) hit) {
     uvec3 index = loadTriangle(scene, hit.primitive);
     RT_IN(Mesh) mesh = loadMesh(scene, loadTriangleMesh(scene, hit.primitive));
     vec3 p0 = loadPosition(scene, index.x);
@@ -138,19 +138,19 @@ RT_FN Surface triangleSurface(uint features, SceneRef scene, RT_IN(Hit) hit) {
     if (has(features, kFeatureImages) && mesh.firstUv != kNone) {
         s.uv = meshUv(scene, mesh, mesh.firstUv, index, vec2(hit.u, hit.v));
     }
-    if (has(features, kFeatureDetail)) addMeshDetail(scene, mesh, index, hit, s);
+    if (has(features, kFeatureVertexAttributes)) addMeshDetail(scene, mesh, index, hit, s);
     s.material = mesh.material;
     s.light = mesh.firstLight == kNone ? kNone : mesh.firstLight + hit.primitive - mesh.firstTriangle;
     return s;
 }
 
-RT_FN Surface primitiveSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
+RT_FN Surface primitiveSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (has(features, kFeatureTriangles) && hit.kind == kTriangle) return triangleSurface(features, scene, hit);
     if (has(features, kFeatureQuads) && hit.kind == kQuad) return quadSurface(features, scene, hit);
     return sphereSurface(features, scene, ray, hit);
 }
 
-RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
+RT_FN Surface makeSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     if (!has(features, kFeatureInstances) || hit.instance == kNone) return primitiveSurface(features, scene, ray, hit);
     RT_IN(Instance) instance = loadInstance(scene, hit.instance);
     Ray local = ray;
@@ -165,7 +165,7 @@ RT_FN Surface makeSurface(uint features, SceneRef scene, RT_IN(Ray) ray, RT_IN(H
     s.position = transformPoint(instance.toWorld[0], instance.toWorld[1], instance.toWorld[2], s.position);
     s.normal = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.normal);
     s.shading = transformNormal(instance.toObject[0], instance.toObject[1], instance.toObject[2], s.shading);
-    if (has(features, kFeatureDetail)) {
+    if (has(features, kFeatureVertexAttributes)) {
         vec3 along = transformVector(instance.toWorld[0], instance.toWorld[1], instance.toWorld[2], vec3(s.tangent));
         // A map that mirrors turns the bitangent over.
         vec3 x = vec3(instance.toWorld[0]);

@@ -129,7 +129,7 @@ RT_FN vec4 imageColor(SceneRef scene, RT_IN(Texture) t, vec2 uv) {
 
 // Colour and opacity. `point` in authored world coordinates (SceneGlobals::origin added back), `uv` and `uv2` the
 // surface's texture coordinates.
-RT_FN vec4 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, vec2 uv, vec2 uv2) {
+RT_FN vec4 evalTexture(Features features, SceneRef scene, uint texture, vec3 point, vec2 uv, vec2 uv2) {
     Texture t = loadTexture(scene, texture);
     if (has(features, kFeatureChecker)) {
         for (int depth = 0; depth < kMaxCheckerDepth && t.kind == kTextureChecker; ++depth) {
@@ -138,7 +138,7 @@ RT_FN vec4 evalTexture(uint features, SceneRef scene, uint texture, vec3 point, 
     }
     vec4 color = vec4(t.color, 1.0f);
     if (has(features, kFeatureImages) && t.kind == kTextureImage) {
-        color = color * imageColor(scene, t, has(features, kFeatureDetail) && t.uvSet != 0u ? uv2 : uv);
+        color = color * imageColor(scene, t, has(features, kFeatureVertexAttributes) && t.uvSet != 0u ? uv2 : uv);
     } else if (has(features, kFeatureNoise) && isNoise(t.kind)) {
         color = vec4(t.color * noiseValue(scene, t, point), 1.0f);
     }

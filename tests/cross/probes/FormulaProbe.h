@@ -121,7 +121,7 @@ RT_FN uvec4 probeLightSample(RT_INOUT(Arguments) a, uint kind) {
     Light light = kind == kLightEllipsoid ? probeEllipsoid(a) : probeLight(a, kind);
     vec3 position = cubePoint(a);
     vec3 normal = vec3(0.0f, 1.0f, 0.0f);
-    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kFeatureEllipsoidLights;
+    Features features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kFeatureEllipsoidLights;
     uint shape = a.key % 3u == 0u ? kShapeAuto : (a.key % 3u == 1u ? kShapeSolidAngle : kShapeArea);
     RenderParams params = probeParams(shape);
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
@@ -134,7 +134,7 @@ RT_FN uvec4 probeProjectedLight(RT_INOUT(Arguments) a, uint kind) {
     Light light = probeLight(a, kind);
     vec3 position = cubePoint(a);
     vec3 normal = unitVector(a);
-    uint features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kFeatureProjected;
+    Features features = kFeatureSphereLights | kFeatureQuadLights | kFeatureTriangleLights | kMethodProjected;
     LightSample s = sampleLight(features, params, light, position, normal, 0.0f, uniformPair(a));
     if (!(s.pdf > 0.0f)) return floatWords(0.0f, 0.0f, 0.0f, 0.0f);
     float again = lightPdf(features, params, light, position, normal, 0.0f, s.wi, s.distance, s.normal);

@@ -169,10 +169,10 @@ RT_FN uvec4 probeLight(uint family, uint which, uint mode, uint i) {
     a.key = i;
     a.next = ((family * kProbeCases + which) * kProbeModes + mode) << 8u;
     uint kind = probeKind(family);
-    uint features = kind == kLightSphere ? kFeatureSphereLights
-                                         : (kind == kLightQuad ? kFeatureQuadLights : kFeatureTriangleLights);
+    Features features = kind == kLightSphere ? kFeatureSphereLights
+                                             : (kind == kLightQuad ? kFeatureQuadLights : kFeatureTriangleLights);
     if (kind == kLightEllipsoid) features = kFeatureEllipsoidLights;
-    if (isProbeProjected(family)) features |= kFeatureProjected;
+    if (isProbeProjected(family)) features |= kMethodProjected;
     bool stress = mode == kProbeStress;
     Light light = probeCaseLight(family, which);
     vec3 position = vec3(0.0f);

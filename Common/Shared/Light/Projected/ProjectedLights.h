@@ -1,20 +1,20 @@
 // Light sampling by projected solid angle, the solid angle weighed by the cosine to the receiver's normal: an
 // unoccluded diffuse receiver then sees no variance. This header is all that others need of the folder.
 //
-// In GLSL only shaders that define RT_FULL have the code, see Shim.h. In the others nothing is ever visible.
+// In GLSL only shaders that define RT_HEAVY_FEATURES have the code, see Shim.h. In the others nothing is ever visible.
 //
 // Densities are on the unit disk of the receiver's tangent plane; per steradian that is times the cosine.
 #ifndef RT_SHARED_PROJECTED_LIGHTS_H
 #define RT_SHARED_PROJECTED_LIGHTS_H
 #include "Common/Shared/Light/Projected/ProjectedCap.h"
 #include "Common/Shared/Light/Projected/VisibleCap.h"
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 #include "Common/Shared/Light/Projected/ProjectedPolygon.h"
 #endif
 
 RT_SHARED_BEGIN
 
-#ifdef RT_FULL
+#ifdef RT_HEAVY_FEATURES
 
 RT_FN ProjectedPolygon projectedFlat(RT_IN(Light) light, vec3 corner, vec3 normal) {
     return makeProjectedPolygon(corner, light.edgeU, light.edgeV, light.normal, light.kind == kLightTriangle, normal);

@@ -15,7 +15,7 @@ RT_SHARED_BEGIN
 
 // Square of the sine of the cone below which the cosine hardly varies within it, and directions from its axis lose
 // digits.
-const float kLeastCapSine2 = 1.0e-3f;
+const float kMinCapSine2 = 1.0e-3f;
 
 // The cosine of an angle of this sine, up to rounding beyond 1.
 RT_FN float cosineOf(float sine) {

@@ -11,7 +11,7 @@ namespace rt::scene {
 
 // The pixels of an image that the edge of a light may cross: within them the camera's rays may meet its radiance or
 // miss it, as they may in all of a ball of glass that shows a light, or in a spot of a blurred mirror that does.
-struct LightEdges {
+struct Silhouettes {
     // Of each pixel, row by row, the rectangle that holds all of it that lights with edges there can cover: in 1/255 of
     // a pixel and from the lowest byte on, where it begins from the left and from above, and where it ends. 0: no edge.
     // Empty: no pixel has one.
@@ -29,12 +29,12 @@ struct LightEdges {
 
 // What hides a light is not looked at, nor are edges in mirrors and behind glass other than spheres
 // (LightsInSpheres.h) and spots (LightsInMirrors.h), nor those of textures; triangles of a mesh have no edges where
-// they meet others that face the same way. Of more than kMostLightsWithEdges lights none has any, so that a window can
+// they meet others that face the same way. Of more than kMaxLightsWithEdges lights none has any, so that a window can
 // ask with every move of the camera. The camera is that of an image of this size.
-LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
-                          std::uint32_t height);
+Silhouettes findSilhouettes(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
+                            std::uint32_t height);
 // Whether any camera could find some.
-bool mayHaveLightEdges(const CompiledScene& scene);
-inline constexpr std::size_t kMostLightsWithEdges = 10'000;
+bool mayHaveSilhouettes(const CompiledScene& scene);
+inline constexpr std::size_t kMaxLightsWithEdges = 10'000;
 
 } // namespace rt::scene

@@ -1,4 +1,4 @@
-#include "Common/Scene/LightEdges.h"
+#include "Common/Scene/Silhouettes.h"
 
 #include <algorithm>
 #include <array>
@@ -32,7 +32,8 @@ bool isFlat(const Light& light) {
 // The image, on which lines in space are drawn.
 class EdgeImage {
   public:
-    EdgeImage(const ImagePlane& plane, const shared::Camera& camera, LightEdges& edges) : plane_(plane), edges_(edges) {
+    EdgeImage(const ImagePlane& plane, const shared::Camera& camera, Silhouettes& edges)
+        : plane_(plane), edges_(edges) {
         const glm::dvec3 u = plane_.toView(camera.lensU), v = plane_.toView(camera.lensV);
         lens_ = plane_.size() * glm::dvec2(std::hypot(u.x, v.x), std::hypot(u.y, v.y));
     }
@@ -111,7 +112,7 @@ class EdgeImage {
 
     const ImagePlane& plane_;
     glm::dvec2 lens_; // half axes of the blur of what is infinitely far away, in pixels
-    LightEdges& edges_;
+    Silhouettes& edges_;
     std::vector<Line> lines_;
     bool isCut_ = false; // a part of them is behind the camera
 };
@@ -149,7 +150,7 @@ void drawOutline(const Ellipsoid& light, double pixels, EdgeImage& image) {
 }
 
 void drawRound(const Light& light, EdgeImage& image) {
-    constexpr double kMostSteps = 64.0;
+    constexpr double kMaxSteps = 64.0;
     const glm::dvec3 center(light.position);
     const double distance = glm::length(center - image.eye());
     if (light.kind == shared::kLightEllipsoid) {
@@ -161,7 +162,7 @@ void drawRound(const Light& light, EdgeImage& image) {
     }
     // One that moves is drawn where it is a pixel further on.
     const glm::dvec3 way(light.edgeU);
-    const double steps = std::clamp(std::ceil(image.pixels(glm::length(way), distance)), 1.0, kMostSteps);
+    const double steps = std::clamp(std::ceil(image.pixels(glm::length(way), distance)), 1.0, kMaxSteps);
     for (double i = 0; i < (way == glm::dvec3(0.0) ? 1.0 : steps + 1.0); ++i) {
         drawOutline({center + way * (i / steps), glm::dmat3(light.radius)}, image.pixels(light.radius, distance),
                     image);
@@ -245,7 +246,7 @@ std::uint32_t stepsBetween(double begin, double end) {
 
 } // namespace
 
-void LightEdges::add(std::uint64_t pixel, const glm::dvec2& begin, const glm::dvec2& end) {
+void Silhouettes::add(std::uint64_t pixel, const glm::dvec2& begin, const glm::dvec2& end) {
     const std::uint32_t part = stepsBetween(begin.x, end.x) | stepsBetween(begin.y, end.y) << 8;
     std::uint32_t& all = parts[pixel];
     if (all == 0) {
@@ -261,24 +262,24 @@ void LightEdges::add(std::uint64_t pixel, const glm::dvec2& begin, const glm::dv
     all = united;
 }
 
-std::vector<std::uint32_t> LightEdges::bits() const {
+std::vector<std::uint32_t> Silhouettes::bits() const {
     std::vector<std::uint32_t> words((parts.size() + 31) / 32);
     for (std::size_t pixel = 0; pixel < parts.size(); ++pixel)
         words[pixel / 32] |= static_cast<std::uint32_t>(parts[pixel] != 0) << pixel % 32;
     return words;
 }
 
-bool mayHaveLightEdges(const CompiledScene& scene) {
+bool mayHaveSilhouettes(const CompiledScene& scene) {
     const auto hasShape = [](const Light& light) { return isRound(light) || isFlat(light); };
-    return scene.globals.lightCount <= kMostLightsWithEdges &&
+    return scene.globals.lightCount <= kMaxLightsWithEdges &&
            std::any_of(scene.lights.begin(), scene.lights.begin() + scene.globals.lightCount, hasShape);
 }
 
-LightEdges findLightEdges(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
-                          std::uint32_t height) {
-    if (!mayHaveLightEdges(scene)) return {};
+Silhouettes findSilhouettes(const CompiledScene& scene, const shared::Camera& camera, std::uint32_t width,
+                            std::uint32_t height) {
+    if (!mayHaveSilhouettes(scene)) return {};
     constexpr double kGrid = 1e-5; // of the largest coordinate
-    LightEdges edges;
+    Silhouettes edges;
     edges.parts.resize(std::uint64_t{width} * height);
     const ImagePlane plane(camera, width, height);
     EdgeImage image(plane, camera, edges);

@@ -1,4 +1,4 @@
-#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/Compiler/SpecularCasters.h"
 
 #include <algorithm>
 #include <functional>
@@ -7,19 +7,19 @@
 #include <vector>
 
 #include "Common/Scene/Affine.h"
-#include "Common/Scene/Compiler/SphereReaches.h"
+#include "Common/Scene/Compiler/CasterLights.h"
 #include "Common/Shared/Material/Materials.h"
 
 namespace rt::scene {
 
 namespace {
 
-constexpr double kLeastIor = 1.01;      // below it a sphere focuses nothing
-constexpr double kLeastIorInside = 1.3; // see kNearestInside
-constexpr double kLeastShare = 0.1;     // of the light that goes on from spheres; less is not worth the time
-constexpr double kMirrorWorth = 0.25;   // see kWorthConnecting
-// Of spheres and lights, at least kReachedLights: eight of more spheres matter less than the time to choose them.
-constexpr std::size_t kMostPairs = 1 << 23;
+constexpr double kMinIor = 1.01;      // below it a sphere focuses nothing
+constexpr double kMinIorInside = 1.3; // see kNearestInside
+constexpr double kMinShare = 0.1;     // of the light that goes on from spheres; less is not worth the time
+constexpr double kMirrorWorth = 0.25; // see kWorthConnecting
+// Of spheres and lights, at least kCasterLights: eight of more spheres matter less than the time to choose them.
+constexpr std::size_t kMaxPairs = 1 << 23;
 
 bool isMirror(const shared::Material& material) {
     return material.kind == shared::kMaterialMetal && material.parameter[shared::kMetalFuzz] <= shared::kMirrorFuzz;
@@ -28,27 +28,27 @@ bool isMirror(const shared::Material& material) {
 // Clear glass, or a mirror.
 bool isSmooth(const shared::Material& material) {
     const bool isGlass =
-        material.kind == shared::kMaterialDielectric && material.parameter[shared::kDielectricIor] >= kLeastIor;
+        material.kind == shared::kMaterialDielectric && material.parameter[shared::kDielectricIor] >= kMinIor;
     return (isGlass || isMirror(material)) && material.texture == shared::kNone &&
            material.emission == shared::vec3(0.0f);
 }
 
 // Where spheres stand: in the world, or in an instance that scales all lengths by one factor.
-struct Standing {
+struct InstancePlacement {
     Affine toWorld;
     double scale = 1;
     std::uint32_t instance = shared::kNone;
     std::uint32_t material = shared::kNone; // replaces theirs unless kNone
 };
 
-const shared::Material& materialAt(const CompiledScene& scene, std::uint32_t sphere, const Standing& at) {
+const shared::Material& materialAt(const CompiledScene& scene, std::uint32_t sphere, const InstancePlacement& at) {
     return scene.materials[at.material != shared::kNone ? at.material : scene.spheres[sphere].material];
 }
 
 // Nothing where spheres do not stay spheres.
-std::optional<Standing> standing(const CompiledScene& scene, std::uint32_t index) {
+std::optional<InstancePlacement> placementOf(const CompiledScene& scene, std::uint32_t index) {
     const shared::Instance& instance = scene.instances[index];
-    Standing at;
+    InstancePlacement at;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column)
             at.toWorld.linear[column][row] = static_cast<double>(instance.toWorld[row][column]);
@@ -62,11 +62,11 @@ std::optional<Standing> standing(const CompiledScene& scene, std::uint32_t index
     return at;
 }
 
-shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t index, const Standing& at,
-                                  std::uint32_t crossings) {
+shared::SpecularCaster specularCaster(const CompiledScene& scene, std::uint32_t index, const InstancePlacement& at,
+                                      std::uint32_t crossings) {
     const shared::Sphere& sphere = scene.spheres[index];
     const shared::Material& material = materialAt(scene, index, at);
-    shared::SmoothSphere smooth{};
+    shared::SpecularCaster smooth{};
     smooth.center = shared::vec3(at.toWorld.point(sphere.center));
     smooth.radius = static_cast<float>(static_cast<double>(sphere.radius) * at.scale);
     if (!scene.sphereMotions.empty()) smooth.motion = shared::vec3(at.toWorld.vector(scene.sphereMotions[index]));
@@ -84,25 +84,24 @@ shared::SmoothSphere smoothSphere(const CompiledScene& scene, std::uint32_t inde
 }
 
 struct Candidate {
-    shared::SmoothSphere sphere;
+    shared::SpecularCaster sphere;
     double flux; // that goes on from it
 };
 
 // The candidates that most light goes on from, those first, and that which most is refracted by of those that are worth
 // aiming at; of equal ones the first that came.
-class Brightest {
+class CasterSelection {
   public:
-    Brightest(const CompiledScene& scene, double leastVariance) : scene_(scene), leastVariance_(leastVariance) {}
+    CasterSelection(const CompiledScene& scene, double minVariance) : scene_(scene), minVariance_(minVariance) {}
 
-    void consider(std::uint32_t index, const Standing& at) {
+    void consider(std::uint32_t index, const InstancePlacement& at) {
         const shared::Material& material = materialAt(scene_, index, at);
-        const auto by = [&](std::uint32_t crossings) { return smoothSphere(scene_, index, at, crossings); };
+        const auto by = [&](std::uint32_t crossings) { return specularCaster(scene_, index, at, crossings); };
         if (isMirror(material)) {
-            consider(by(shared::kReflectedOutside), leastVariance_ * kMirrorWorth);
-        } else if (consider(by(shared::kRefracted), leastVariance_)) {
+            consider(by(shared::kReflectedOutside), minVariance_ * kMirrorWorth);
+        } else if (consider(by(shared::kRefracted), minVariance_)) {
             consider(by(shared::kReflectedOutside), 0);
-            if (material.parameter[shared::kDielectricIor] >= kLeastIorInside)
-                consider(by(shared::kReflectedInside), 0);
+            if (material.parameter[shared::kDielectricIor] >= kMinIorInside) consider(by(shared::kReflectedInside), 0);
         }
     }
 
@@ -111,10 +110,10 @@ class Brightest {
     void addTo(CompiledScene& out) const {
         double flux = 0;
         for (const Candidate& candidate : spheres_) flux += candidate.flux;
-        if (!spheres_.empty() && flux >= kLeastShare * flux_) {
-            for (const Candidate& candidate : spheres_) addSmoothSphere(candidate.sphere, *sky_, out);
+        if (!spheres_.empty() && flux >= kMinShare * flux_) {
+            for (const Candidate& candidate : spheres_) addSpecularCaster(candidate.sphere, *sky_, out);
             for (const BrightPatch& patch : sky_->patches) out.skyPatches.push_back(patch.texels);
-        } else if (aimed_.flux > 0 && aimed_.flux >= kLeastShare * aimedFlux_) {
+        } else if (aimed_.flux > 0 && aimed_.flux >= kMinShare * aimedFlux_) {
             out.globals.aimed = aimedSphere(aimed_.sphere, *sky_, out);
         }
     }
@@ -123,7 +122,7 @@ class Brightest {
     // A sample finds light i, of radiance L_i and irradiance E_i, with probability E_i / (pi L_i): its second moment is
     // sum(L_i E_i) / pi, its mean sum(E_i) / pi. Of the second moment only what is connected to counts. Returns whether
     // the sphere is worth connections.
-    bool consider(const shared::SmoothSphere& sphere, double leastVariance) {
+    bool consider(const shared::SpecularCaster& sphere, double minVariance) {
         if (!sky_) sky_ = findBrightSky(scene_);
         const LightsOnSphere lights = lightsOn(sphere, scene_, *sky_);
         if (lights.connected.empty()) return false;
@@ -136,12 +135,12 @@ class Brightest {
         const double flux = mean * radius * radius * part;
         if (!(flux > 0)) return false;
         const double variance = (std::numbers::pi * second / (mean * mean) - 1) * part;
-        if (variance >= leastVariance) add({sphere, flux});
+        if (variance >= minVariance) add({sphere, flux});
         if (variance >= kWorthAiming && refracts) {
             aimedFlux_ += flux;
             if (flux > aimed_.flux) aimed_ = {sphere, flux};
         }
-        return variance >= leastVariance;
+        return variance >= minVariance;
     }
 
     void add(const Candidate& candidate) {
@@ -152,7 +151,7 @@ class Brightest {
     }
 
     const CompiledScene& scene_;
-    const double leastVariance_;
+    const double minVariance_;
     std::optional<BrightSky> sky_; // found when the first sphere asks for it
     std::vector<Candidate> spheres_;
     double flux_ = 0; // of all candidates
@@ -160,10 +159,10 @@ class Brightest {
     double aimedFlux_ = 0; // of all that are worth aiming at
 };
 
-using Visit = std::function<void(std::uint32_t sphere, const Standing& at)>;
+using Visit = std::function<void(std::uint32_t sphere, const InstancePlacement& at)>;
 
 // The spheres of a geometry whose own material is smooth, whatever that of an instance is.
-std::vector<std::uint32_t> smoothSpheresOf(const CompiledScene& scene, const shared::Geometry& geometry) {
+std::vector<std::uint32_t> specularCastersOf(const CompiledScene& scene, const shared::Geometry& geometry) {
     std::vector<std::uint32_t> spheres;
     for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
         if (isSmooth(scene.materials[scene.spheres[i].material])) spheres.push_back(i);
@@ -174,7 +173,8 @@ std::vector<std::uint32_t> smoothSpheresOf(const CompiledScene& scene, const sha
 class InstancedSpheres {
   public:
     explicit InstancedSpheres(const CompiledScene& scene) : scene_(scene), own_(scene.geometries.size()) {
-        for (std::size_t g = 1; g < scene.geometries.size(); ++g) own_[g] = smoothSpheresOf(scene, scene.geometries[g]);
+        for (std::size_t g = 1; g < scene.geometries.size(); ++g)
+            own_[g] = specularCastersOf(scene, scene.geometries[g]);
         for (const shared::Instance& instance : scene.instances) count_ += countIn(instance);
     }
 
@@ -183,7 +183,7 @@ class InstancedSpheres {
     void each(const Visit& visit) const {
         for (std::uint32_t i = 0; i < scene_.instances.size(); ++i) {
             const std::size_t count = countIn(scene_.instances[i]);
-            const std::optional<Standing> at = count > 0 ? standing(scene_, i) : std::nullopt;
+            const std::optional<InstancePlacement> at = count > 0 ? placementOf(scene_, i) : std::nullopt;
             for (std::size_t k = 0; at && k < count; ++k) visit(sphereIn(scene_.instances[i], k), *at);
         }
     }
@@ -205,34 +205,35 @@ class InstancedSpheres {
 };
 
 // Visits the smooth spheres of the world and those of instances; none of either if they are more than `most`.
-void eachSmoothSphere(const CompiledScene& scene, std::size_t most, const Visit& visit) {
-    const std::vector<std::uint32_t> world = smoothSpheresOf(scene, scene.geometries.front());
-    if (world.size() <= most)
+void eachSpecularCaster(const CompiledScene& scene, std::size_t maximum, const Visit& visit) {
+    const std::vector<std::uint32_t> world = specularCastersOf(scene, scene.geometries.front());
+    if (world.size() <= maximum)
         for (const std::uint32_t sphere : world) visit(sphere, {});
     const InstancedSpheres instanced(scene);
-    if (instanced.count() <= most) instanced.each(visit);
+    if (instanced.count() <= maximum) instanced.each(visit);
 }
 
 } // namespace
 
-void findSmoothSpheres(CompiledScene& out, double leastVariance) {
-    out.smoothSpheres.clear();
-    out.sphereReaches.clear();
+void findSpecularCasters(CompiledScene& out, double minVariance) {
+    out.specularCasters.clear();
+    out.casterLights.clear();
     out.globals.aimed = {};
-    out.globals.litSpheres = 0;
+    out.globals.maxCasterIrradiance = 0;
     out.skyPatches.clear();
     if (out.globals.lightCount == 0) return;
-    const std::size_t most = kMostPairs / std::max(out.globals.lightCount, shared::kReachedLights);
-    Brightest brightest(out, leastVariance);
-    eachSmoothSphere(out, most, [&](std::uint32_t sphere, const Standing& at) { brightest.consider(sphere, at); });
+    const std::size_t maximum = kMaxPairs / std::max(out.globals.lightCount, shared::kCasterLights);
+    CasterSelection brightest(out, minVariance);
+    eachSpecularCaster(out, maximum,
+                       [&](std::uint32_t sphere, const InstancePlacement& at) { brightest.consider(sphere, at); });
     brightest.addTo(out);
 }
 
-std::vector<shared::SmoothSphere> allSmoothSpheres(const CompiledScene& scene, std::size_t most) {
-    std::vector<shared::SmoothSphere> spheres;
-    eachSmoothSphere(scene, most, [&](std::uint32_t index, const Standing& at) {
+std::vector<shared::SpecularCaster> allSpecularCasters(const CompiledScene& scene, std::size_t maximum) {
+    std::vector<shared::SpecularCaster> spheres;
+    eachSpecularCaster(scene, maximum, [&](std::uint32_t index, const InstancePlacement& at) {
         const bool isGlass = !isMirror(materialAt(scene, index, at));
-        spheres.push_back(smoothSphere(scene, index, at, isGlass ? shared::kRefracted : shared::kReflectedOutside));
+        spheres.push_back(specularCaster(scene, index, at, isGlass ? shared::kRefracted : shared::kReflectedOutside));
     });
     return spheres;
 }

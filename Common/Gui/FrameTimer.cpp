@@ -1,4 +1,4 @@
-#include "Common/Gui/TurnMeter.h"
+#include "Common/Gui/FrameTimer.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +11,7 @@ constexpr double kLateSeconds = 10;
 
 } // namespace
 
-void TurnMeter::add(double seconds) {
+void FrameTimer::add(double seconds) {
     if (!std::exchange(started_, true)) return; // that turn has built the interface
     const double now = clock_.seconds();
     turns_.push_back({now, seconds});

@@ -12,7 +12,7 @@ struct UiFigures {
     double longestOfLate = 0; // as window.longestTurn, of the last ten seconds
 };
 
-class TurnMeter {
+class FrameTimer {
   public:
     void add(double seconds); // a turn of this length has just ended
     const UiFigures& figures() const { return figures_; }

@@ -19,21 +19,21 @@ struct LightOnSphere {
 };
 
 struct LightsOnSphere {
-    // The lights with the most noise, kReachedLights at most, in the scene's order; none where these have less than
+    // The lights with the most noise, kCasterLights at most, in the scene's order; none where these have less than
     // half of the light of all that could be connected to.
     std::vector<LightOnSphere> connected;
     double irradiance = 0; // of all, and of the whole sky
 };
 
-LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky);
+LightsOnSphere lightsOn(const shared::SpecularCaster& sphere, const CompiledScene& scene, const BrightSky& sky);
 
 // Fraction of parallel light, falling on a sphere, that goes on from it after so many crossings.
 double meanFraction(double inverseEta, std::uint32_t crossings);
 
 // Adds the sphere to those of the scene, with its reaches. Some light that is connected to falls on it.
-void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out);
+void addSpecularCaster(shared::SpecularCaster sphere, const BrightSky& sky, CompiledScene& out);
 
 // The sphere, by refraction, as one to aim at. Some light that could be connected to falls on it.
-shared::AimedSphere aimedSphere(shared::SmoothSphere sphere, const BrightSky& sky, const CompiledScene& scene);
+shared::AimedSphere aimedSphere(shared::SpecularCaster sphere, const BrightSky& sky, const CompiledScene& scene);
 
 } // namespace rt::scene

@@ -1,4 +1,4 @@
-#include "Common/Image/ImageTest.h"
+#include "Common/Image/ImageEquivalence.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace rt::image {
 namespace {
 
 constexpr double kFalseDiscoveryRate = 1e-3;
-constexpr double kLeastGlobalP = 1e-3;
+constexpr double kMinGlobalP = 1e-3;
 constexpr double kLargestSpreadZ = 4;
 
 // Means over squares of `side` pixels (fewer at the right and lower edge), channels kept apart.
@@ -100,7 +100,7 @@ void checkBlocks(std::span<const Image> a, std::span<const Image> b) {
 } // namespace
 
 bool ImageTestResult::passed() const {
-    return globalP > kLeastGlobalP && tileDiscoveries == 0 && pixelDiscoveries == 0 &&
+    return globalP > kMinGlobalP && tileDiscoveries == 0 && pixelDiscoveries == 0 &&
            std::abs(spreadZ) <= kLargestSpreadZ;
 }
 

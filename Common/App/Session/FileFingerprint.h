@@ -8,17 +8,17 @@
 
 namespace rt::app {
 
-struct FileMark {
+struct FileFingerprint {
     std::string file;
     std::filesystem::file_time_type written{};
     std::uintmax_t bytes = 0;
-    bool operator==(const FileMark&) const = default;
+    bool operator==(const FileFingerprint&) const = default;
 };
 
 // Nothing where there is no such file: a built-in scene, or a file between two of its lives.
-inline std::optional<FileMark> markOf(const std::string& file) {
+inline std::optional<FileFingerprint> markOf(const std::string& file) {
     std::error_code missing;
-    FileMark mark{file, std::filesystem::last_write_time(file, missing), 0};
+    FileFingerprint mark{file, std::filesystem::last_write_time(file, missing), 0};
     if (!missing) mark.bytes = std::filesystem::file_size(file, missing);
     return missing ? std::nullopt : std::optional(std::move(mark));
 }

@@ -1,4 +1,4 @@
-#include "Common/Scene/Builtin/StandIns.h"
+#include "Common/Scene/Builtin/Placeholders.h"
 
 #include <system_error>
 

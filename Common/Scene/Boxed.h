@@ -7,19 +7,19 @@
 namespace rt::scene {
 
 template <class T>
-class Indirect {
+class Boxed {
   public:
-    Indirect(T value) : value_(std::make_unique<T>(std::move(value))) {}
-    Indirect(const Indirect& other) : Indirect(*other) {}
-    Indirect(Indirect&&) noexcept = default; // leaves nothing behind
-    Indirect& operator=(Indirect other) noexcept {
+    Boxed(T value) : value_(std::make_unique<T>(std::move(value))) {}
+    Boxed(const Boxed& other) : Boxed(*other) {}
+    Boxed(Boxed&&) noexcept = default; // leaves nothing behind
+    Boxed& operator=(Boxed other) noexcept {
         value_ = std::move(other.value_);
         return *this;
     }
 
     const T& operator*() const { return *value_; }
     const T* operator->() const { return value_.get(); }
-    bool operator==(const Indirect& other) const { return *value_ == *other.value_; }
+    bool operator==(const Boxed& other) const { return *value_ == *other.value_; }
 
   private:
     std::unique_ptr<T> value_;

@@ -1,4 +1,4 @@
-#include "Common/Scene/Compiler/SphereReaches.h"
+#include "Common/Scene/Compiler/CasterLights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,21 +17,21 @@ namespace {
 
 constexpr double kUsedFlux = 0.9; // of what falls on a sphere; what passes near its rim is spread widely
 // Gains of which less is not worth a connection. What is reflected is noise far away too, spread as it is.
-constexpr double kLeastRefracted = 0.004, kLeastReflected = 2.5e-5;
+constexpr double kMinRefracted = 0.004, kMinReflected = 2.5e-5;
 constexpr int kSteps = 64; // of means over the light that falls on a sphere
-constexpr double kMostGain = 4;
-constexpr double kLeastReached = 0.5; // of the light that could be connected to; with less, noise stays
+constexpr double kMaxGain = 4;
+constexpr double kMinReached = 0.5; // of the light that could be connected to; with less, noise stays
 
 shared::vec2 cosineAndSine(double angle) {
     return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))};
 }
 
-shared::vec3 middleOf(const shared::SmoothSphere& sphere) { // of its way while the shutter is open
+shared::vec3 middleOf(const shared::SpecularCaster& sphere) { // of its way while the shutter is open
     return sphere.center + 0.5f * sphere.motion;
 }
 
 // What a light irradiates the sphere's centre by; of the sky only patches are connected to.
-double irradianceAt(const shared::SmoothSphere& sphere, const shared::Light& light, const shared::LightBound& bound) {
+double irradianceAt(const shared::SpecularCaster& sphere, const shared::Light& light, const shared::LightBound& bound) {
     const bool hasExtent = light.kind < shared::kLightPoint && light.kind != shared::kLightSky;
     return hasExtent ? shared::lightContribution(bound, middleOf(sphere), shared::vec3(0.0f)) : 0.0f;
 }
@@ -44,27 +44,27 @@ double irradianceOf(std::span<const LightOnSphere> lights) {
 
 // As many as a sphere can be connected to; none if that is too small a part of their light.
 void keepNoisiest(std::vector<LightOnSphere>& lights) {
-    const double least = kLeastReached * irradianceOf(lights);
-    const auto end = lights.begin() + shared::kReachedLights;
+    const double minimum = kMinReached * irradianceOf(lights);
+    const auto end = lights.begin() + shared::kCasterLights;
     std::ranges::partial_sort(lights, end, std::greater(), &LightOnSphere::noise);
     lights.erase(end, lights.end());
-    if (irradianceOf(lights) < least) return lights.clear();
+    if (irradianceOf(lights) < minimum) return lights.clear();
     std::ranges::sort(lights, {}, [](const LightOnSphere& light) { return std::pair(light.light, light.skyPatch); });
 }
 
 // How the sphere sees a light at the middle of the shutter.
-shared::SphereReach reachOf(const shared::SmoothSphere& sphere, const shared::LightBound& bound) {
+shared::CasterLight reachOf(const shared::SpecularCaster& sphere, const shared::LightBound& bound) {
     const shared::vec3 toLight = bound.center - middleOf(sphere);
     const double distance = glm::length(toLight);
     const double sine = distance > bound.radius ? bound.radius / distance : 1;
-    shared::SphereReach reach{};
+    shared::CasterLight reach{};
     reach.axis = distance > 0 ? toLight / static_cast<float>(distance) : shared::vec3(0, 0, 1);
     reach.extent = cosineAndSine(std::asin(sine));
     return reach;
 }
 
-shared::SphereReach reachOf(const BrightPatch& patch) {
-    shared::SphereReach reach{};
+shared::CasterLight reachOf(const BrightPatch& patch) {
+    shared::CasterLight reach{};
     reach.axis = patch.axis;
     reach.extent = cosineAndSine(patch.angle);
     return reach;
@@ -98,12 +98,12 @@ double sineOf(int part) {
 // which `near` is at most nearY, or at that end: over all paths but those near the rim that turn the other way.
 double focusAngle(const Ends& ends) {
     constexpr int kAngles = 1000;
-    double most = 0;
+    double maximum = 0;
     for (int k = 1; k <= kAngles; ++k) {
         const double sine = std::sin(std::numbers::pi / 2 * k / kAngles), turn = ends.turn(sine);
-        most = std::max(most, sine * sine < kUsedFlux ? std::abs(turn) : -turn);
+        maximum = std::max(maximum, sine * sine < kUsedFlux ? std::abs(turn) : -turn);
     }
-    return most;
+    return maximum;
 }
 
 // Mean irradiance where light from one end falls at the other, over that at the centre: as if it fell evenly on a disc.
@@ -115,7 +115,7 @@ double focusGain(const Ends& ends, double spread) {
         flux += fraction;
         bent += fraction * (1 - std::cos(ends.turn(sineOf(k))));
     }
-    return std::min(flux * ends.nearX * ends.nearX / (2 * (2 * bent / flux + spread)), kMostGain);
+    return std::min(flux * ends.nearX * ends.nearX / (2 * (2 * bent / flux + spread)), kMaxGain);
 }
 
 // As focusGain(): parallel light is reflected into all directions alike. A quarter of it: it varies so little over a
@@ -133,10 +133,10 @@ struct LightsSeen {
 };
 
 // Fills `reach` and `nearest`.
-void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
+void boundReach(const LightsSeen& lights, shared::SpecularCaster& sphere) {
     const double inverseEta = static_cast<double>(sphere.inverseEta);
     const bool reflects = sphere.crossings == shared::kReflectedOutside;
-    const double leastGain = sphere.crossings == shared::kRefracted ? kLeastRefracted : kLeastReflected;
+    const double minGain = sphere.crossings == shared::kRefracted ? kMinRefracted : kMinReflected;
     sphere.nearest = 1;
     for (std::uint32_t step = shared::kReachSteps; step-- > 0;) {
         const double farthest = static_cast<double>(step) / shared::kReachSteps;
@@ -147,20 +147,20 @@ void boundReach(const LightsSeen& lights, shared::SmoothSphere& sphere) {
         const Ends typical{inverseEta, sphere.crossings, middle, lights.meanNear};
         const double gain = reflects ? reflectionGain(inverseEta, middle) : focusGain(typical, lights.spread);
         sphere.reach[step] = {static_cast<float>(std::cos(angle)), static_cast<float>(gain)};
-        if (angle > 0 && gain > leastGain) sphere.nearest = static_cast<float>(farthest);
+        if (angle > 0 && gain > minGain) sphere.nearest = static_cast<float>(farthest);
     }
 }
 
 // The lights that are connected to as the sphere sees them. Fills its `reach` and `nearest`.
-std::vector<shared::SphereReach> findReaches(shared::SmoothSphere& sphere, const BrightSky& sky,
-                                             const CompiledScene& scene) {
-    std::vector<shared::SphereReach> reaches;
+std::vector<shared::CasterLight> findCasterLights(shared::SpecularCaster& sphere, const BrightSky& sky,
+                                                  const CompiledScene& scene) {
+    std::vector<shared::CasterLight> reaches;
     LightsSeen lights;
     double sum = 0;
     for (const LightOnSphere& light : lightsOn(sphere, scene, sky).connected) {
         const bool isSky = light.skyPatch != shared::kNone;
         const shared::LightBound& bound = scene.lightBounds[light.light];
-        shared::SphereReach reach = isSky ? reachOf(sky.patches[light.skyPatch]) : reachOf(sphere, bound);
+        shared::CasterLight reach = isSky ? reachOf(sky.patches[light.skyPatch]) : reachOf(sphere, bound);
         reach.axis *= shared::sideAfter(sphere.crossings);
         reach.weight = static_cast<float>(light.irradiance);
         reach.light = light.light;
@@ -184,7 +184,7 @@ std::vector<shared::SphereReach> findReaches(shared::SmoothSphere& sphere, const
 
 } // namespace
 
-LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene& scene, const BrightSky& sky) {
+LightsOnSphere lightsOn(const shared::SpecularCaster& sphere, const CompiledScene& scene, const BrightSky& sky) {
     LightsOnSphere lights;
     lights.irradiance = sky.irradiance;
     for (std::uint32_t i = 0; i < scene.globals.lightCount; ++i) {
@@ -196,7 +196,7 @@ LightsOnSphere lightsOn(const shared::SmoothSphere& sphere, const CompiledScene&
     }
     for (std::uint32_t i = 0; i < sky.patches.size(); ++i)
         lights.connected.push_back({scene.globals.skyLight, i, sky.patches[i].irradiance, sky.patches[i].radiance});
-    if (lights.connected.size() > shared::kReachedLights) keepNoisiest(lights.connected);
+    if (lights.connected.size() > shared::kCasterLights) keepNoisiest(lights.connected);
     return lights;
 }
 
@@ -206,32 +206,32 @@ double meanFraction(double inverseEta, std::uint32_t crossings) {
     return sum / kSteps;
 }
 
-void addSmoothSphere(shared::SmoothSphere sphere, const BrightSky& sky, CompiledScene& out) {
-    const std::vector<shared::SphereReach> reaches = findReaches(sphere, sky, out);
-    sphere.firstReach = static_cast<std::uint32_t>(out.sphereReaches.size());
-    sphere.reachCount = static_cast<std::uint32_t>(reaches.size());
-    out.sphereReaches.insert(out.sphereReaches.end(), reaches.begin(), reaches.end());
-    out.smoothSpheres.push_back(sphere);
+void addSpecularCaster(shared::SpecularCaster sphere, const BrightSky& sky, CompiledScene& out) {
+    const std::vector<shared::CasterLight> reaches = findCasterLights(sphere, sky, out);
+    sphere.firstLight = static_cast<std::uint32_t>(out.casterLights.size());
+    sphere.lightCount = static_cast<std::uint32_t>(reaches.size());
+    out.casterLights.insert(out.casterLights.end(), reaches.begin(), reaches.end());
+    out.specularCasters.push_back(sphere);
     float irradiance = 0;
-    for (const shared::SphereReach& reach : reaches) irradiance += reach.weight;
-    out.globals.litSpheres = std::max(out.globals.litSpheres, irradiance);
+    for (const shared::CasterLight& reach : reaches) irradiance += reach.weight;
+    out.globals.maxCasterIrradiance = std::max(out.globals.maxCasterIrradiance, irradiance);
 }
 
-shared::AimedSphere aimedSphere(shared::SmoothSphere sphere, const BrightSky& sky, const CompiledScene& scene) {
+shared::AimedSphere aimedSphere(shared::SpecularCaster sphere, const BrightSky& sky, const CompiledScene& scene) {
     // All lights as one, around their mean direction, as from where the sphere looks 33 degrees wide: paths that are
     // aimed by it have the error of those that are by each light (within 0.02 in Cornell Box Lights).
     constexpr std::uint32_t kTypicalStep = shared::kReachSteps / 4;
     constexpr double kTypicalNear = (kTypicalStep + 0.5) / shared::kReachSteps;
-    const std::vector<shared::SphereReach> reaches = findReaches(sphere, sky, scene);
+    const std::vector<shared::CasterLight> reaches = findCasterLights(sphere, sky, scene);
     glm::dvec3 direction(0);
     double weight = 0, angle = 0;
-    for (const shared::SphereReach& reach : reaches) {
+    for (const shared::CasterLight& reach : reaches) {
         direction += static_cast<double>(reach.weight) * glm::dvec3(reach.axis);
         weight += static_cast<double>(reach.weight);
     }
     const double length = glm::length(direction);
     direction = length > 0 ? direction / length : glm::dvec3(reaches.front().axis);
-    for (const shared::SphereReach& reach : reaches) {
+    for (const shared::CasterLight& reach : reaches) {
         const double apart = std::acos(std::clamp(glm::dot(direction, glm::dvec3(reach.axis)), -1.0, 1.0));
         angle += static_cast<double>(reach.weight) * (apart + std::acos(static_cast<double>(reach.extent.x)));
     }

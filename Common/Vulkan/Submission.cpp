@@ -1,4 +1,4 @@
-#include "Common/Vulkan/Run.h"
+#include "Common/Vulkan/Submission.h"
 
 #include <array>
 #include <cstdint>

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/Scene/Compiler/SmoothSpheres.h"
+#include "Common/Scene/Compiler/SpecularCasters.h"
 #include "tests/ConnectedScene.h"
 #include "tests/unit/CompilerScenes.h"
 #include "tests/unit/Statistics.h"
@@ -49,7 +49,7 @@ const Transform kMirrored = {Scale{{-0.6, 0.6, 0.6}}, Rotate{{0, 1, 0}, 20}, Tra
 const Transform kFlattened = {Scale{{1, 0.8, 1}}, Translate{{0, 1, 2}}};
 
 // Smooth spheres of prototypes are listed as copies of these spheres in their place would be.
-TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
+TEST(SpecularCasters, OfInstancesAreThoseOfCopies) {
     const std::vector<ObjectDesc> ball = {{sphere({0.3, 0.5, -0.2}, 0.5, "glass")}, {beads("matte")}};
     SceneDesc instances = litFloor(), copies = litFloor();
     instances.prototypes["ball"] = ball;
@@ -64,13 +64,13 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
     const auto copied = test::connectedThroughAll(*compileScene(copies));
     ASSERT_EQ(instanced->instances.size(), 3u);
     constexpr std::size_t kListed = 6; // two balls, three ways
-    ASSERT_EQ(instanced->smoothSpheres.size(), kListed);
-    ASSERT_EQ(copied->smoothSpheres.size(), kListed);
-    ASSERT_EQ(instanced->sphereReaches.size(), kListed);
+    ASSERT_EQ(instanced->specularCasters.size(), kListed);
+    ASSERT_EQ(copied->specularCasters.size(), kListed);
+    ASSERT_EQ(instanced->casterLights.size(), kListed);
     std::array<int, 3> ways{};
     for (std::size_t i = 0; i < kListed; ++i) {
-        const shared::SmoothSphere& a = instanced->smoothSpheres[i];
-        const shared::SmoothSphere& b = copied->smoothSpheres[i];
+        const shared::SpecularCaster& a = instanced->specularCasters[i];
+        const shared::SpecularCaster& b = copied->specularCasters[i];
         ASSERT_LE(a.crossings, shared::kReflectedInside);
         ++ways[a.crossings];
         EXPECT_EQ(a.crossings, b.crossings);
@@ -87,13 +87,13 @@ TEST(SmoothSpheres, OfInstancesAreThoseOfCopies) {
             EXPECT_NEAR(a.reach[k].x, b.reach[k].x, 1e-5);
             EXPECT_NEAR(a.reach[k].y, b.reach[k].y, 1e-5);
         }
-        EXPECT_NEAR(instanced->sphereReaches[i].weight / copied->sphereReaches[i].weight, 1, 1e-5);
+        EXPECT_NEAR(instanced->casterLights[i].weight / copied->casterLights[i].weight, 1, 1e-5);
     }
     for (const int balls : ways) EXPECT_EQ(balls, 2);
 }
 
 // An instance's material replaces those of its surfaces: by glass, by another glass, by what is none.
-TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
+TEST(SpecularCasters, HaveTheMaterialOfTheInstance) {
     SceneDesc scene = litFloor();
     scene.prototypes["ball"] = {{sphere({0, 0, 0}, 0.5, "glass")}, {beads("matte")}};
     scene.prototypes["stone"] = {{sphere({0, 0, 0}, 0.7, "matte")}, {beads("matte")}};
@@ -103,9 +103,9 @@ TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
     }
     const auto compiled = test::connectedThroughAll(*compileScene(scene));
     ASSERT_EQ(compiled->instances.size(), 4u);
-    ASSERT_EQ(compiled->smoothSpheres.size(), shared::kConnectedSpheres);
+    ASSERT_EQ(compiled->specularCasters.size(), shared::kConnectedSpheres);
     std::vector<float> radii;
-    for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
+    for (const shared::SpecularCaster& smooth : compiled->specularCasters) {
         radii.push_back(smooth.radius);
         EXPECT_FLOAT_EQ(smooth.inverseEta, 1 / 1.8f);
         EXPECT_FLOAT_EQ(smooth.tint.x, std::pow(0.9f, float(smooth.crossings + 1)));
@@ -116,7 +116,7 @@ TEST(SmoothSpheres, HaveTheMaterialOfTheInstance) {
 }
 
 // The list stays short, and empty where it would be a small part of all; of a million spheres none is looked at.
-TEST(SmoothSpheres, OfManyInstancesAreFew) {
+TEST(SpecularCasters, OfManyInstancesAreFew) {
     SceneDesc scene = litFloor();
     scene.prototypes["equal"] = {{sphere({0, 0, 0}, 0.02, "glass")}, {beads("matte")}};
     scene.prototypes["few"] = {{sphere({0, 0, 0}, 0.01, "glass")}, {beads("matte")}};
@@ -126,23 +126,23 @@ TEST(SmoothSpheres, OfManyInstancesAreFew) {
         SceneDesc filled = scene;
         for (int i = 0; i < count; ++i)
             add(filled, instanceOf(prototype, {Translate{{0.03 * (i % 100), 0, 0.03 * (i / 100)}}}));
-        return test::connectedThroughAll(*compileScene(filled))->smoothSpheres;
+        return test::connectedThroughAll(*compileScene(filled))->specularCasters;
     };
-    const std::vector<shared::SmoothSphere> few = listed("few", 1000);
+    const std::vector<shared::SpecularCaster> few = listed("few", 1000);
     ASSERT_EQ(few.size(), shared::kConnectedSpheres);
     EXPECT_EQ(few[0].instance, shared::kNone);
     EXPECT_EQ(few[1].instance, shared::kNone);
     EXPECT_EQ(few[2].instance, shared::kNone);
     EXPECT_EQ(few[3].instance, 0u); // below the lamp, of which it sees most
     EXPECT_EQ(listed("equal", 1000).size(), 0u);
-    const std::vector<shared::SmoothSphere> many = listed("many", 1000);
+    const std::vector<shared::SpecularCaster> many = listed("many", 1000);
     ASSERT_EQ(many.size(), 3u); // it refracts, and reflects outside and inside
-    for (const shared::SmoothSphere& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
+    for (const shared::SpecularCaster& smooth : many) EXPECT_EQ(smooth.instance, shared::kNone);
 }
 
 // Of a hundred lights those are connected to from which most noise comes: irradiance of the sphere's centre times
 // radiance.
-TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
+TEST(SpecularCasters, ConnectToTheLightsWithMostNoise) {
     constexpr std::uint32_t kLights = 100;
     SceneDesc scene = withMaterials();
     add(scene, sphere({0, 0, 0}, 0.5, "glass"));
@@ -160,14 +160,14 @@ TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
     }
     std::ranges::sort(noise, std::greater());
     std::vector<std::uint32_t> expected;
-    for (std::size_t i = 0; i < shared::kReachedLights; ++i) expected.push_back(noise[i].second);
+    for (std::size_t i = 0; i < shared::kCasterLights; ++i) expected.push_back(noise[i].second);
     std::ranges::sort(expected);
     const auto compiled = test::connectedThroughAll(*compileScene(scene));
-    ASSERT_EQ(compiled->smoothSpheres.size(), 3u);
-    for (const shared::SmoothSphere& smooth : compiled->smoothSpheres) {
-        ASSERT_EQ(smooth.reachCount, shared::kReachedLights);
-        for (std::uint32_t i = 0; i < shared::kReachedLights; ++i) {
-            const shared::SphereReach& reach = compiled->sphereReaches[smooth.firstReach + i];
+    ASSERT_EQ(compiled->specularCasters.size(), 3u);
+    for (const shared::SpecularCaster& smooth : compiled->specularCasters) {
+        ASSERT_EQ(smooth.lightCount, shared::kCasterLights);
+        for (std::uint32_t i = 0; i < shared::kCasterLights; ++i) {
+            const shared::CasterLight& reach = compiled->casterLights[smooth.firstLight + i];
             EXPECT_EQ(reach.light, expected[i]);
             EXPECT_EQ(reach.skyPatch, shared::kNone);
             EXPECT_NEAR(double(reach.weight) / irradiance[reach.light], 1, 1e-5);
@@ -176,21 +176,21 @@ TEST(SmoothSpheres, ConnectToTheLightsWithMostNoise) {
 }
 
 // Where the lights that a sphere can be connected to are too few to matter, it is not worth the time.
-TEST(SmoothSpheres, OfManyEqualLightsAreNone) {
+TEST(SpecularCasters, OfManyEqualLightsAreNone) {
     const auto listed = [](int lights) {
         SceneDesc scene = withMaterials();
         add(scene, sphere({0, 0, 0}, 1, "glass"));
         SphereSetDesc lamps{{}, 0.001, "lamp"};
         for (int i = 0; i < lights; ++i) lamps.centers.push_back({0.01 * i, 20, 0});
         add(scene, lamps);
-        return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
+        return test::connectedThroughAll(*compileScene(scene))->specularCasters.size();
     };
-    EXPECT_EQ(listed(2 * shared::kReachedLights - 1), 3u);
-    EXPECT_EQ(listed(2 * shared::kReachedLights + 1), 0u);
+    EXPECT_EQ(listed(2 * shared::kCasterLights - 1), 3u);
+    EXPECT_EQ(listed(2 * shared::kCasterLights + 1), 0u);
 }
 
 // Nor are many spheres looked at where there are many lights, however much goes on from one of them.
-TEST(SmoothSpheres, OfManyUnderManyLightsAreNone) {
+TEST(SpecularCasters, OfManyUnderManyLightsAreNone) {
     const auto listed = [](std::size_t spheres) {
         SceneDesc scene = withMaterials();
         add(scene, sphere({0, 5, 0}, 1, "glass"));
@@ -199,7 +199,7 @@ TEST(SmoothSpheres, OfManyUnderManyLightsAreNone) {
         for (int i = 0; i < 1 << 15; ++i) lamps.centers.push_back({0.1 * (i % 128), 20, 0.1 * (i / 128)});
         add(scene, lamps);
         add(scene, SphereSetDesc{{{0, 6.2, 0}}, 0.1, "lamp"}); // brighter than all of them on the first
-        return test::connectedThroughAll(*compileScene(scene))->smoothSpheres.size();
+        return test::connectedThroughAll(*compileScene(scene))->specularCasters.size();
     };
     EXPECT_GT(listed(255), 0u);
     EXPECT_EQ(listed(257), 0u);
