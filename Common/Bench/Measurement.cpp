@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "Common/App/Platform.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/Image/Summary.h"
 

@@ -5,7 +5,7 @@
 
 #include "Common/App/OtherProgram.h"
 #include "Common/App/Platform.h"
-#include "Common/Bench/RankedSubmission.h"
+#include "Common/Bench/RankedRun.h"
 #include "Common/Core/Error.h"
 #include "Common/Core/OwnFolder.h"
 #include "Common/Core/Paths.h"

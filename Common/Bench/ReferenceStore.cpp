@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Image/Metrics.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "Common/Bench/Engines.h"
-#include "Common/Bench/RankedSubmission.h"
+#include "Common/Bench/RankedRun.h"
 #include "Common/Bench/ReferenceStore.h"
 #include "Common/Bench/Results.h"
 #include "Common/Bench/Suite.h"

@@ -161,7 +161,7 @@ TEST_P(SharedComparisonTest, TableAndChartAreLinked) {
     cpuRun.renderSeconds = 7;
     cpuRun.relmse = gpuRun.relmse = 0.5;
     gpuRun.renderSeconds = 2;
-    cpuSubmission.hasReference = gpuSubmission.hasReference = true; // points that are filled
+    cpuRun.hasReference = gpuRun.hasReference = true; // points that are filled
     keep({cpuRun, gpuRun});
     startAndPause();
     ASSERT_FALSE(HasFatalFailure());

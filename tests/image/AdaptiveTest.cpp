@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/SamplePlan.h"
 #include "Common/Scene/Builtin/BuiltinScenes.h"
 #include "tests/image/Harness.h"

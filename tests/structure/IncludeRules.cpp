@@ -33,9 +33,9 @@ const std::map<std::string, std::vector<std::string>> kArrows = {
     {"Shaders", {"Common/Shared"}},
 };
 
-void addCasterLight(const std::string& folder, std::set<std::string>& reachable) {
+void addReachable(const std::string& folder, std::set<std::string>& reachable) {
     if (!reachable.insert(folder).second) return;
-    for (const std::string& next : kArrows.at(folder)) addCasterLight(next, reachable);
+    for (const std::string& next : kArrows.at(folder)) addReachable(next, reachable);
 }
 
 // "Common/Scene" for Common/Scene/a/b.h, "Shaders" for Shaders/x.glsl.
@@ -92,7 +92,7 @@ TEST(IncludeRules, EveryQuotedIncludeFollowsAnArrow) {
     std::size_t checked = 0;
     for (const auto& [folder, unused] : kArrows) {
         std::set<std::string> reachable;
-        addCasterLight(folder, reachable);
+        addReachable(folder, reachable);
         for (const fs::path& file : sourcesOf(folder)) {
             for (const Include& include : quotedIncludes(file)) {
                 const fs::path target = resolve(file, include.target);

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "tests/unit/FakeEngine.h"
 
 namespace rt::app {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Core/Error.h"
 #include "Common/Image/ImageIo.h"
 #include "tests/FileBytes.h"

@@ -6,7 +6,7 @@
 #include "Common/App/Interactive/FilmReference.h"
 #include "Common/App/Interactive/PublishedState.h"
 #include "Common/App/Interactive/RunHistory.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/SceneLoader.h"
 
 namespace rt::app {

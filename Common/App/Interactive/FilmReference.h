@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "Common/App/Interactive/InteractiveState.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/ReferenceCache.h"
 #include "Common/Image/Image.h"
 #include "Common/Image/Metrics.h"

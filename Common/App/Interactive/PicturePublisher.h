@@ -7,7 +7,7 @@
 #include "Common/App/Interactive/FilmPlan.h"
 #include "Common/App/Interactive/FilmReference.h"
 #include "Common/App/Interactive/PublishedState.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 
 namespace rt::app {
 

@@ -9,7 +9,7 @@
 #include "Common/App/Interactive/Mailbox.h"
 #include "Common/App/Interactive/PicturePublisher.h"
 #include "Common/App/Interactive/PublishedState.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 
 namespace rt::app {
 

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "Common/App/Session/FilmEstimate.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/RenderParams.h"
 #include "Common/App/Session/Stopwatch.h"
 #include "Common/Core/Error.h"

@@ -14,7 +14,7 @@
 #include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
 #include "Common/App/Session/FeatureNames.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
 #include "Common/App/Session/Outputs.h"

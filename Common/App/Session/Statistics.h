@@ -7,7 +7,7 @@
 
 #include "Common/App/Options/Options.h"
 #include "Common/App/Session/Engine.h"
-#include "Common/App/Session/FilmSubmission.h"
+#include "Common/App/Session/FilmRun.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Scene/CompiledScene.h"

@@ -462,7 +462,7 @@ struct DirectLight {
     float distance; // that has to be free of surfaces; 0: there is no shadow ray, radiance arrives
 };
 
-// Segments of a passage; the one of the lowest bit is traced first.
+// Segments of a connection; the one of the lowest bit is traced first.
 const uint kSegmentBeyond = 1u; // from the sphere to the light
 const uint kSegmentBefore = 2u; // from the vertex to the sphere
 const uint kSegmentInside = 4u; // from where it enters to where it leaves, or is reflected

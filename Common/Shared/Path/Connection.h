@@ -279,7 +279,7 @@ RT_FN SpecularConnection connectLight(Features features, SceneRef scene, RT_IN(R
 
 // ---- segments ------------------------------------------------------------------------------------------------------
 
-// The next segment of the passage that has to be free, up to tMax.
+// The next segment of the connection that has to be free, up to tMax.
 RT_FN Ray connectionRay(RT_IN(SpecularConnection) p, float time, RT_OUT(float) tMax) {
     bool isBeyond = (p.segments & kSegmentBeyond) != 0u;
     bool isBefore = (p.segments & kSegmentBefore) != 0u;
@@ -297,7 +297,7 @@ RT_FN Ray connectionRay(RT_IN(SpecularConnection) p, float time, RT_OUT(float) t
     return ray;
 }
 
-// What becomes of the passage when its next segment has been traced; the last one adds to `radiance`.
+// What becomes of the connection when its next segment has been traced; the last one adds to `radiance`.
 RT_FN void endSegment(Features features, SceneRef scene, bool isFree, RT_IN(Ray) ray, float tMax,
                       RT_INOUT(SpecularConnection) p, RT_INOUT(vec3) radiance) {
     if (!isFree) {
