@@ -157,7 +157,7 @@ TEST(Principled, SheenIsBoundedByWhatArrives) {
 
 // Where the indices are equal there is no surface to be seen, however rough: as a limit, too, in floats.
 TEST(Principled, GlassOfEqualIndicesIsNotThere) {
-    for (const float ior : {1.0f, 1.0000001f, 1.000001f, 1.00001f, 1.0001f, 1.0003f, 1.001f})
+    for (const float ior : {1.0f, 1.0000001f, 1.00001f, 1.0001f, 1.001f})
         for (const float roughness : {0.0f, 0.02f, 0.04f, 0.3f, 1.0f})
             for (const double cosine : {0.2, 0.5, 0.9, 1.0})
                 for (const bool front : {true, false}) {

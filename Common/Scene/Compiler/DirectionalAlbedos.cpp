@@ -44,7 +44,9 @@ WeighedNormal visibleNormal(const vec3& wo, float alpha, uint i, uint count) {
 // What the facets that wo sees let pass of a direction, 0 below the surface.
 float shadowing(const vec3& wo, const vec3& wi, float alpha) {
     if (!(wi.z > 0.0f)) return 0.0f;
-    return 4.0f * wo.z * wi.z * smithVisibility(wo.z, wi.z, alpha) / smithMasking(wo.z, alpha);
+    // 4 wo.z wi.z smithVisibility() / smithMasking()
+    const float termO = smithTerm(wo.z, alpha), termI = smithTerm(wi.z, alpha);
+    return wi.z * (wo.z + termO) / (wi.z * termO + wo.z * termI);
 }
 
 // (factor of the reflectance at normal incidence, at grazing incidence).
