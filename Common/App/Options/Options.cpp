@@ -172,7 +172,8 @@ void addOutput(FlagSet& flags, Options& options) {
 
 void addDuration(FlagSet& flags, Options& options) {
     flags.group("Duration");
-    flags.addSeconds("--time-limit", options.timeLimit, "stop after so long, or at --spp; even where it is not reached, strata come in rounds of 256");
+    flags.addSeconds("--time-limit", options.timeLimit,
+                     "stop after so long, or at --spp; even where it is not reached, strata come in rounds of 256");
     flags.add("--target-error", "E",
               "stop when the estimated relMSE is surely below (95 %), or at --spp; "
               "implies --replicates 4",

@@ -96,7 +96,7 @@ struct EngineReport {
     bool ratesAreOfBefore = false;  // another run has measured them
     std::vector<ShaderFigure> shaders; // of the kernel; empty unless asked for
 
-    // What max depth has darkened the picture by at most, where light comes from everywhere.
+    // By how much max depth has darkened the picture where light comes from everywhere.
     double cutOffShare() const { return rays.camera > 0 ? cutOff / static_cast<double>(rays.camera) : 0; }
 };
 

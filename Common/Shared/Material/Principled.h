@@ -43,7 +43,8 @@ RT_FN bool isStraight(RT_IN(PrincipledLobes) lobes) {
 }
 
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
-// for the exponent 1 / roughness^2.
+// for the exponent 1 / roughness^2. Smooth ones, seen at grazing angles, would send out more than arrives: makeLobes()
+// bounds them.
 RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
     float density =
         (2.0f + exponent) * 0.5f * kInvPi * exponential(0.5f * exponent * log1p(-min(square(h.z), 0.999999f)));

@@ -24,8 +24,8 @@ RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
 
 const float kMinAlbedoCosine = 1.0e-4f; // of the first column; its fourth root, by which columns lie, is 0.1
 
-// (column, row) of a lobe that has no roughness below `minRoughness`, that of the first row. Albedos change fastest at grazing
-// angles and with little roughness.
+// (column, row) of a lobe that has no roughness below `minRoughness`, that of the first row. Albedos change fastest at
+// grazing angles and with little roughness.
 RT_FN vec2 albedoPlace(float cosine, float roughness, float minRoughness) {
     float column = (sqrt(sqrt(max(cosine, kMinAlbedoCosine))) - 0.1f) * (1.0f / 0.9f);
     float row = sqrt(max(roughness - minRoughness, 0.0f) * (1.0f / (1.0f - minRoughness)));
