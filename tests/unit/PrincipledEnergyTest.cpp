@@ -117,8 +117,8 @@ vec3 withoutY(double cosine) {
     return vec3(float(std::sqrt((1 - cosine) * (1 + cosine))), 0, float(cosine));
 }
 
-// Surfaces do not send out more than arrives, whatever is layered upon what, however rough each layer is and however low
-// the light.
+// Surfaces do not send out more than arrives, whatever is layered upon what, however rough each layer is and however
+// low the light.
 TEST(Principled, NothingMakesEnergy) {
     const float roughnesses[] = {0.0f, 0.04f, 0.1f, 0.25f, 0.6f, 1.0f};
     const double cosines[] = {1e-3, 0.012, 0.05, 0.3, 0.62, 1};
