@@ -211,6 +211,7 @@ class CpuEngine final : public app::Engine {
         report.kernel = std::string(kernel_ == nullptr ? "" : kernel_->name) + "/" + name(set_);
         report.rays = {counters_.camera, counters_.scattered, counters_.shadow, counters_.edge, counters_.reuse};
         report.nonfiniteSamples = counters_.nonfinite;
+        report.cutOff = counters_.cutOff;
         report.deviceBytes = film_.bytes() + (scene_ ? scene_->accel->bytes() : 0);
         return report;
     }
@@ -316,6 +317,7 @@ class CpuEngine final : public app::Engine {
         counters_.edge += counters.edge;
         counters_.reuse += counters.reuse;
         counters_.nonfinite += counters.nonfinite;
+        counters_.cutOff += counters.cutOff;
     }
 
     app::RenderStatus status() const {

@@ -23,6 +23,7 @@ struct KernelCounters {
     std::uint64_t edge = 0;
     std::uint64_t reuse = 0;
     std::uint64_t nonfinite = 0;
+    double cutOff = 0; // as EngineReport::cutOff
 };
 
 // Samples first .. first + count - 1 of one replicate, for the pixels of one tile.

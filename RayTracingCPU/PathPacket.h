@@ -227,6 +227,8 @@ class PathPacket {
     }
 
     void end(PathSlot& slot) {
+        if (slot.path.emission == kEmissionCutOff)
+            counters_.cutOff += cutOffThroughput(slot.path, shared_.throughputBefore(slot.sample, slot.path));
         if constexpr (kReuses)
             shared_.ended(slot.sample, slot.path, radiances_[slot.sample]);
         else

@@ -67,6 +67,11 @@ class SharedPaths {
         (shared.reuse == kReuseSuffix ? shared.radiance : radiance) = path.radiance;
     }
 
+    // What throughput that begins anew behind the second vertex is a part of.
+    vec3 throughputBefore(uint sample, const PathState& path) const {
+        return isUsed_ && path.reuse == kReuseSuffix ? paths_[sample].throughput : vec3(1.0f);
+    }
+
     // To what the second vertex of an ended path sends out.
     void add(uint sample, const vec3& radiance) {
         if (paths_[sample].reuse == kReuseSuffix) paths_[sample].radiance += radiance;

@@ -163,6 +163,7 @@ void GpuEngine::reset(const scene::CameraDesc& camera, const app::RenderSettings
     launches_.prepare(context_.info().isDiscrete() ? image::pixelCount(film_, tiles_) * settings_.spp : 0);
     report_.rays = {};
     report_.nonfiniteSamples = 0;
+    report_.cutOff = 0;
     report_.renderDeviceSeconds = 0;
 }
 
@@ -312,6 +313,7 @@ void GpuEngine::endLaunch() {
     report_.renderDeviceSeconds += ended.seconds;
     report_.rays += {ended.samples, ended.scattered, ended.shadow, ended.edgeRays, ended.reuse};
     report_.nonfiniteSamples += ended.nonfinite;
+    report_.cutOff += ended.cutOff;
     if (ended.finished != ended.due) {
         failed_ = true; // what is on the device is not a film
         throw RenderError(context_.info().name + " ended a shader before its work was done (" +

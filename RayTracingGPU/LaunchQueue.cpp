@@ -187,6 +187,7 @@ LaunchQueue::Ended LaunchQueue::end() {
         ended.shadow += counters[line + shared::kCounterShadow];
         ended.reuse += counters[line + shared::kCounterReuse];
         ended.nonfinite += counters[line + shared::kCounterNonfinite];
+        ended.cutOff += counters[line + shared::kCounterCutOff] * double{shared::kCutOffUnit};
         ended.finished += counters[line + shared::kCounterFinished];
     }
     ended.due = left_ + ended.samples - counters[shared::kCounterLeft];

@@ -63,6 +63,7 @@ class LaunchQueue {
         std::uint64_t shadow = 0;    // rays
         std::uint64_t reuse = 0;     // rays, for samples of the launch before
         std::uint64_t nonfinite = 0; // samples that were dropped
+        double cutOff = 0;           // as EngineReport::cutOff
         double seconds = 0;          // by the device's clock, if it has one
     };
     // Waits for the oldest, which has ended whether or not this throws DeviceLostError or RenderError.

@@ -177,6 +177,16 @@ bool endShared(Work work, inout PathState path, inout uint nonfinite) {
     return true;
 }
 
+// Max depth has cut off the sample's own path. Counted at once: that is rare, and a sum of the invocation's own would
+// take a register throughout.
+void countCutOff(uint invocation, Work work, PathState path) {
+    vec3 before = vec3(1.0f);
+    if (reusesPaths(kFeatures, renderParams()) && path.reuse == kReuseSuffix)
+        before = uintBitsToFloat(sharedPathsOf(work).at[4u * work.number + 1u].xyz);
+    float units = clamp(cutOffThroughput(path, before), 0.0f, 64.0f) / kCutOffUnit;
+    atomicAdd(launch.progress.counters[counterLine(invocation) + kCounterCutOff], uint(units + 0.5f));
+}
+
 // Whether an invocation has found no sample any more.
 bool samplesAreSpent() {
     return atomicLoad(launch.progress.counters[kSpent], gl_ScopeDevice, gl_StorageSemanticsNone,
@@ -262,6 +272,7 @@ void tracePaths(uint invocation) {
         }
         begins = !goesOn && !isChecking(direct, step);
         bool isOwn = work.edgeRays == 0u || work.edgeRays > params.edgeRays;
+        if (begins && isOwn && path.emission == kEmissionCutOff) countCutOff(invocation, work, path);
         bool isKept = reusesPaths(kFeatures, params) && begins && isOwn && endShared(work, path, nonfinite);
         if (begins && work.edgeRays <= 1u) {
             work.edgeRays = 0u;

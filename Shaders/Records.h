@@ -119,7 +119,9 @@ const uint kCounterFinished = 4u;  // samples
 const uint kCounterLeft = 5u;      // of line 0: paths left to the next launch
 const uint kCounterReuse = 6u;     // rays, of the launch before
 const uint kCounterEdgeRays = 7u;
-const uint kCounters = 8u;
+const uint kCounterCutOff = 8u; // throughput that max depth cut off, in parts of kCutOffUnit
+const uint kCounters = 16u;
+const float kCutOffUnit = 0.00390625f; // 2^-8: the sums of any launch fit
 const uint kCounterLines = 64u;
 // Of line 1: samples that have been listed, see SampleList.comp.
 const uint kListed = kCounters + kCounterWork;

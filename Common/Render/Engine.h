@@ -88,12 +88,16 @@ struct EngineReport {
     double longestDispatchSeconds = 0; // of a GPU for what it gets at a time, since it was opened: draws wait for that
     RayCounts rays;
     std::uint64_t nonfiniteSamples = 0;
-    std::uint64_t deviceBytes = 0;     // acceleration structure, scene and film held by the engine
-    std::vector<RankFigures> ranks;    // empty for one process
-    std::string lightSampling;         // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
-    std::vector<EngineRate> rates;     // by which the engine was chosen; empty: it was named, or there was no choice
-    bool ratesAreOfBefore = false;     // another run has measured them
+    double cutOff = 0;              // throughput that max depth cut off: the sum over all samples, which begin with 1
+    std::uint64_t deviceBytes = 0;  // acceleration structure, scene and film held by the engine
+    std::vector<RankFigures> ranks; // empty for one process
+    std::string lightSampling;      // what `auto` came to, e.g. "sphere: cone, quad: solid-angle"
+    std::vector<EngineRate> rates;  // by which the engine was chosen; empty: it was named, or there was no choice
+    bool ratesAreOfBefore = false;  // another run has measured them
     std::vector<ShaderFigure> shaders; // of the kernel; empty unless asked for
+
+    // By how much max depth has darkened the picture where light comes from everywhere.
+    double cutOffShare() const { return rays.camera > 0 ? cutOff / static_cast<double>(rays.camera) : 0; }
 };
 
 // First-hit features averaged over some samples of each pixel; empty unless asked for.

@@ -53,6 +53,7 @@ EngineReport FilmRun::report() const {
     EngineReport report = engine_->report();
     report.rays += before_.rays;
     report.nonfiniteSamples += before_.nonfiniteSamples;
+    report.cutOff += before_.cutOff;
     report.renderDeviceSeconds += before_.renderDeviceSeconds;
     return report;
 }

@@ -56,7 +56,10 @@ TEST_P(AnalyticTest, EnclosureHasItsClosedFormRadiance) {
             for (const std::uint32_t depth : {1u, 2u, 7u}) {
                 settings.maxDepth = depth;
                 const double truth = enclosureRadiance(0.6, 0.5, static_cast<int>(depth));
-                EXPECT_TRUE(isMean(renders(settings), dvec3(truth)))
+                const Estimate estimate = renders(settings);
+                EXPECT_TRUE(isMean(estimate, dvec3(truth))) << (box ? "box, " : "sphere, ") << describe(settings);
+                const double cutOff = std::pow(0.6, depth - 1);
+                EXPECT_NEAR(estimate.cutOffShare, cutOff, 0.05 * std::sqrt(cutOff))
                     << (box ? "box, " : "sphere, ") << describe(settings);
             }
         }
@@ -101,6 +104,42 @@ TEST_P(AnalyticTest, LosslessBodiesAreInvisibleInAWhiteSky) {
     for (const MaterialDesc& material : {lambertian(1), glass, mirror}) {
         EXPECT_TRUE(isMean(GpuRenders(inWhiteSky(material))(settings), dvec3(1)));
     }
+}
+
+TEST_P(AnalyticTest, DepthCutsOffWhatIsMissing) {
+    MaterialDesc glass;
+    glass.kind = MaterialKind::Dielectric;
+    app::RenderSettings settings = smallSettings(8, 256);
+    settings.russianRoulette = false;
+    for (const MaterialDesc& material : {glass, lambertian(1)}) {
+        GpuRenders renders(inWhiteSky(material));
+        for (const std::uint32_t depth : {1u, 2u, 3u}) {
+            settings.maxDepth = depth;
+            const Estimate estimate = renders(settings);
+            EXPECT_NEAR(estimate.mean.x + estimate.cutOffShare, 1, 1e-5) << depth;
+        }
+    }
+}
+
+TEST_P(AnalyticTest, PrincipledSurfacesMakeNoEnergy) {
+    GpuRenders renders;
+    for (const double cosine : {0.002, 0.05}) {
+        renders.setScene(floorInWhiteSky(whiteSheen(0), cosine));
+        const Estimate estimate = renders(smallSettings(4, 8192));
+        EXPECT_LE(estimate.mean.x, 1.001 + 4 * estimate.standardError.x) << cosine;
+        EXPECT_GE(estimate.mean.x, 0.98 - 4 * estimate.standardError.x) << cosine;
+    }
+}
+
+TEST_P(AnalyticTest, RoughGlassOfEqualIndicesIsInvisible) {
+    GpuRenders renders;
+    for (const double ior : {1.0, 1.00001, 1.0001})
+        for (const double roughness : {0.2, 1.0}) {
+            renders.setScene(inWhiteSky(roughGlass(ior, roughness)));
+            const Estimate estimate = renders(smallSettings(16, 512));
+            EXPECT_NEAR(estimate.mean.x, 1, (ior == 1 ? 1e-5 : 1e-3) + 4 * estimate.standardError.x) << ior;
+            EXPECT_GT(*std::min_element(estimate.image.data.begin(), estimate.image.data.end()), 0.97f) << ior;
+        }
 }
 
 // With each way of placing a point on a light; the expectation is the same for all. That each of them fits each

@@ -52,6 +52,32 @@ SceneDesc inWhiteSky(const MaterialDesc& material) {
     return desc;
 }
 
+SceneDesc floorInWhiteSky(const MaterialDesc& material, double cosine) {
+    SceneDesc desc = emptyScene({4 * std::sqrt(1 - cosine * cosine), 4 * cosine, 0}, {0, 0, 0}, 1e-3);
+    desc.background = ConstantBackground{glm::dvec3(1)};
+    desc.materials["floor"] = material;
+    desc.objects.push_back({QuadDesc{{-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, "floor"}});
+    return desc;
+}
+
+MaterialDesc whiteSheen(double roughness) {
+    MaterialDesc m;
+    m.kind = MaterialKind::Principled;
+    m.principled.roughness.factor = 0.8;
+    m.principled.sheenColor = glm::dvec3(1);
+    m.principled.sheenRoughness.factor = roughness;
+    return m;
+}
+
+MaterialDesc roughGlass(double ior, double roughness) {
+    MaterialDesc m;
+    m.kind = MaterialKind::Principled;
+    m.principled.transmission.factor = 1;
+    m.principled.ior = ior;
+    m.principled.roughness.factor = roughness;
+    return m;
+}
+
 SceneDesc floorScene() {
     SceneDesc desc = emptyScene({0.3, 0.5, 4}, {0, 0, 0}, 1e-3);
     MaterialDesc floor;

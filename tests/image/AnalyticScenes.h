@@ -22,6 +22,13 @@ double enclosureRadiance(double albedo, double emission, int depth);
 // A unit sphere of this material under a sky of radiance 1.
 scene::SceneDesc inWhiteSky(const scene::MaterialDesc& material);
 
+// A floor of this material under that sky, seen at this cosine.
+scene::SceneDesc floorInWhiteSky(const scene::MaterialDesc& material, double cosine);
+
+// Where it meets light at grazing angles, white sheen of this roughness over white sends out all of it.
+scene::MaterialDesc whiteSheen(double roughness);
+scene::MaterialDesc roughGlass(double ior, double roughness);
+
 inline constexpr double kFloorAlbedo = 0.7;
 
 // The floor y = 0 around the origin, looked at from the side, and a material "light" of radiance (3, 2, 1).

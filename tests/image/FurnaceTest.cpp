@@ -17,7 +17,10 @@ TEST(Furnace, EnclosureHasItsClosedFormRadiance) {
             for (std::uint32_t depth : {1u, 2u, 7u}) {
                 settings.maxDepth = depth;
                 const double truth = enclosureRadiance(0.6, 0.5, static_cast<int>(depth));
-                EXPECT_TRUE(isMean(render(*scene, settings), glm::dvec3(truth)))
+                const double cutOff = std::pow(0.6, depth - 1);
+                const Estimate estimate = render(*scene, settings);
+                EXPECT_TRUE(isMean(estimate, glm::dvec3(truth))) << (box ? "box, " : "sphere, ") << describe(settings);
+                EXPECT_NEAR(estimate.cutOffShare, cutOff, 0.05 * std::sqrt(cutOff))
                     << (box ? "box, " : "sphere, ") << describe(settings);
             }
         }
@@ -63,6 +66,43 @@ TEST(Furnace, LosslessBodiesAreInvisibleInAWhiteSky) {
     for (const MaterialDesc& material : {lambertian(1), glass, mirror}) {
         EXPECT_TRUE(isMean(render(inWhiteSky(material), settings), glm::dvec3(1)));
     }
+}
+
+// What was cut off of white paths is what the picture lacks.
+TEST(Furnace, DepthCutsOffWhatIsMissing) {
+    MaterialDesc glass;
+    glass.kind = MaterialKind::Dielectric;
+    app::RenderSettings settings = smallSettings(8, 256);
+    settings.russianRoulette = false;
+    for (const std::uint32_t depth : {1u, 2u, 3u, 4096u}) {
+        settings.maxDepth = depth;
+        for (const MaterialDesc& material : {glass, lambertian(1)}) {
+            const Estimate estimate = render(inWhiteSky(material), settings);
+            EXPECT_NEAR(estimate.mean.x + estimate.cutOffShare, 1, 1e-5) << depth;
+        }
+    }
+}
+
+// However grazing light is, and however smooth the fibres.
+TEST(Furnace, SheenMakesNoEnergy) {
+    for (const double roughness : {0.0, 0.15, 0.3})
+        for (const double cosine : {0.002, 0.05}) {
+            const Estimate estimate = render(floorInWhiteSky(whiteSheen(roughness), cosine), smallSettings(4, 8192));
+            EXPECT_LE(estimate.mean.x, 1.001 + 4 * estimate.standardError.x) << roughness << ", cosine " << cosine;
+            EXPECT_GE(estimate.mean.x, 0.98 - 4 * estimate.standardError.x) << roughness << ", cosine " << cosine;
+        }
+}
+
+TEST(Furnace, RoughGlassOfEqualIndicesIsInvisible) {
+    for (const double ior : {1.0, 1.00001, 1.0001})
+        for (const double roughness : {0.2, 0.5, 1.0}) {
+            const Estimate estimate = render(inWhiteSky(roughGlass(ior, roughness)), smallSettings(16, 512));
+            const double allowed = ior == 1 ? 1e-5 : 1e-3;
+            EXPECT_NEAR(estimate.mean.x, 1, allowed + 4 * estimate.standardError.x) << ior << ' ' << roughness;
+            const auto [least, most] = std::ranges::minmax(estimate.image.data);
+            EXPECT_GT(least, 0.97f) << ior << ' ' << roughness;
+            EXPECT_LT(most, 1.01f) << ior << ' ' << roughness;
+        }
 }
 
 TEST(Furnace, WhiteMediumIsInvisibleInAWhiteSky) {

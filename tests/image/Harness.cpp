@@ -34,6 +34,7 @@ Estimate render(app::Engine& engine, const scene::CompiledScene& scene, const ap
     estimate.image = engine.film().resolve();
     estimate.variance = engine.film().varianceOfMean();
     estimate.nonfinite = engine.report().nonfiniteSamples;
+    estimate.cutOffShare = engine.report().cutOffShare();
     const double pixels = static_cast<double>(settings.width) * settings.height;
     glm::dvec3 variance{0};
     for (std::uint32_t y = 0; y < settings.height; ++y) {

@@ -21,6 +21,7 @@ struct Estimate {
     glm::dvec3 mean{0};          // over all pixels
     glm::dvec3 standardError{0}; // of mean
     std::uint64_t nonfinite = 0;
+    double cutOffShare = 0; // of throughput, by max depth
     image::Image image;
     image::Image variance; // of each pixel's mean
 };

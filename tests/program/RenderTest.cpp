@@ -73,6 +73,22 @@ TEST_F(Render, MoreFeaturesThanNeededChangeNothing) {
     EXPECT_TRUE(jsonOf("stats.json")["skipped"].empty());
 }
 
+// Where it matters only.
+TEST_F(Render, TellsWhatMaxDepthHasCutOff) {
+    const auto renderTo = [&](const std::string& depth) {
+        return cpu({"--headless", "--no-config", "--scene", "cornell-box-lights", "--width", "32", "--spp", "16",
+                    "--max-depth", depth, "--stats", path("stats.json")});
+    };
+    const Outcome shallow = renderTo("2");
+    ASSERT_EQ(shallow.exitCode, 0) << shallow.err;
+    EXPECT_NE(shallow.err.find("max depth 2 has cut off "), std::string::npos) << shallow.err;
+    EXPECT_GT(jsonOf("stats.json")["cut_off_share"], 0.1);
+    const Outcome deep = renderTo("50");
+    ASSERT_EQ(deep.exitCode, 0) << deep.err;
+    EXPECT_EQ(deep.err.find("has cut off"), std::string::npos) << deep.err;
+    EXPECT_LT(jsonOf("stats.json")["cut_off_share"], 0.01);
+}
+
 TEST_F(Render, StatisticsAreThoseOfTheContract) {
     const Outcome outcome =
         render({"--spp", "33", "--max-depth", "7", "--seed", "5", "--stats", "-", "--engine", "single"});
@@ -101,6 +117,7 @@ TEST_F(Render, StatisticsAreThoseOfTheContract) {
                             "mean_radiance",
                             "standard_error",
                             "nonfinite_samples",
+                            "cut_off_share",
                             "estimated_relmse",
                             "estimated_relmse_interval",
                             "error_is",

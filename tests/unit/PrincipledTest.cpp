@@ -2,6 +2,8 @@
 // number.
 #include <cmath>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -10,114 +12,49 @@
 #include "Common/Shared/Material/PrincipledSurface.h"
 #include "tests/unit/DirectionCells.h"
 #include "tests/unit/Oracles.h"
+#include "tests/unit/PrincipledSurfaces.h"
 #include "tests/unit/Statistics.h"
 
 namespace rt::shared {
 namespace {
 
 using glm::dvec3;
+using test::bsdfOf;
+using test::drawFrom;
+using test::evalBothSides;
+using test::kPrincipledCases;
+using test::kUp;
 using test::Mean;
+using test::outgoingAt;
+using test::PrincipledCase;
+using test::principledOf;
 using test::Uniforms;
 
-const vec3 kUp(0, 0, 1);
-const float kIor = 1.5f;
-
-struct Scene : SceneArraysOf<std::vector> {
-    Scene() {
-        directionalAlbedos = scene::directionalAlbedos();
-        glassAlbedos = scene::glassAlbedos(kIor);
-    }
-    operator SceneView() const { return viewOf(*this, {}); }
-};
-
-const Scene& scene() {
-    static const Scene made;
-    return made;
-}
-
-struct Case {
-    const char* name;
-    float metallic = 0, transmission = 0, clearcoat = 0, sheen = 0;
-    bool thin = false;
-};
-constexpr Case kCases[] = {{"metal", 1},
-                           {"dielectric"},
-                           {"glass", 0, 1},
-                           {"sheet", 0, 1, 0, 0, true},
-                           {"clearcoat", 0, 0, 1},
-                           {"sheen", 0, 0, 0, 0.8f},
-                           {"mixture", 0.3f, 0.5f, 0.5f, 0.5f}};
-
-Principled principled(const Case& which, float roughness) {
-    const auto constant = [](float factor) { return ScaledChannel{factor, kNone, 0}; };
-    Principled p{};
-    p.metallic = constant(which.metallic);
-    p.roughness = constant(roughness);
-    p.specular = constant(1);
-    p.transmission = constant(which.transmission);
-    p.clearcoat = constant(which.clearcoat);
-    p.clearcoatRoughness = constant(roughness);
-    p.sheenRoughness = constant(roughness);
-    p.opacity = constant(1);
-    p.specularColor = {vec3(1), kNone};
-    p.sheenColor = {vec3(which.sheen), kNone};
-    p.ior = kIor;
-    p.thin = which.thin ? 1u : 0u;
-    p.glass = which.thin ? kNone : 0u;
-    p.normalTexture = p.coatTexture = kNone;
-    p.alphaCutoff = -1;
-    return p;
-}
-
-Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true, const vec3& coat = kUp) {
-    Bsdf b{};
-    b.kind = kMaterialPrincipled;
-    b.albedo = albedo;
-    const PrincipledValues values = principledValues(kFeatureAll, scene(), p, Surface{});
-    b.lobes = makeLobes(scene(), values, albedo, wo.z, directionalAlbedo(scene(), wo.z, values.roughness), coat,
-                        std::max(dot(coat, wo), 0.0f), front);
-    return b;
-}
-
-vec3 outgoing(double cosine) {
-    return vec3(test::onSphere(0.5 * (cosine + 1), 0.1));
-}
-
-// On both sides.
-vec4 eval(const Bsdf& b, const vec3& wo, const vec3& wi) {
-    BsdfSample s = absorbed();
-    s.wi = wi;
-    s.transmitted = wi.z < 0 ? 1u : 0u;
-    return evalProposal(kFeatureAll, b, wo, s);
-}
-
-BsdfSample draw(const Bsdf& b, const vec3& wo, const vec2& u) {
-    return sampleBsdf(kFeatureAll, b, kUp, 1, wo, u, u.x);
-}
-
-class PrincipledCases : public testing::TestWithParam<Case> {};
+class PrincipledCases : public testing::TestWithParam<PrincipledCase> {};
 
 TEST_P(PrincipledCases, AreSampledAsTheirDensitySays) {
     Uniforms uniform(31);
     for (const float roughness : {0.2f, 0.35f, 0.5f, 0.65f, 0.8f, 1.0f})
         for (const double cosine : {0.95, 0.6, 0.2}) {
-            const vec3 wo = outgoing(cosine);
-            const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(0.2f, 0.5f, 0.9f), wo);
-            const auto density = [&](double u, double v) { return double(eval(b, wo, vec3(test::onSphere(u, v))).w); };
+            const vec3 wo = outgoingAt(cosine);
+            const Bsdf b = bsdfOf(principledOf(GetParam(), roughness), vec3(0.2f, 0.5f, 0.9f), wo);
+            const auto density = [&](double u, double v) {
+                return double(evalBothSides(b, wo, vec3(test::onSphere(u, v))).w);
+            };
             const std::vector<double> expected = test::cellMasses(density);
             const double integral = std::accumulate(expected.begin(), expected.end(), 0.0);
             std::vector<std::uint64_t> counts(expected.size());
             int lost = 0; // below the surface
             constexpr int kSamples = 1 << 14;
             for (int i = 0; i < kSamples; ++i) {
-                const BsdfSample s = draw(b, wo, uniform.pair());
+                const BsdfSample s = drawFrom(b, wo, uniform.pair());
                 ASSERT_EQ(s.delta, 0u);
                 if (!(s.pdf > 0)) {
                     ++lost;
                     continue;
                 }
                 ++counts[test::cellOf(s.wi)];
-                const vec4 f = eval(b, wo, s.wi);
+                const vec4 f = evalBothSides(b, wo, s.wi);
                 ASSERT_NEAR(f.w, s.pdf, 2e-3f * s.pdf) << roughness << ' ' << cosine;
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(s.weight[c] * s.pdf, f[c], 2e-3f * f[c]);
             }
@@ -131,10 +68,10 @@ TEST_P(PrincipledCases, WhiteFurnaceIsWhite) {
     Uniforms uniform(32);
     for (const float roughness : {0.0f, 0.1f, 0.3f, 0.5f, 0.75f, 1.0f})
         for (const double cosine : {1.0, 0.7, 0.4, 0.15}) {
-            const vec3 wo = outgoing(cosine);
-            const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(1), wo);
+            const vec3 wo = outgoingAt(cosine);
+            const Bsdf b = bsdfOf(principledOf(GetParam(), roughness), vec3(1), wo);
             Mean mean;
-            for (int i = 0; i < 1 << 14; ++i) mean.add(double(draw(b, wo, uniform.pair()).weight.x));
+            for (int i = 0; i < 1 << 14; ++i) mean.add(double(drawFrom(b, wo, uniform.pair()).weight.x));
             EXPECT_TRUE(test::agrees(mean, 1, 0.012)) << roughness << ' ' << cosine;
         }
 }
@@ -145,19 +82,19 @@ TEST_P(PrincipledCases, AreFiniteEverywhere) {
     for (int i = 0; i < 100'000; ++i) {
         const float roughness = i % 4 == 0 ? 0.0f : std::pow(uniform(), 3.0f);
         const double cosine = i % 3 == 0 ? std::pow(10.0, uniform.between(-7, 0)) : uniform.between(1e-3, 1);
-        const vec3 wo = outgoing(cosine);
-        const Bsdf b = bsdfOf(principled(GetParam(), roughness), vec3(uniform(), 0, 1), wo, i % 2 == 0);
-        const BsdfSample s = draw(b, wo, uniform.pair());
+        const vec3 wo = outgoingAt(cosine);
+        const Bsdf b = bsdfOf(principledOf(GetParam(), roughness), vec3(uniform(), 0, 1), wo, i % 2 == 0);
+        const BsdfSample s = drawFrom(b, wo, uniform.pair());
         ASSERT_TRUE(isFinite(s.weight) && isFinite(s.pdf) && s.pdf >= 0) << roughness << ' ' << cosine;
         if (s.weight == vec3(0)) continue;
         ASSERT_NEAR(double(dot(s.wi, s.wi)), 1, 1e-4);
         ASSERT_EQ(s.wi.z < 0, s.transmitted != 0);
-        const vec4 f = eval(b, wo, s.wi);
+        const vec4 f = evalBothSides(b, wo, s.wi);
         ASSERT_TRUE(isFinite(vec3(f)) && isFinite(f.w)) << roughness << ' ' << cosine;
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lobes, PrincipledCases, testing::ValuesIn(kCases),
+INSTANTIATE_TEST_SUITE_P(Lobes, PrincipledCases, testing::ValuesIn(kPrincipledCases),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // The lobes themselves, before tables scale them, are those of a physical surface.
@@ -177,17 +114,17 @@ TEST(Principled, LobesAreReciprocal) {
         b.lobes.coatAlpha = 0.2f;
         b.lobes.alpha = 0.05f + 0.9f * uniform();
         b.lobes.glass = 1;
-        b.lobes.eta = 1 / kIor;
-        const vec3 wo = outgoing(uniform.between(0.05, 1)), wi = vec3(test::onSphere(uniform(), uniform()));
+        b.lobes.eta = 1 / test::kPrincipledIor;
+        const vec3 wo = outgoingAt(uniform.between(0.05, 1)), wi = vec3(test::onSphere(uniform(), uniform()));
         if (std::abs(wi.z) < 0.05f) continue;
-        const vec3 there = vec3(eval(b, wo, wi)) / std::abs(wi.z);
+        const vec3 there = vec3(evalBothSides(b, wo, wi)) / std::abs(wi.z);
         vec3 back;
         if (wi.z > 0) {
-            back = vec3(eval(b, wi, wo)) / wo.z;
+            back = vec3(evalBothSides(b, wi, wo)) / wo.z;
         } else {
             // Radiance is not scaled by the indices, so what comes back differs by their ratio squared.
-            b.lobes.eta = kIor;
-            back = vec3(eval(b, -wi, -wo)) / wo.z * (kIor * kIor);
+            b.lobes.eta = test::kPrincipledIor;
+            back = vec3(evalBothSides(b, -wi, -wo)) / wo.z * (test::kPrincipledIor * test::kPrincipledIor);
         }
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(there[c], back[c], 1e-3f * there[c] + 1e-5f) << wi.z;
     }
@@ -200,7 +137,7 @@ TEST(Principled, CoatsWithANormalOfTheirOwnAreSampledAsTheirDensitySays) {
     const vec3 tilts[] = {normalize(vec3(0.3f, 0.1f, 1)), normalize(vec3(-0.8f, 0.5f, 0.6f))};
     for (const vec3& coat : tilts)
         for (const float roughness : {0.25f, 0.6f, 1.0f}) {
-            Principled p = principled(kCases[4], roughness);
+            Principled p = principledOf(kPrincipledCases[4], roughness);
             const vec3 wo = normalize(vec3(-0.2f, 0.3f, 0.6f));
             const Bsdf b = bsdfOf(p, vec3(0.2f, 0.5f, 0.9f), wo, true, coat);
             const auto reflected = [&](const vec3& wi) {
@@ -211,7 +148,7 @@ TEST(Principled, CoatsWithANormalOfTheirOwnAreSampledAsTheirDensitySays) {
             std::vector<std::uint64_t> counts(expected.size());
             int below = 0;
             for (int i = 0; i < 1 << 14; ++i) {
-                const BsdfSample s = draw(b, wo, uniform.pair());
+                const BsdfSample s = drawFrom(b, wo, uniform.pair());
                 ASSERT_EQ(s.delta | s.transmitted, 0u);
                 if (!(s.pdf > 0)) continue;
                 ++counts[test::cellOf(s.wi)];
@@ -239,7 +176,7 @@ TEST(Principled, CoatsTurnWithTheirNormal) {
     for (int i = 0; i < 1000; ++i) {
         b.lobes.coatAlpha = 0.05f + 0.9f * uniform();
         b.lobes.coatNormal = kUp;
-        const vec3 wo = outgoing(uniform.between(0.05, 1)), wi = outgoing(uniform.between(0.05, 1));
+        const vec3 wo = outgoingAt(uniform.between(0.05, 1)), wi = outgoingAt(uniform.between(0.05, 1));
         const vec4 straight = evalPrincipledReflection(kFeatureAll, b.lobes, wo, wi);
         ASSERT_EQ(straight, evalPrincipledReflection(kFeatureAll & ~kFeatureCoatNormal, b.lobes, wo, wi));
         const Frame frame = makeFrame(vec3(test::onSphere(uniform.between(0.5, 1), uniform())));
@@ -253,16 +190,16 @@ TEST(Principled, CoatsTurnWithTheirNormal) {
 TEST(Principled, MirrorsAreTheLimitOfRoughness) {
     Uniforms uniform(35);
     const float minimum = std::sqrt(kMinAlpha);
-    for (const Case& which : kCases)
+    for (const PrincipledCase& which : kPrincipledCases)
         for (const double cosine : {0.9, 0.3}) {
-            const vec3 wo = outgoing(cosine);
+            const vec3 wo = outgoingAt(cosine);
             const vec3 albedo(0.8f, 0.5f, 0.2f);
             Mean below, above;
-            const Bsdf mirror = bsdfOf(principled(which, 0.999f * minimum), albedo, wo);
-            const Bsdf rough = bsdfOf(principled(which, 1.001f * minimum), albedo, wo);
+            const Bsdf mirror = bsdfOf(principledOf(which, 0.999f * minimum), albedo, wo);
+            const Bsdf rough = bsdfOf(principledOf(which, 1.001f * minimum), albedo, wo);
             for (int i = 0; i < 1 << 14; ++i) {
-                below.add(double(draw(mirror, wo, uniform.pair()).weight.y));
-                above.add(double(draw(rough, wo, uniform.pair()).weight.y));
+                below.add(double(drawFrom(mirror, wo, uniform.pair()).weight.y));
+                above.add(double(drawFrom(rough, wo, uniform.pair()).weight.y));
             }
             EXPECT_TRUE(test::agrees(above, below.mean(), 0.01 + 4 * below.standardError())) << which.name;
         }

@@ -102,7 +102,10 @@ void addImage(FlagSet& flags, Options& options) {
                       parseReal(flag, text, 1 / kMaxAspect, kMaxAspect, "a number from 1/16384 to 16384");
               });
     flags.addWhole("--spp,--samples", settings.spp, 1, kMaxSpp, "samples per pixel")->default_str("100");
-    flags.addWhole("--max-depth", settings.maxDepth, 1, kMaxDepth, "path vertices after the camera")->default_str("50");
+    flags
+        .addWhole("--max-depth", settings.maxDepth, 1, kMaxDepth,
+                  "path vertices after the camera; a notice tells where it darkens the picture by more than 1 %")
+        ->default_str("50");
     flags.addWhole("--seed", settings.seed, 0, std::numeric_limits<std::uint32_t>::max(), "same seed, same image")
         ->default_str("0");
     flags
@@ -169,7 +172,8 @@ void addOutput(FlagSet& flags, Options& options) {
 
 void addDuration(FlagSet& flags, Options& options) {
     flags.group("Duration");
-    flags.addSeconds("--time-limit", options.timeLimit, "stop after so long, or at --spp");
+    flags.addSeconds("--time-limit", options.timeLimit,
+                     "stop after so long, or at --spp; even where it is not reached, strata come in rounds of 256");
     flags.add("--target-error", "E",
               "stop when the estimated relMSE is surely below (95 %), or at --spp; "
               "implies --replicates 4",

@@ -61,6 +61,7 @@ nlohmann::json toJson(const EngineReport& report) {
             {"longest_dispatch", report.longestDispatchSeconds},
             {"rays", {rays.camera, rays.scattered, rays.shadow, rays.edge, rays.reuse}},
             {"nonfinite", report.nonfiniteSamples},
+            {"cut_off", report.cutOff},
             {"device_bytes", report.deviceBytes},
             {"light_sampling", report.lightSampling}};
 }
@@ -80,6 +81,7 @@ EngineReport toReport(const nlohmann::json& json) {
     const nlohmann::json& rays = json.at("rays");
     report.rays = {rays.at(0), rays.at(1), rays.at(2), rays.at(3), rays.at(4)};
     report.nonfiniteSamples = json.at("nonfinite");
+    report.cutOff = json.at("cut_off");
     report.deviceBytes = json.at("device_bytes");
     report.lightSampling = json.at("light_sampling");
     return report;

@@ -277,9 +277,11 @@ EngineReport RankedEngine::report() const {
     if (!pool_) return report;
     report.rays = {};
     report.nonfiniteSamples = 0;
+    report.cutOff = 0;
     for (const RankState& state : states_) {
         report.rays += state.report.rays;
         report.nonfiniteSamples += state.report.nonfiniteSamples;
+        report.cutOff += state.report.cutOff;
         RankFigures figures = state.figures;
         figures.device = state.report.device;
         figures.threads = state.report.threads;

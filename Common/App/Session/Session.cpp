@@ -1,9 +1,12 @@
 #include "Common/App/Session/Session.h"
 
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "Common/App/Platform.h"
@@ -31,6 +34,7 @@ namespace rt::app {
 namespace {
 
 constexpr std::size_t kMemoryForWriting = std::size_t{4} << 20; // bytes
+constexpr double kCutOffNoticed = 0.01;                         // share of throughput
 
 void checkFeatures(const RenderSettings& settings, const scene::CompiledScene& scene) {
     const shared::Features missing = scene.features & ~settings.features.value_or(shared::kFeatureAll);
@@ -48,6 +52,14 @@ std::string describeEnd(const Statistics& statistics) {
                                                            : "done";
     if (statistics.error) text += ", relMSE " + std::to_string(statistics.error->relmse);
     return text;
+}
+
+void noticeCutOff(std::uint32_t maxDepth, double share) {
+    if (share <= kCutOffNoticed) return;
+    const long permille = std::lround(1000 * share);
+    logWarning("max depth " + std::to_string(maxDepth) + " has cut off " + std::to_string(permille / 10) + "." +
+               std::to_string(permille % 10) + " % of what paths carry, and the picture may be darker by as much; " +
+               "--max-depth lets them go on");
 }
 
 // One render without a window, stage by stage.
@@ -181,6 +193,7 @@ void HeadlessRender::write() {
                 [&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });
     if (const std::uint64_t bad = engine_->report().nonfiniteSamples; bad > 0)
         logWarning(std::to_string(bad) + " samples were not finite and count as black");
+    noticeCutOff(options_.settings.maxDepth, engine_->report().cutOffShare());
     if (failures_.empty()) return;
     for (std::size_t i = 1; i < failures_.size(); ++i) logWarning(failures_[i]);
     throw RenderError(failures_.front() + (outputs.failures.empty() || isSaved ? "" : rescue()));

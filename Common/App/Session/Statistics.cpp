@@ -115,6 +115,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
     json["mean_radiance"] = estimated.meanRadiance;
     json["standard_error"] = orNull(estimated.standardError);
     json["nonfinite_samples"] = report.nonfiniteSamples;
+    json["cut_off_share"] = report.cutOffShare();
     json["estimated_relmse"] = json["estimated_relmse_interval"] = json["error_is"] = nullptr;
     if (const auto& relmse = estimated.relmse) {
         json["estimated_relmse"] = relmse->value;

@@ -60,6 +60,8 @@ void drawStatisticsPanel(Gui& gui) {
     figure("Compiled out", "What it does not need, and no code runs for",
            joined(app::absentFeatureNames(report.features)));
     figure("NaN or Inf samples", "They count as black", std::to_string(report.nonfiniteSamples));
+    std::snprintf(text, sizeof text, "%.2g %%", 100 * report.cutOffShare());
+    figure("Cut off by max depth", "Of what paths carry: the picture may be darker by as much", text);
 }
 
 } // namespace rt::gui

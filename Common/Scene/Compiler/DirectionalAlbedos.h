@@ -5,8 +5,8 @@
 
 namespace rt::scene {
 
-// The table that directionalAlbedo() of PrincipledSurface.h reads, kAlbedoSteps rows of as many entries: by quadrature,
-// the first time that it is asked for. Errors are below 0.005.
+// The table that directionalAlbedo() and sheenAlbedo() of PrincipledSurface.h read, kAlbedoSteps rows of as many
+// entries: by quadrature, the first time that it is asked for.
 const std::vector<shared::vec3>& directionalAlbedos();
 
 // What glassAlbedo() reads of one index of refraction, from outside and from inside. The last few are kept: a scene

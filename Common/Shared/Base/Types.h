@@ -436,6 +436,7 @@ const uint kEmissionWeighed = 0u;           // against the light sampling of the
 const uint kEmissionApart = 1u;             // not at all: edge rays count it
 const uint kEmissionApartBehindGlossy = 2u; // nor behind a glossy mirror, whose reflected light they sample as well
 const uint kEmissionOfEdgeRay = 3u;         // in full: the path is an edge ray
+const uint kEmissionCutOff = 4u;            // there is no more: max depth has ended a path that would have gone on
 
 // What a step settles of a path that is shared.
 struct SharedPart {

@@ -17,8 +17,9 @@ RT_FN bool isDeltaPrincipled(Features, RT_IN(Bsdf)) {
 
 #ifdef RT_HEAVY_FEATURES
 
-const float kMinSheenRoughness = 0.07f; // below it sheen would be a spark at grazing angles
-const float kCoatReflectance = 0.04f;   // of a clear coat at normal incidence
+const float kMinRoughness = 0.0316227766f; // square root of kMinAlpha
+const float kMinSheenRoughness = 0.07f;    // below it sheen would be a spark at grazing angles
+const float kCoatReflectance = 0.04f;      // of a clear coat at normal incidence
 
 RT_FN float fifthPower(float x) {
     return square(square(x)) * x;
@@ -33,8 +34,17 @@ RT_FN bool isMirror(float alpha) {
     return alpha < kMinAlpha;
 }
 
+// Below this difference of 1 to a ratio of indices glass does not bend what it transmits: refracted directions would
+// lie so near each other, however rough it is, that floats could not tell by which facet one came.
+const float kMinBend = 2.0e-4f;
+
+RT_FN bool isStraight(RT_IN(PrincipledLobes) lobes) {
+    return lobes.thin == 0u && abs(lobes.eta - 1.0f) < kMinBend;
+}
+
 // Fibres (Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017; visibility of Neubelt and Pettineo),
-// for the exponent 1 / roughness^2.
+// for the exponent 1 / roughness^2. Smooth ones, seen at grazing angles, would send out more than arrives: makeLobes()
+// bounds them.
 RT_FN float sheenValue(float exponent, vec3 wo, vec3 wi, vec3 h) {
     float density =
         (2.0f + exponent) * 0.5f * kInvPi * exponential(0.5f * exponent * log1p(-min(square(h.z), 0.999999f)));
@@ -108,7 +118,7 @@ RT_FN vec4 evalPrincipledReflection(Features features, RT_IN(PrincipledLobes) lo
 // the other side. Radiance is not scaled by the indices, as in Dielectric.h.
 RT_FN vec4 evalPrincipledTransmission(RT_IN(Bsdf) m, vec3 wo, vec3 wi) {
     RT_IN(PrincipledLobes) lobes = m.lobes;
-    if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha)) return vec4(0.0f);
+    if (!(lobes.glass > 0.0f) || isMirror(lobes.alpha) || isStraight(lobes)) return vec4(0.0f);
     vec3 mirrored = vec3(wi.x, wi.y, -wi.z);
     vec3 h = lobes.thin != 0u ? wo + mirrored : wo * lobes.eta + wi;
     h = normalize(h) * (h.z < 0.0f ? -1.0f : 1.0f);
@@ -189,7 +199,9 @@ RT_FN BsdfSample proposePrincipled(Features features, RT_IN(Bsdf) m, vec3 wo, ve
             wi = lobes.thin != 0u ? h * (2.0f * c) - wo : h * (lobes.eta * c - f.y) - wo * lobes.eta;
             if (lobes.thin != 0u) wi.z = -wi.z;
         }
-        if (isMirror(lobes.alpha)) {
+        bool goesStraight = transmitted != 0u && isStraight(lobes);
+        if (goesStraight) wi = -wo;
+        if (goesStraight || isMirror(lobes.alpha)) {
             BsdfSample s = mirrorSample(wi, vec3(lobes.glass), lobes.glassShare);
             s.transmitted = transmitted;
             if (transmitted != 0u) s.weight *= m.albedo;

@@ -18,11 +18,21 @@ RT_FN bool isPrincipled(Features features, RT_IN(Material) m) {
 
 // ---- directional albedo --------------------------------------------------------------------------------------------
 
-// The scene's table of what GGX facets and sheen reflect in all, over the cosine of wo and the roughness, each at
-// kAlbedoSteps equal steps from 0 to 1: x and y are the factors of the reflectance at normal and at grazing incidence
-// (Karis, "Real Shading in Unreal Engine 4", 2013), z belongs to sheen.
-RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
-    vec2 at = vec2(cosine, roughness) * float(kAlbedoSteps - 1u);
+// Tables of what lobes reflect in all, over the cosine of wo and the roughness, kAlbedoSteps entries each. Between them
+// albedos are never too low: what is left to the layers below, and what makes up for losses, would add up to more than
+// arrives.
+
+const float kMinAlbedoCosine = 1.0e-4f; // of the first column; its fourth root, by which columns lie, is 0.1
+
+// (column, row) of a lobe that has no roughness below `minRoughness`, that of the first row. Albedos change fastest at
+// grazing angles and with little roughness.
+RT_FN vec2 albedoPlace(float cosine, float roughness, float minRoughness) {
+    float column = (sqrt(sqrt(max(cosine, kMinAlbedoCosine))) - 0.1f) * (1.0f / 0.9f);
+    float row = sqrt(max(roughness - minRoughness, 0.0f) * (1.0f / (1.0f - minRoughness)));
+    return vec2(column, row) * float(kAlbedoSteps - 1u);
+}
+
+RT_FN vec3 tabledAlbedo(SceneRef scene, vec2 at) {
     uint column = min(uint(at.x), kAlbedoSteps - 2u);
     uint row = min(uint(at.y), kAlbedoSteps - 2u);
     vec2 part = at - vec2(float(column), float(row));
@@ -33,10 +43,23 @@ RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
     return mix(lower, upper, part.y);
 }
 
+// What GGX facets reflect in all: x and y are the factors of the reflectance at normal and at grazing incidence (Karis,
+// "Real Shading in Unreal Engine 4", 2013).
+RT_FN vec3 directionalAlbedo(SceneRef scene, float cosine, float roughness) {
+    vec3 rough = tabledAlbedo(scene, albedoPlace(cosine, roughness, kMinRoughness));
+    float grazing = schlick(cosine);
+    return select(isMirror(square(roughness)), vec3(1.0f - grazing, grazing, 0.0f), rough);
+}
+
+// What white sheen would reflect in all: more than arrives, where it grazes fibres that are smooth.
+RT_FN float sheenAlbedo(SceneRef scene, float cosine, float roughness) {
+    return tabledAlbedo(scene, albedoPlace(cosine, roughness, kMinSheenRoughness)).z;
+}
+
 // What rough glass reflects and transmits in all, from outside or from inside: two such tables, one after the other,
 // from `first` on.
 RT_FN float glassAlbedo(SceneRef scene, uint first, bool inside, float cosine, float roughness) {
-    vec2 at = vec2(cosine, roughness) * float(kAlbedoSteps - 1u);
+    vec2 at = albedoPlace(cosine, roughness, kMinRoughness);
     uint column = min(uint(at.x), kAlbedoSteps - 2u);
     uint row = min(uint(at.y), kAlbedoSteps - 2u);
     vec2 part = at - vec2(float(column), float(row));
@@ -166,13 +189,14 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
         coatAlbedo = coat * (kCoatReflectance * c.x + c.y);
     }
     vec3 sheen = vec3(0.0f);
-    float sheenAlbedo = 0.0f;
+    float reflectedBySheen = 0.0f;
     if (hasLobe(values.others, kLobeSheen)) {
-        sheen = select(inside, vec3(0.0f), values.sheenColor);
-        float whole = directionalAlbedo(scene, cosine, values.sheenRoughness).z;
-        sheenAlbedo = min(maxComponent(sheen) * whole, 1.0f);
+        // Bounded to what arrives: the visibility of these fibres is an approximation without a bound of its own.
+        float whole = sheenAlbedo(scene, cosine, values.sheenRoughness);
+        sheen = select(inside, vec3(0.0f), values.sheenColor * (1.0f / max(whole, 1.0f)));
+        reflectedBySheen = min(maxComponent(sheen) * whole, 1.0f);
     }
-    float below = (1.0f - coatAlbedo) * (1.0f - sheenAlbedo);
+    float below = (1.0f - coatAlbedo) * (1.0f - reflectedBySheen);
 
     float specular = values.specular;
     float metallic = values.metallic;
@@ -187,23 +211,23 @@ RT_FN PrincipledLobes makeLobes(SceneRef scene, RT_IN(PrincipledValues) values, 
     lobes.sheen = sheen * (1.0f - coatAlbedo);
     lobes.sheenExponent = 1.0f / square(values.sheenRoughness);
     lobes.alpha = square(values.roughness);
+    lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
+    lobes.thin = values.thin;
     lobes.glass = 0.0f;
     if (hasLobe(values.others, kLobeGlass)) {
         lobes.glass = (1.0f - metallic) * values.transmission * below;
-        if (lobes.glass > 0.0f && values.roughness > 0.0f) {
+        if (lobes.glass > 0.0f && !isMirror(lobes.alpha) && !isStraight(lobes)) {
             // A sheet mirrors to its other side what it does not reflect.
             float whole = a.x + a.y;
             if (values.glass != kNone) whole = glassAlbedo(scene, values.glass, !front, cosine, values.roughness);
             lobes.glass *= compensation(vec3(1.0f), whole).x;
         }
     }
-    lobes.eta = front || values.thin != 0u ? 1.0f / values.ior : values.ior;
-    lobes.thin = values.thin;
     lobes.coat = coat;
     lobes.coatAlpha = square(values.clearcoatRoughness);
     lobes.coatNormal = coatNormal;
 
-    float diffuseAlbedo = maxComponent(lobes.diffuse) + sheenAlbedo * (1.0f - coatAlbedo);
+    float diffuseAlbedo = maxComponent(lobes.diffuse) + reflectedBySheen * (1.0f - coatAlbedo);
     float specularAlbedo = maxComponent(lobes.f0 * a.x + lobes.f90 * a.y);
     float sum = diffuseAlbedo + specularAlbedo + coatAlbedo + lobes.glass;
     float scale = sum > 0.0f ? 1.0f / sum : 0.0f;

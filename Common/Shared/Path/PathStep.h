@@ -77,6 +77,20 @@ RT_FN void absorbInside(SceneRef scene, RT_IN(Surface) surface, float distance, 
     s.throughput *= vec3(exponential(-depth.x), exponential(-depth.y), exponential(-depth.z));
 }
 
+// Whether max depth ends the path, which would go on here.
+RT_FN bool endsAtMaxDepth(RT_IN(RenderParams) params, RT_INOUT(PathState) s) {
+    if (s.vertex < params.maxDepth) return false;
+    s.emission = kEmissionCutOff;
+    return true;
+}
+
+// What a path that has been cut off would have gone on with, the mean of the channels; times what came `before` where
+// throughput has begun anew.
+RT_FN float cutOffThroughput(RT_IN(PathState) s, vec3 before) {
+    vec3 throughput = s.throughput * before;
+    return (throughput.x + throughput.y + throughput.z) * (1.0f / 3.0f);
+}
+
 // Shades what s.ray hits: adds the light that it finds there and makes the path's next vertex, v, which has yet to be
 // completed. False: the path has ended.
 RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Sampler) smp, RT_IN(Hit) hit,
@@ -86,7 +100,7 @@ RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) param
     if (has(features, kFeatureVolumes)) t = sampleCollision(scene, s.ray, t, smp, s.vertex, medium);
     s.vertex++;
     if (has(features, kFeatureVolumes) && medium != kNone) {
-        if (s.vertex >= params.maxDepth || !goOnInMedium(features, s)) return false;
+        if (endsAtMaxDepth(params, s) || !goOnInMedium(features, s)) return false;
         placeInMedium(features, scene, s, t, medium, v);
     } else {
         if (hit.t < 0.0f) {
@@ -98,7 +112,7 @@ RT_FN bool shadeHit(Features features, SceneRef scene, RT_IN(RenderParams) param
         if (isPrincipled(features, material)) absorbInside(scene, surface, hit.t, s);
         float share = techniqueEmissionShare(features, scene, params, hit, surface, s);
         addEmission(features, scene, params, surface, material, hit.t, share, s);
-        if (s.vertex >= params.maxDepth || material.kind == kMaterialEmitter) return false;
+        if (material.kind == kMaterialEmitter || endsAtMaxDepth(params, s)) return false;
         placeOnSurface(features, scene, s, surface, material, v);
         if (!goOnAtSurface(features, params, surface, v, s, step)) return false;
     }

@@ -1,0 +1,103 @@
+// Principled surfaces for tests of their lobes: cases, their bsdfs, what these send out.
+#pragma once
+#include <algorithm>
+#include <map>
+#include <vector>
+
+#include "Common/Scene/Compiler/DirectionalAlbedos.h"
+#include "Common/Shared/Base/SceneAccess.h"
+#include "Common/Shared/Material/PrincipledSurface.h"
+#include "tests/unit/DirectionCells.h"
+
+namespace rt::test {
+
+using shared::Bsdf;
+using shared::BsdfSample;
+using shared::Principled;
+using shared::PrincipledValues;
+using shared::ScaledChannel;
+using shared::SceneArraysOf;
+using shared::SceneView;
+using shared::Surface;
+using shared::vec2;
+using shared::vec3;
+using shared::vec4;
+
+inline const vec3 kUp(0, 0, 1);
+inline constexpr float kPrincipledIor = 1.5f;
+
+struct PrincipledTables : SceneArraysOf<std::vector> {
+    explicit PrincipledTables(float ior) {
+        directionalAlbedos = scene::directionalAlbedos();
+        glassAlbedos = scene::glassAlbedos(ior);
+    }
+    operator SceneView() const { return viewOf(*this, {}); }
+};
+
+inline const PrincipledTables& principledTables(float ior) {
+    static std::map<float, PrincipledTables> made;
+    return made.try_emplace(ior, ior).first->second;
+}
+
+struct PrincipledCase {
+    const char* name;
+    float metallic = 0, transmission = 0, clearcoat = 0, sheen = 0;
+    bool thin = false;
+};
+inline constexpr PrincipledCase kPrincipledCases[] = {{"metal", 1},
+                                                      {"dielectric"},
+                                                      {"glass", 0, 1},
+                                                      {"sheet", 0, 1, 0, 0, true},
+                                                      {"clearcoat", 0, 0, 1},
+                                                      {"sheen", 0, 0, 0, 0.8f},
+                                                      {"mixture", 0.3f, 0.5f, 0.5f, 0.5f}};
+
+inline Principled principledOf(const PrincipledCase& which, float roughness) {
+    const auto constant = [](float factor) { return ScaledChannel{factor, shared::kNone, 0}; };
+    Principled p{};
+    p.metallic = constant(which.metallic);
+    p.roughness = constant(roughness);
+    p.specular = constant(1);
+    p.transmission = constant(which.transmission);
+    p.clearcoat = constant(which.clearcoat);
+    p.clearcoatRoughness = constant(roughness);
+    p.sheenRoughness = constant(roughness);
+    p.opacity = constant(1);
+    p.specularColor = {vec3(1), shared::kNone};
+    p.sheenColor = {vec3(which.sheen), shared::kNone};
+    p.ior = kPrincipledIor;
+    p.thin = which.thin ? 1u : 0u;
+    p.glass = which.thin ? shared::kNone : 0u;
+    p.normalTexture = p.coatTexture = shared::kNone;
+    p.alphaCutoff = -1;
+    return p;
+}
+
+inline Bsdf bsdfOf(const Principled& p, const vec3& albedo, const vec3& wo, bool front = true, const vec3& coat = kUp) {
+    Bsdf b{};
+    b.kind = shared::kMaterialPrincipled;
+    b.albedo = albedo;
+    const PrincipledTables& tables = principledTables(p.ior);
+    const PrincipledValues values = principledValues(shared::kFeatureAll, tables, p, Surface{});
+    b.lobes = makeLobes(tables, values, albedo, wo.z, directionalAlbedo(tables, wo.z, values.roughness), coat,
+                        std::max(dot(coat, wo), 0.0f), front);
+    return b;
+}
+
+inline vec3 outgoingAt(double cosine) {
+    return vec3(onSphere(0.5 * (cosine + 1), 0.1));
+}
+
+// On both sides.
+inline vec4 evalBothSides(const Bsdf& b, const vec3& wo, const vec3& wi) {
+    BsdfSample s = shared::absorbed();
+    s.wi = wi;
+    s.transmitted = wi.z < 0 ? 1u : 0u;
+    return evalProposal(shared::kFeatureAll, b, wo, s);
+}
+
+inline BsdfSample drawFrom(const Bsdf& b, const vec3& wo, const vec2& u) {
+    return sampleBsdf(shared::kFeatureAll, b, kUp, 1, wo, u, u.x);
+}
+
+} // namespace rt::test
