@@ -150,7 +150,7 @@ RT_FN LightSample selectSample(bool first, LightSample a, LightSample b) {
     return b;
 }
 
-// Samples of spheres under the automatic method, from outside.
+// Samples of spheres under the automatic method, from outside, but for near spheres.
 template <Features kFeatures>
 RT_CALL void sampleSpheres(PathLanes& lanes) {
     for (uint i = 0u; i < kLanes; ++i) {
@@ -164,7 +164,7 @@ RT_CALL void sampleSpheres(PathLanes& lanes) {
         LightSample s = sampleSphereCone(light, strategy == kStrategyVisibleCap, center, v.origin, v.shading, u);
         s = completeSample(kFeatureNone, light, v.shading, s);
         set(lanes.lightSamples, i, selectSample(isSphere, s, get(lanes.lightSamples, i)));
-        const uint outside = strategy != kStrategyInside ? 1u : 0u;
+        const uint outside = strategy != kStrategyInside ? (isNearSphereLight(light) ? 0u : 1u) : 0u;
         const uint before = lanes.isSampled.at[i];
         lanes.isSampled.at[i] = isSphere ? outside : before;
     }

@@ -36,7 +36,9 @@ float sphereHit(Ray ray, uint instance, uint index, float tMax) {
     if (has(kFeatures, kFeatureMovingSpheres)) {
         sphere.center = sphereCenter(sphere.center, constants.arrays.sphereMotions.at[index], ray.time);
     }
-    return intersectSphere(objectRay(ray, instance), sphere.center, sphere.radius, tMax);
+    Ray local = objectRay(ray, instance);
+    float inverseSquaredLength = 1.0f / dot(local.direction, local.direction);
+    return intersectSphere(local, inverseSquaredLength, sphere.center, sphere.radius, sphere.power, tMax);
 }
 
 // (u, v) of a hit of one of the two triangles that a quad is in the acceleration structure; `weights` of the vertices 1

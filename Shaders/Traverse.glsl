@@ -41,6 +41,12 @@ TracedRay makeTracedRay(Ray ray, bool isUnit) {
     return r;
 }
 
+// A negative radius marks a near sphere; `index` is that of the primitive.
+float testNearSphere(TracedRay r, vec4 sphere, uint index, float tMax) {
+    float power = constants.arrays.spheres.at[index].power;
+    return intersectSphere(r.ray, r.inverseSquaredLength, sphere.xyz, -sphere.w, power, tMax);
+}
+
 float testSphere(TracedRay r, vec4 sphere, vec3 motion, float tMax) {
     vec3 center = sphere.xyz;
     if (has(kFeatures, kFeatureMovingSpheres)) center = sphereCenter(center, motion, r.ray.time);
@@ -169,9 +175,12 @@ Hit traceLinear(Ray ray, bool anyHit, float tMax) {
     Nearest nearest = nothingWithin(tMax);
     if (has(kFeatures, kFeatureSpheres)) {
         for (uint i = 0u; i < kListedSpheres; i++) {
+            vec4 sphere = listVectors[2u * i];
             vec4 motion = listVectors[2u * i + 1u];
-            float t = testSphere(r, listVectors[2u * i], motion.xyz, searchEnd(nearest, anyHit, tMax));
-            acceptSphere(nearest, t, floatBitsToUint(motion.w));
+            uint index = floatBitsToUint(motion.w);
+            float end = searchEnd(nearest, anyHit, tMax);
+            float t = sphere.w < 0.0f ? testNearSphere(r, sphere, index, end) : testSphere(r, sphere, motion.xyz, end);
+            acceptSphere(nearest, t, index);
         }
     }
     uint first = 2u * kListedSpheres;
@@ -303,7 +312,10 @@ void testLeaf(TracedRay r, uint leaf, inout Nearest nearest) {
         for (uint i = first; i < end; i++) {
             vec3 motion = vec3(0.0f);
             if (has(kFeatures, kFeatureMovingSpheres)) motion = constants.tree.sphereMotions.at[i].xyz;
-            acceptSphere(nearest, testSphere(r, constants.tree.spheres.at[i], motion, nearest.t), i);
+            vec4 sphere = constants.tree.spheres.at[i];
+            float t = sphere.w < 0.0f ? testNearSphere(r, sphere, constants.tree.sphereIndices.at[i], nearest.t)
+                                      : testSphere(r, sphere, motion, nearest.t);
+            acceptSphere(nearest, t, i);
         }
     }
 }

@@ -62,6 +62,11 @@ find_package(JPEG QUIET) # CMake's own module, as libjpeg-turbo has a CMake conf
 rt_require(jpeg libjpeg-dev libjpeg-turbo PACKAGE libjpeg-turbo TARGETS JPEG::JPEG PKGCONFIG libjpeg)
 rt_require(openexr libopenexr-dev openexr PACKAGE OpenEXR TARGETS OpenEXR::OpenEXR PKGCONFIG OpenEXR)
 
+# Of textures in these formats, which can be left out. CMake's own module first, as with JPEG.
+find_package(TIFF 4.5 QUIET)
+rt_dependency(tiff PACKAGE tiff VERSION 4.5 TARGETS TIFF::TIFF PKGCONFIG libtiff-4>=4.5)
+rt_dependency(webp PACKAGE WebP TARGETS WebP::webp PKGCONFIG libwebp)
+
 # Of the window, which can be left out. ImGui with its backends for GLFW and Vulkan.
 rt_dependency(glfw PACKAGE glfw3 TARGETS glfw PKGCONFIG glfw3)
 rt_dependency(imgui PACKAGE imgui TARGETS imgui::imgui PKGCONFIG imgui)

@@ -9,11 +9,13 @@ struct AccelStorage {
     LargeArray<WideNode> nodes;
     LargeArray<QuantizedNode> quantizedNodes;
     LargeArray<SphereBlock> spheres;
+    LargeArray<NearSphereBlock> nearSpheres;
     LargeArray<MovingSphereBlock> movingSpheres;
     LargeArray<QuadBlock> quads;
     LargeArray<TriangleBlock> triangles;
     LargeArray<PlacedGeometry> instances;
     LargeArray<SphereBlock> listedSpheres;
+    LargeArray<NearSphereBlock> listedNearSpheres;
     LargeArray<MovingSphereBlock> listedMovingSpheres;
     LargeArray<QuadBlock> listedQuads;
     LargeArray<TriangleBlock> listedTriangles;

@@ -19,8 +19,8 @@ inline constexpr std::uint32_t kMaxTreeDepth = 64;
 //   bit 31: leaf    30..28: kind    27..25: blocks - 1    24..0: index of the first block
 using Reference = std::uint32_t;
 
-enum class LeafKind : std::uint32_t { Sphere, MovingSphere, Quad, Triangle, Instance };
-inline constexpr std::uint32_t kLeafKinds = 5;
+enum class LeafKind : std::uint32_t { Sphere, NearSphere, MovingSphere, Quad, Triangle, Instance };
+inline constexpr std::uint32_t kLeafKinds = 6;
 
 inline constexpr Reference kLeafBit = 1u << 31;
 inline constexpr std::uint32_t kKindShift = 28;
@@ -55,6 +55,14 @@ struct alignas(32) SphereBlock {
     float center[3][kWidth];
     float radius[kWidth];
     std::uint32_t primitive[kWidth]; // index into the scene's array, kNone for an empty lane
+};
+
+// Those whose power is known, see shared::Sphere; few of any scene.
+struct alignas(32) NearSphereBlock {
+    float center[3][kWidth];
+    float radius[kWidth];
+    float power[kWidth];
+    std::uint32_t primitive[kWidth];
 };
 
 struct alignas(32) MovingSphereBlock {
@@ -107,6 +115,7 @@ struct AccelView {
     bool isLarge = false;   // does not fit into a core's own cache: worth fetching ahead
 
     LinearList<SphereBlock> listedSpheres;
+    LinearList<NearSphereBlock> listedNearSpheres;
     LinearList<MovingSphereBlock> listedMovingSpheres;
     LinearList<QuadBlock> listedQuads;
     LinearList<TriangleBlock> listedTriangles;
@@ -116,6 +125,7 @@ struct AccelView {
     const QuantizedNode* quantizedNodes = nullptr; // if not null, those of the world, the root first
     QuantizationGrid quantizationGrid;
     const SphereBlock* spheres = nullptr;
+    const NearSphereBlock* nearSpheres = nullptr;
     const MovingSphereBlock* movingSpheres = nullptr;
     const QuadBlock* quads = nullptr;
     const TriangleBlock* triangles = nullptr;

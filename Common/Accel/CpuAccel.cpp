@@ -1,6 +1,8 @@
 #include "Common/Accel/CpuAccel.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -22,16 +24,38 @@ constexpr std::size_t kLargeBytes = 1u << 20;     // of a tree that traversal fe
 constexpr std::size_t kManyPrimitives = 1u << 16; // beside whose memory it is worth a millisecond to give some back
 
 template <class Block>
-LinearList<Block> fillList(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind, std::uint32_t first,
-                           std::uint32_t count) {
+LinearList<Block> fillList(LargeArray<Block>& blocks, const AccelInput& input, std::uint32_t kind,
+                           const std::vector<std::uint32_t>& primitives) {
+    const auto count = static_cast<std::uint32_t>(primitives.size());
     blocks = LargeArray<Block>((count + kWidth - 1) / kWidth);
     for (std::uint32_t i = 0; i < count; ++i) {
         Block& block = blocks[i / kWidth];
         if (i % kWidth == 0) block = emptyBlock<Block>();
-        fillLane(block, i % kWidth, input, first + i);
-        block.primitive[i % kWidth] = packPrimitive(kind, first + i);
+        fillLane(block, i % kWidth, input, primitives[i]);
+        block.primitive[i % kWidth] = packPrimitive(kind, primitives[i]);
     }
     return {blocks.data(), (count + kWidth - 1) / kWidth};
+}
+
+void fillLists(AccelStorage& storage, const AccelInput& input, const shared::Geometry& world, AccelView& view) {
+    const auto indices = [](std::uint32_t first, std::uint32_t count) {
+        std::vector<std::uint32_t> all(count);
+        std::iota(all.begin(), all.end(), first);
+        return all;
+    };
+    const std::vector<std::uint32_t> all = indices(world.firstSphere, world.sphereCount);
+    const auto spheresOf = [&]<class Block>(LargeArray<Block>& blocks, LeafKind kind) {
+        std::vector<std::uint32_t> spheres;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(spheres),
+                     [&](std::uint32_t sphere) { return sphereKind(input, sphere) == kind; });
+        return fillList(blocks, input, shared::kSphere, spheres);
+    };
+    view.listedSpheres = spheresOf(storage.listedSpheres, LeafKind::Sphere);
+    view.listedNearSpheres = spheresOf(storage.listedNearSpheres, LeafKind::NearSphere);
+    view.listedMovingSpheres = spheresOf(storage.listedMovingSpheres, LeafKind::MovingSphere);
+    view.listedQuads = fillList(storage.listedQuads, input, shared::kQuad, indices(world.firstQuad, world.quadCount));
+    view.listedTriangles =
+        fillList(storage.listedTriangles, input, shared::kTriangle, indices(world.firstTriangle, world.triangleCount));
 }
 
 // Lanes go as blocks come: these are the last large arrays, and nothing else is as much memory as they are.
@@ -118,6 +142,7 @@ void Assembly::fill(AccelStorage& storage) {
             fillBlocks<Block>(std::move(lanes_.of[static_cast<std::uint32_t>(kind)]), input_, settings_.tree.threads);
     };
     fillKind(storage.spheres, LeafKind::Sphere);
+    fillKind(storage.nearSpheres, LeafKind::NearSphere);
     fillKind(storage.movingSpheres, LeafKind::MovingSphere);
     fillKind(storage.quads, LeafKind::Quad);
     fillKind(storage.triangles, LeafKind::Triangle);
@@ -151,16 +176,7 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     const std::uint64_t primitives = std::uint64_t{world.sphereCount} + world.quadCount + world.triangleCount;
     view.isLinear = input.instances.empty() && (primitives == 0 || primitives <= settings.maxLinear);
     if (view.isLinear) {
-        if (input.motions.empty()) {
-            view.listedSpheres =
-                fillList(storage.listedSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
-        } else {
-            view.listedMovingSpheres =
-                fillList(storage.listedMovingSpheres, input, shared::kSphere, world.firstSphere, world.sphereCount);
-        }
-        view.listedQuads = fillList(storage.listedQuads, input, shared::kQuad, world.firstQuad, world.quadCount);
-        view.listedTriangles =
-            fillList(storage.listedTriangles, input, shared::kTriangle, world.firstTriangle, world.triangleCount);
+        fillLists(storage, input, world, view);
         if (primitivesDone != nullptr) primitivesDone->fetch_add(primitives);
         return accel;
     }
@@ -175,6 +191,7 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
     view.quantizationGrid = assembly.quantizationGrid();
     view.nodes = storage.nodes.data();
     view.spheres = storage.spheres.data();
+    view.nearSpheres = storage.nearSpheres.data();
     view.movingSpheres = storage.movingSpheres.data();
     view.quads = storage.quads.data();
     view.triangles = storage.triangles.data();
@@ -185,8 +202,9 @@ std::unique_ptr<CpuAccel> CpuAccel::build(const AccelInput& input, const BuildSe
 std::size_t CpuAccel::bytes() const {
     const AccelStorage& s = *storage_;
     return sizeof(*this) + sizeof(s) + s.nodes.bytes() + s.quantizedNodes.bytes() + s.spheres.bytes() +
-           s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() + s.instances.bytes() +
-           s.listedSpheres.bytes() + s.listedMovingSpheres.bytes() + s.listedQuads.bytes() + s.listedTriangles.bytes();
+           s.nearSpheres.bytes() + s.movingSpheres.bytes() + s.quads.bytes() + s.triangles.bytes() +
+           s.instances.bytes() + s.listedSpheres.bytes() + s.listedNearSpheres.bytes() + s.listedMovingSpheres.bytes() +
+           s.listedQuads.bytes() + s.listedTriangles.bytes();
 }
 
 } // namespace rt::accel

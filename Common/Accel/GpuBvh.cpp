@@ -26,7 +26,8 @@ static_assert(sizeof(shared::TreeQuad) == 64 && sizeof(shared::TreeTriangle) == 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
 vec4 sphereVector(const AccelInput& input, std::uint32_t index) {
-    return vec4(input.spheres[index].center, input.spheres[index].radius);
+    const shared::Sphere& sphere = input.spheres[index];
+    return vec4(sphere.center, sphere.power < shared::kInfinity ? -sphere.radius : sphere.radius);
 }
 
 vec4 motionVector(const AccelInput& input, std::uint32_t index) {
@@ -184,12 +185,12 @@ std::uint32_t Flattener::addLeaf(const SceneTree& tree, const BvhNode& leaf) {
             return append(shared::kTriangle, trees_.triangles, triangleRecord);
         case LeafKind::Instance:
             return shared::treeLeaf(shared::kInstanceLeaf, tree.items.index(items[0]), 1);
-        case LeafKind::MovingSphere:
-            append(shared::kSphere, trees_.sphereMotions, motionVector);
-            break;
         case LeafKind::Sphere:
+        case LeafKind::NearSphere:
+        case LeafKind::MovingSphere:
             break;
     }
+    if (!input_.motions.empty()) append(shared::kSphere, trees_.sphereMotions, motionVector);
     append(shared::kSphere, trees_.sphereIndices, [](const AccelInput&, std::uint32_t index) { return index; });
     return append(shared::kSphere, trees_.spheres, sphereVector);
 }

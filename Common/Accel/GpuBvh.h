@@ -18,7 +18,7 @@ struct GpuTrees {
     bool isWide = false; // wideNodes instead of nodes
     std::vector<shared::TreeNode> nodes;
     std::vector<shared::WideTreeNode> wideNodes;
-    std::vector<shared::vec4> spheres;        // center, radius
+    std::vector<shared::vec4> spheres;        // center, radius; that is negative for near spheres
     std::vector<shared::vec4> sphereMotions;  // of each of them; empty: nothing moves
     std::vector<std::uint32_t> sphereIndices; // of each of them in the scene
     std::vector<shared::TreeQuad> quads;

@@ -95,6 +95,32 @@ RT_FN LaneHits intersectBlock(const ShapeRay& ray, const SphereBlock& block) {
     return intersectSpheres(ray, load3(block.center), load(block.radius));
 }
 
+// Lanes whose sphere the ray begins far away from take what intersectSpheres() does.
+RT_FN LaneHits intersectBlock(const ShapeRay& ray, const NearSphereBlock& block) {
+    const Float8 zero = broadcast(0.0f);
+    const Float8 inverseA = broadcast(ray.inverseSquaredLength);
+    const Vector o = broadcast3(ray.origin);
+    const Vector d = broadcast3(ray.direction);
+    const Vector center = load3(block.center);
+    const Float8 radius = load(block.radius);
+    const Vector f = center - o;
+    const Float8 middle = dot(f, d) * inverseA;
+    const Float8 power = load(block.power) + dot(o, o - center - center);
+    const Vector l = {negateMultiplyAdd(middle, d.x, f.x), negateMultiplyAdd(middle, d.y, f.y),
+                      negateMultiplyAdd(middle, d.z, f.z)};
+    const Float8 farHalf = (radius * radius - dot(l, l)) * inverseA;
+    const Float8 reach = maximum(absolute(o.x), maximum(absolute(o.y), absolute(o.z)));
+    const Mask8 isInReach = reach < broadcast(4.0f) * radius;
+    const Float8 product = select(isInReach, power * inverseA, multiplySubtract(middle, middle, farHalf));
+    const Float8 squaredHalf = select(isInReach, multiplySubtract(middle, middle, product), farHalf);
+    const Float8 halfChord = squareRoot(squaredHalf); // not a number beside the sphere
+    const Float8 larger = select(middle < zero, middle - halfChord, middle + halfChord);
+    const Float8 smaller = product / larger;
+    const Float8 nearest = minimum(larger, smaller);
+    const Float8 t = select(zero < nearest, nearest, maximum(larger, smaller));
+    return {zero < t, t, zero, zero};
+}
+
 RT_FN LaneHits intersectBlock(const ShapeRay& ray, const MovingSphereBlock& block) {
     const Vector center = multiplyAdd(load3(block.motion), broadcast(ray.time), load3(block.center));
     return intersectSpheres(ray, center, load(block.radius));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "Common/Image/ImageIo.h"
 #include "Common/Image/ImageRows.h"
@@ -22,7 +23,7 @@ inline constexpr double kDensest = 1100; // bytes from one: deflate reaches 1032
 void checkDimensions(const std::string& name, double width, double height, double decodedBytes, std::size_t fileBytes);
 
 // What readImage does with the bytes of a file of that name.
-Image decodeImage(std::span<const std::byte> bytes, const std::filesystem::path& path);
+Image decodeImage(std::span<const std::byte> bytes, const std::filesystem::path& path, const std::string& layer = {});
 
 // What readDescription finds in a PNG or EXR of that name.
 std::optional<std::string> findDescription(std::span<const std::byte> bytes, const std::filesystem::path& path);
@@ -30,7 +31,8 @@ std::optional<std::string> findDescription(std::span<const std::byte> bytes, con
 Image decodePfm(std::span<const std::byte> bytes, const std::string& name);
 void encodePfm(const ImageRows& rows, std::ostream& out);
 
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name);
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const std::string& layer = {});
+std::vector<std::string> findExrLayers(std::span<const std::byte> bytes, const std::string& name);
 void encodeExr(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 std::optional<std::string> findExrText(std::span<const std::byte> bytes, const std::string& name); // its description
 
@@ -45,6 +47,11 @@ double stbPixels(std::span<const std::byte> bytes);
 // sRGB. A JPEG has no opacity; one of four inks without a profile is taken for light through all of them.
 Texels decodeJpeg(std::span<const std::byte> bytes, const std::string& name);
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name); // PNG, BMP, TGA
+
+bool isTiff(std::span<const std::byte> bytes); // by its first bytes
+bool isWebP(std::span<const std::byte> bytes);
+Texels decodeTiff(std::span<const std::byte> bytes, const std::string& name); // sRGB, or linear of floats
+Texels decodeWebP(std::span<const std::byte> bytes, const std::string& name);
 
 void encodePng(const ImageRows& rows, std::ostream& out, const std::string& description = {});
 

@@ -1,13 +1,16 @@
 // OpenEXR images, read by the format's own library: any compression and channel type, scan lines or tiles, the largest
-// level of several, the first part of several.
+// level of several, the first part of several or a layer. Colours of other primaries and those stored as luminance and
+// chroma become linear RGB with the primaries of Rec. 709.
 #include <Iex.h>
 #include <ImfChannelList.h>
+#include <ImfChromaticitiesAttribute.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 #include <ImfPartType.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
 #include <ImfTiledInputPart.h>
@@ -15,19 +18,22 @@
 #include <cstdint>
 #include <exception>
 #include <new>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "Common/Core/Error.h"
 #include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
 #include "Common/Image/Codecs.h"
 #include "Common/Image/ExrHeader.h"
+#include "Common/Image/ExrLayers.h"
+#include "Common/Image/Primaries.h"
 
 namespace rt::image {
 
 namespace {
-
-constexpr std::size_t kMaxText = 200; // bytes of names in files and of the library's messages that are shown
 
 // The bytes of a file as the library reads them.
 class ByteStream : public Imf::IStream {
@@ -67,7 +73,7 @@ std::string reasonOf(const std::exception& error) {
     std::string text = error.what();
     if (const std::size_t at = text.rfind(kNameEnd); at != std::string::npos) text.erase(0, at + kNameEnd.size());
     while (text.ends_with('.')) text.pop_back();
-    return printable(text, kMaxText);
+    return printable(text, kMaxExrText);
 }
 
 // read(Imf::MultiPartInputFile&) of the file; what the library throws becomes an InputError.
@@ -93,9 +99,11 @@ auto readExr(std::span<const std::byte> bytes, const std::string& name, const Re
 // Sizes of a part, checked before memory is taken for its pixels.
 class Part {
   public:
-    Part(const Imf::Header& header, const std::string& name) : header_(header), name_(name) {
-        if (!isTiled() && header.type() != Imf::SCANLINEIMAGE)
-            fail("EXR images of type \"" + printable(header.type(), kMaxText) +
+    Part(const Imf::Header& header, const std::string& name) : header_(header), name_(name) {}
+
+    void checkType() const {
+        if (!isTiled() && header_.type() != Imf::SCANLINEIMAGE)
+            fail("EXR images of type \"" + printable(header_.type(), kMaxExrText) +
                  "\" are not supported (allowed: " + Imf::SCANLINEIMAGE + ", " + Imf::TILEDIMAGE + ")");
     }
 
@@ -120,29 +128,17 @@ class Part {
                  " bytes in a file of " + std::to_string(fileBytes));
     }
 
-    // R, G, B, or else Y alone; throws when there is neither.
-    std::string chooseChannels() const {
-        const Imf::ChannelList& channels = header_.channels();
-        const bool isColour = has("R") && has("G") && has("B");
-        const std::string chosen = isColour ? "RGB" : "Y";
-        if (!isColour && !has("Y")) fail("EXR file has neither channels R, G, B nor Y (it has: " + names() + ")");
-        for (const char name : chosen)
-            if (const Imf::Channel& channel = channels[std::string(1, name)];
-                channel.xSampling != 1 || channel.ySampling != 1)
-                fail(std::string("EXR channel ") + name + " is subsampled, which is not supported");
-        if (!isColour && (has("RY") || has("BY")))
-            logWarning(name_ + ": luminance alone is read (channel Y); the colour of channels RY and BY is left out");
-        return chosen;
+    // Only chroma may have fewer pixels than the picture.
+    void checkSampling(const ExrChannels& chosen) const {
+        for (const std::string& channel : chosen.names) {
+            const Imf::Channel& known = header_.channels()[channel];
+            const bool isChroma = chosen.kind == ExrChannels::Kind::LuminanceChroma && &channel != &chosen.names[0];
+            if (!isChroma && (known.xSampling != 1 || known.ySampling != 1))
+                fail("EXR channel " + printable(channel, kMaxExrText) + " is subsampled, which is not supported");
+        }
     }
 
   private:
-    bool has(const char* channel) const { return header_.channels().findChannel(channel) != nullptr; }
-    std::string names() const {
-        std::string list;
-        for (auto i = header_.channels().begin(); i != header_.channels().end(); ++i)
-            list += (list.empty() ? "" : ", ") + std::string(i.name());
-        return printable(list, kMaxText);
-    }
     // Of all channels, as they are stored or as if all were of the narrowest type.
     double bytesPerPixel(bool isNarrow) const {
         double sum = 0;
@@ -185,35 +181,139 @@ void warnOfOtherParts(const Imf::MultiPartInputFile& file, const std::string& na
                    "\"; left out: " + others);
 }
 
-Image readPart(Imf::MultiPartInputFile& file, std::size_t fileBytes, const std::string& name) {
-    const Part part(file.header(0), name);
-    part.checkSizes(fileBytes);
-    const std::string channels = part.chooseChannels();
-    warnOfOtherParts(file, name);
-
-    Image image(static_cast<std::uint32_t>(part.width()), static_cast<std::uint32_t>(part.height()),
-                static_cast<std::uint32_t>(channels.size()));
-    const std::size_t pixelBytes = channels.size() * sizeof(float);
-    Imf::FrameBuffer pixels;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-        pixels.insert(std::string(1, channels[c]), Imf::Slice::Make(Imf::FLOAT, image.data.data() + c, part.window(),
-                                                                    pixelBytes, pixelBytes * image.width));
+void readPixels(Imf::MultiPartInputFile& file, const Part& part, int index, const Imf::FrameBuffer& pixels) {
     if (part.isTiled()) {
-        Imf::TiledInputPart in(file, 0);
+        Imf::TiledInputPart in(file, index);
         in.setFrameBuffer(pixels);
         in.readTiles(0, in.numXTiles() - 1, 0, in.numYTiles() - 1);
     } else {
-        Imf::InputPart in(file, 0);
+        Imf::InputPart in(file, index);
         in.setFrameBuffer(pixels);
         in.readPixels(part.window().min.y, part.window().max.y);
     }
+}
+
+Primaries primariesOf(const Imf::Header& header) {
+    if (!Imf::hasChromaticities(header)) return kRec709;
+    const Imf::Chromaticities& c = Imf::chromaticities(header);
+    const auto point = [](const Imath::V2f& v) { return glm::dvec2(v.x, v.y); };
+    return {point(c.red), point(c.green), point(c.blue), point(c.white)};
+}
+
+// One channel with what it needs to be read and looked up: chroma may have one value for several pixels.
+class ChannelPlane {
+  public:
+    ChannelPlane(const Imf::Header& header, const std::string& channel)
+        : window_(header.dataWindow()),
+          xSampling_(header.channels()[channel].xSampling),
+          ySampling_(header.channels()[channel].ySampling),
+          width_(count(window_.min.x, window_.max.x, xSampling_)),
+          height_(count(window_.min.y, window_.max.y, ySampling_)),
+          values_(width_ * height_) {}
+
+    Imf::Slice slice() {
+        return Imf::Slice::Make(Imf::FLOAT, values_.data(), window_, sizeof(float), sizeof(float) * width_, xSampling_,
+                                ySampling_);
+    }
+
+    // Linear between the pixels that have a value, which are those at multiples of the sampling.
+    float at(std::uint32_t x, std::uint32_t y) const {
+        const Place across = place(x, xSampling_, width_), down = place(y, ySampling_, height_);
+        const float* const upper = &values_[down.first * width_];
+        const float* const lower = &values_[down.second * width_];
+        const auto between = [&](const float* row) {
+            return row[across.first] + (row[across.second] - row[across.first]) * across.part;
+        };
+        return between(upper) + (between(lower) - between(upper)) * down.part;
+    }
+
+  private:
+    struct Place {
+        std::size_t first, second;
+        float part; // of the way from the first to the second
+    };
+    static std::size_t count(int minimum, int maximum, int sampling) {
+        return static_cast<std::size_t>((std::int64_t{maximum} - minimum) / sampling + 1);
+    }
+    static Place place(std::uint32_t i, int sampling, std::size_t count) {
+        const auto step = static_cast<std::uint32_t>(sampling);
+        const std::size_t first = std::min<std::size_t>(i / step, count - 1);
+        return {first, std::min(first + 1, count - 1), float(i % step) / float(step)};
+    }
+
+    Imath::Box2i window_;
+    int xSampling_, ySampling_;
+    std::size_t width_, height_;
+    std::vector<float> values_;
+};
+
+// RY = (R - Y) / Y and BY = (B - Y) / Y, with Y by the primaries of the file.
+Image readLuminanceChroma(Imf::MultiPartInputFile& file, const Part& part, const ExrChannels& chosen,
+                          const glm::dmat3& toXyz) {
+    const Imf::Header& header = file.header(chosen.part);
+    ChannelPlane planes[] = {{header, chosen.names[0]}, {header, chosen.names[1]}, {header, chosen.names[2]}};
+    Imf::FrameBuffer pixels;
+    for (std::size_t i = 0; i < 3; ++i) pixels.insert(chosen.names[i], planes[i].slice());
+    readPixels(file, part, chosen.part, pixels);
+
+    Image image(static_cast<std::uint32_t>(part.width()), static_cast<std::uint32_t>(part.height()));
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const double luminance = planes[0].at(x, y);
+            const double red = (double(planes[1].at(x, y)) + 1) * luminance;
+            const double blue = (double(planes[2].at(x, y)) + 1) * luminance;
+            const double green = (luminance - toXyz[0][1] * red - toXyz[2][1] * blue) / toXyz[1][1];
+            float* const pixel = image.pixel(x, y);
+            pixel[0] = static_cast<float>(red);
+            pixel[1] = static_cast<float>(green);
+            pixel[2] = static_cast<float>(blue);
+        }
+    return image;
+}
+
+Image readChannels(Imf::MultiPartInputFile& file, const Part& part, const ExrChannels& chosen) {
+    Image image(static_cast<std::uint32_t>(part.width()), static_cast<std::uint32_t>(part.height()),
+                static_cast<std::uint32_t>(chosen.names.size()));
+    const std::size_t pixelBytes = chosen.names.size() * sizeof(float);
+    Imf::FrameBuffer pixels;
+    for (std::size_t c = 0; c < chosen.names.size(); ++c)
+        pixels.insert(chosen.names[c], Imf::Slice::Make(Imf::FLOAT, image.data.data() + c, part.window(), pixelBytes,
+                                                        pixelBytes * image.width));
+    readPixels(file, part, chosen.part, pixels);
+    return image;
+}
+
+Image readLayer(Imf::MultiPartInputFile& file, const std::string& layer, std::size_t fileBytes,
+                const std::string& name) {
+    if (layer.empty()) Part(file.header(0), name).checkType();
+    const ExrChannels chosen = chooseExrChannels(file, layer, name);
+    const Imf::Header& header = file.header(chosen.part);
+    const Part part(header, name);
+    part.checkType();
+    part.checkSizes(fileBytes);
+    part.checkSampling(chosen);
+    if (layer.empty()) warnOfOtherParts(file, name);
+    if (chosen.kind == ExrChannels::Kind::Other) return readChannels(file, part, chosen);
+
+    const Primaries primaries = primariesOf(header);
+    const std::optional<glm::dmat3> xyz = toXyz(primaries);
+    const bool isLuminanceChroma = chosen.kind == ExrChannels::Kind::LuminanceChroma;
+    if (!xyz || (isLuminanceChroma && !((*xyz)[1][1] > 0)))
+        throw InputError(name + ": EXR attribute chromaticities: primaries that span no colours");
+    Image image = isLuminanceChroma ? readLuminanceChroma(file, part, chosen, *xyz) : readChannels(file, part, chosen);
+    if (!areSame(primaries, kRec709)) multiplyColors(image, xyzToRec709() * *xyz);
     return image;
 }
 
 } // namespace
 
-Image decodeExr(std::span<const std::byte> bytes, const std::string& name) {
-    return readExr(bytes, name, [&](Imf::MultiPartInputFile& file) { return readPart(file, bytes.size(), name); });
+Image decodeExr(std::span<const std::byte> bytes, const std::string& name, const std::string& layer) {
+    return readExr(bytes, name,
+                   [&](Imf::MultiPartInputFile& file) { return readLayer(file, layer, bytes.size(), name); });
+}
+
+std::vector<std::string> findExrLayers(std::span<const std::byte> bytes, const std::string& name) {
+    return readExr(bytes, name, [](const Imf::MultiPartInputFile& file) { return exrLayers(file); });
 }
 
 std::optional<std::string> findExrText(std::span<const std::byte> bytes, const std::string& name) {

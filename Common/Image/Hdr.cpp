@@ -3,18 +3,30 @@
 // own color.c (G. Ward, "Real Pixels", Graphics Gems II), and so does Blender. Whoever reads m 2^(e - 136), as stb and
 // OpenImageIO do, gets files of any writer darker by half a step. A scanline is flat, or starts with (2, 2, width) and
 // has its four components apart, each as runs: n > 128 repeats the next byte n - 128 times, 0 < n <= 128 copies n
-// bytes. Written flat, in round figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline looks
-// like the other kind. Our own, because stb 2.27 never returns from a file that ends within a run. The header's
-// EXPOSURE is ignored.
+// bytes. In flat scanlines of old files a pixel (1, 1, 1, n) repeats the one before it n times, and the next such pixel
+// 256 n times. Written flat, in round figures: pixels of ours have a mantissa of 128 at least, so that no flat scanline
+// looks like the other kinds. Our own, because stb 2.27 never returns from a file that ends within a run.
+//
+// Pixels are radiance times every EXPOSURE and COLORCORR of the header; PRIMARIES are chromaticities of red, green,
+// blue and white, whose white stays white, as Radiance's own programs have it; FORMAT=32-bit_rle_xyze means XYZ in
+// place of RGB, and PRIMARIES nothing.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <locale>
 #include <optional>
 #include <ostream>
 #include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 #include "Common/Image/Codecs.h"
+#include "Common/Image/Primaries.h"
 
 namespace rt::image {
 
@@ -69,21 +81,67 @@ class Bytes {
     std::size_t at_ = 0;
 };
 
-struct Size {
+struct HdrHeader {
     double width = 0, height = 0;
+    std::array<double, 3> factors = {1, 1, 1}; // that the radiance of each component was multiplied by
+    std::optional<glm::dmat3> toRec709;        // unless the pixels are that
 };
 
-Size readHeader(Bytes& in) {
+// The numbers of a line of the header; throws unless there are `count`, with nothing behind them.
+std::vector<double> numbersOf(Bytes& in, const std::string& line, std::string_view key, std::size_t count) {
+    std::istringstream text(line.substr(key.size()));
+    text.imbue(std::locale::classic());
+    std::vector<double> numbers;
+    for (double number = 0; text >> number;) numbers.push_back(number);
+    const bool areFinite = std::all_of(numbers.begin(), numbers.end(), [](double n) { return std::isfinite(n); });
+    if (numbers.size() != count || !text.eof() || !areFinite)
+        in.fail("HDR header: " + printable(line) + " (allowed: " + std::to_string(count) +
+                (count == 1 ? " number)" : " numbers)"));
+    return numbers;
+}
+
+void multiplyFactors(Bytes& in, const std::string& line, std::string_view key, std::size_t count, HdrHeader& header) {
+    const std::vector<double> numbers = numbersOf(in, line, key, count);
+    for (std::size_t c = 0; c < 3; ++c) {
+        double& factor = header.factors[c];
+        factor *= numbers[count == 1 ? 0 : c];
+        if (!(factor > 0 && std::isfinite(factor) && std::isfinite(1 / factor)))
+            in.fail("HDR header: " + printable(line) + " (allowed: > 0)");
+    }
+}
+
+Primaries primariesOf(Bytes& in, const std::string& line, std::string_view key) {
+    const std::vector<double> n = numbersOf(in, line, key, 8);
+    return {{n[0], n[1]}, {n[2], n[3]}, {n[4], n[5]}, {n[6], n[7]}};
+}
+
+HdrHeader readHeader(Bytes& in) {
     if (const std::string magic = in.line(); magic != "#?RADIANCE" && magic != "#?RGBE") in.fail("not an HDR file");
-    for (std::string line = in.line(); !line.empty(); line = in.line())
-        if (line.rfind("FORMAT=", 0) == 0 && line != "FORMAT=32-bit_rle_rgbe")
-            in.fail("HDR " + line + " is not supported (FORMAT=32-bit_rle_rgbe is)");
+    constexpr std::string_view kExposure = "EXPOSURE=", kCorrection = "COLORCORR=", kPrimaries = "PRIMARIES=";
+    HdrHeader header;
+    bool isXyz = false;
+    for (std::string line = in.line(); !line.empty(); line = in.line()) {
+        if (line == "FORMAT=32-bit_rle_xyze") {
+            isXyz = true;
+        } else if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") {
+            in.fail("HDR " + printable(line) + " is not supported (allowed: 32-bit_rle_rgbe, 32-bit_rle_xyze)");
+        } else if (line.starts_with(kExposure)) {
+            multiplyFactors(in, line, kExposure, 1, header);
+        } else if (line.starts_with(kCorrection)) {
+            multiplyFactors(in, line, kCorrection, 3, header);
+        } else if (line.starts_with(kPrimaries)) {
+            const Primaries primaries = primariesOf(in, line, kPrimaries);
+            const std::optional<glm::dmat3> matrix = toRec709(primaries, White::Adapted);
+            if (!matrix) in.fail("HDR header: " + printable(line) + ": primaries that span no colours");
+            if (!areSame(primaries, kRec709)) header.toRec709 = matrix;
+        }
+    }
+    if (isXyz) header.toRec709 = xyzToRec709();
     std::istringstream line(in.line());
     std::string y, x;
-    Size size;
-    if (!(line >> y >> size.height >> x >> size.width) || y != "-Y" || x != "+X")
+    if (!(line >> y >> header.height >> x >> header.width) || y != "-Y" || x != "+X")
         in.fail("HDR resolution is not of the form \"-Y height +X width\"");
-    return size;
+    return header;
 }
 
 // One component of all pixels of a scanline.
@@ -97,14 +155,36 @@ void readRuns(Bytes& in, std::vector<Rgbe>& row, std::size_t component) {
     }
 }
 
+bool isRepetition(const Rgbe& pixel) {
+    return pixel[0] == 1 && pixel[1] == 1 && pixel[2] == 1;
+}
+
+void readFlatRow(Bytes& in, const Rgbe& first, std::vector<Rgbe>& row) {
+    if (isRepetition(first)) in.fail("damaged HDR file: a row begins with a repetition");
+    row[0] = first;
+    std::size_t factor = 1;
+    for (std::size_t x = 1; x < row.size();) {
+        const Rgbe pixel = in.nextPixel();
+        if (!isRepetition(pixel)) {
+            row[x++] = pixel;
+            factor = 1;
+            continue;
+        }
+        const std::size_t length = pixel[3] * factor;
+        if (length > row.size() - x) in.fail("damaged HDR file: a run does not fit its row");
+        std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(x), length, row[x - 1]);
+        x += length;
+        factor = std::min<std::size_t>(factor * 256, row.size() + 1);
+    }
+}
+
 void readRow(Bytes& in, std::vector<Rgbe>& row) {
     const Rgbe first = in.nextPixel();
     const bool inRuns = first[0] == 2 && first[1] == 2 && std::size_t{first[2]} * 256 + first[3] == row.size();
     if (inRuns) {
         for (std::size_t component = 0; component < 4; ++component) readRuns(in, row, component);
     } else {
-        row[0] = first;
-        std::generate(row.begin() + 1, row.end(), [&in] { return in.nextPixel(); });
+        readFlatRow(in, first, row);
     }
 }
 
@@ -112,14 +192,19 @@ void readRow(Bytes& in, std::vector<Rgbe>& row) {
 
 Image decodeHdr(std::span<const std::byte> bytes, const std::string& name) {
     Bytes in(bytes, name);
-    const auto [width, height] = readHeader(in);
-    checkDimensions(name, width, height, 4 * width * height, bytes.size());
-    Image image(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height));
+    const HdrHeader header = readHeader(in);
+    checkDimensions(name, header.width, header.height, 4 * header.width * header.height, bytes.size());
+    Image image(static_cast<std::uint32_t>(header.width), static_cast<std::uint32_t>(header.height));
     std::vector<Rgbe> row(image.width);
     for (std::uint32_t y = 0; y < image.height; ++y) {
         readRow(in, row);
         for (std::uint32_t x = 0; x < image.width; ++x) expand(row[x], image.pixel(x, y));
     }
+    if (header.factors != std::array<double, 3>{1, 1, 1}) {
+        for (std::size_t i = 0; i < image.data.size(); ++i)
+            image.data[i] = static_cast<float>(double(image.data[i]) / header.factors[i % 3]);
+    }
+    if (header.toRec709) multiplyColors(image, *header.toRec709);
     return image;
 }
 

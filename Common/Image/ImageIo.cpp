@@ -8,9 +8,11 @@
 #include <limits>
 #include <new>
 #include <sstream>
+#include <utility>
 
 #include "Common/Core/AtomicFile.h"
 #include "Common/Core/Error.h"
+#include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Image/Codecs.h"
 #include "Common/Image/PngText.h"
@@ -32,9 +34,19 @@ struct Format {
     Codec codec;
 };
 
-constexpr Format kFormats[] = {{".png", Codec::Png},      {".exr", Codec::Exr},      {".hdr", Codec::Hdr},
-                               {".pfm", Codec::Pfm},      {".jpg", Codec::ReadOnly}, {".jpeg", Codec::ReadOnly},
-                               {".bmp", Codec::ReadOnly}, {".tga", Codec::ReadOnly}};
+constexpr Format kFormats[] = {{".png", Codec::Png},       {".exr", Codec::Exr},      {".hdr", Codec::Hdr},
+                               {".pfm", Codec::Pfm},       {".jpg", Codec::ReadOnly}, {".jpeg", Codec::ReadOnly},
+                               {".bmp", Codec::ReadOnly},  {".tga", Codec::ReadOnly}, {".tif", Codec::ReadOnly},
+                               {".tiff", Codec::ReadOnly}, {".webp", Codec::ReadOnly}};
+
+// Formats of textures that other programs read.
+const char* knownElsewhere(const std::string& extension) {
+    constexpr std::pair<const char*, const char*> kOthers[] = {{".dds", "DDS"}, {".ktx", "KTX"}, {".ktx2", "KTX2"},
+                                                               {".gif", "GIF"}, {".psd", "PSD"}, {".avif", "AVIF"}};
+    for (const auto& [known, name] : kOthers)
+        if (extension == known) return name;
+    return nullptr;
+}
 
 // The codec of the name's extension; throws `Unknown`, with those that are allowed, when there is none.
 template <class Unknown>
@@ -48,6 +60,8 @@ Codec codecOf(const fs::path& path, bool writing) {
         if (extension == format.extension) return format.codec;
         allowed += std::string(allowed.empty() ? "" : ", ") + format.extension;
     }
+    if (const char* const other = knownElsewhere(extension))
+        throw Unknown(path.string() + ": " + other + " files are not supported (allowed: " + allowed + ")");
     throw Unknown(path.string() + ": unknown image format \"" + extension + "\" (allowed: " + allowed + ")");
 }
 
@@ -60,6 +74,7 @@ std::array<float, 256> makeDecodingTable() {
 Image toLinear(const Texels& texels) {
     static const std::array<float, 256> table = makeDecodingTable();
     Image image(texels.width, texels.height);
+    std::copy(texels.linear.begin(), texels.linear.end(), image.data.begin());
     std::transform(texels.srgb8.begin(), texels.srgb8.end(), image.data.begin(),
                    [](std::uint8_t b) { return table[b]; });
     std::transform(texels.srgb16.begin(), texels.srgb16.end(), image.data.begin(),
@@ -77,8 +92,12 @@ Texels toTexels(const Image& image) {
     return texels;
 }
 
-bool isFinite(const Image& image) {
-    return std::all_of(image.data.begin(), image.data.end(), [](float value) { return std::isfinite(value); });
+// Of linear formats: what textures may be.
+void checkLinear(Texels& texels, const std::string& name) {
+    const auto isFinite = [](float value) { return std::isfinite(value); };
+    if (!std::all_of(texels.linear.begin(), texels.linear.end(), isFinite))
+        throw InputError(name + ": texels that are not finite");
+    for (float& value : texels.linear) value = std::max(value, 0.0f);
 }
 
 float finite(float value) {
@@ -102,10 +121,12 @@ void encode(Codec codec, const ImageRows& rows, std::ostream& out, const std::st
 // Which the decoders of sRGB count in integers.
 constexpr std::size_t kMaxSrgbBytes = std::numeric_limits<int>::max();
 
-// PNG, JPEG, BMP or TGA, as the bytes say, whatever the file is called.
+// PNG, JPEG, BMP, TGA, TIFF or WebP, as the bytes say, whatever the file is called.
 Texels decodeSrgb(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() > kMaxSrgbBytes) throw InputError(name + ": file is larger than 2 GiB");
-    return isJpeg(bytes) ? decodeJpeg(bytes, name) : decodeStb(bytes, name);
+    if (isJpeg(bytes)) return decodeJpeg(bytes, name);
+    if (isTiff(bytes)) return decodeTiff(bytes, name);
+    return isWebP(bytes) ? decodeWebP(bytes, name) : decodeStb(bytes, name);
 }
 
 } // namespace
@@ -126,10 +147,13 @@ void checkDimensions(const std::string& name, double width, double height, doubl
                          std::to_string(fileBytes) + " bytes");
 }
 
-Image decodeImage(std::span<const std::byte> bytes, const fs::path& path) {
-    switch (codecOf<InputError>(path, false)) {
+Image decodeImage(std::span<const std::byte> bytes, const fs::path& path, const std::string& layer) {
+    const Codec codec = codecOf<InputError>(path, false);
+    if (!layer.empty() && codec != Codec::Exr)
+        throw InputError(path.string() + ": layer \"" + printable(layer) + "\": only .exr files have layers");
+    switch (codec) {
         case Codec::Exr:
-            return decodeExr(bytes, path.string());
+            return decodeExr(bytes, path.string(), layer);
         case Codec::Pfm:
             return decodePfm(bytes, path.string());
         case Codec::Hdr:
@@ -139,9 +163,14 @@ Image decodeImage(std::span<const std::byte> bytes, const fs::path& path) {
     }
 }
 
-Image readImage(const fs::path& path) {
+Image readImage(const fs::path& path, const std::string& layer) {
     codecOf<InputError>(path, false); // before reading what cannot be decoded
-    return decodeImage(readFile(path, kMaxFileBytes), path);
+    return decodeImage(readFile(path, kMaxFileBytes), path, layer);
+}
+
+std::vector<std::string> readLayers(const fs::path& path) {
+    if (codecOf<InputError>(path, false) != Codec::Exr) return {};
+    return findExrLayers(readFile(path, kMaxFileBytes), path.string());
 }
 
 Texels loadTexels(const fs::path& path) {
@@ -155,16 +184,16 @@ std::vector<std::byte> readTexels(const fs::path& path) {
 
 Texels decodeTexels(std::span<const std::byte> bytes, const fs::path& path) {
     const Codec codec = codecOf<InputError>(path, false);
-    if (codec == Codec::Png || codec == Codec::ReadOnly) return decodeSrgb(bytes, path.string());
-    const Image image = decodeImage(bytes, path);
-    if (!isFinite(image)) throw InputError(path.string() + ": texels that are not finite");
-    Texels texels = toTexels(image);
-    for (float& value : texels.linear) value = std::max(value, 0.0f);
+    const bool isEncoded = codec == Codec::Png || codec == Codec::ReadOnly;
+    Texels texels = isEncoded ? decodeSrgb(bytes, path.string()) : toTexels(decodeImage(bytes, path));
+    checkLinear(texels, path.string());
     return texels;
 }
 
 Texels decodeTexels(std::span<const std::byte> bytes, const std::string& name) {
-    return decodeSrgb(bytes, name);
+    Texels texels = decodeSrgb(bytes, name);
+    checkLinear(texels, name);
+    return texels;
 }
 
 std::size_t texelCount(std::span<const std::byte> bytes) {

@@ -1,9 +1,12 @@
 // Image files. In memory everything is linear; the extension of the name, in any case, decides the format:
 //   .png                    8 bits, sRGB-encoded, display-referred: [0,1] is what a screen can show
 //   .exr .pfm               linear, 32-bit float, bit for bit; of an .exr of others also half and uint, any compression,
-//                           tiles (the largest level) and the first of several parts, with a warning of the others
-//   .hdr                    linear, shared exponent: 8 significant bits, nothing negative
+//                           tiles (the largest level), layers, other primaries, luminance with chroma, and the first
+//                           of several parts, with a warning of the others
+//   .hdr                    linear, shared exponent: 8 significant bits, nothing negative; of others also with
+//                           exposure, colour correction and primaries, and XYZ
 //   .jpg .jpeg .bmp .tga    like .png, read only
+//   .tif .tiff .webp        the same, where the build had libtiff and libwebp; floats in .tif are linear
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -30,8 +33,12 @@ struct Texels {
 
 // Throws InputError, naming the file and what is wrong, for a missing, damaged, truncated or unknown one. Three
 // channels, or one where a PFM file has just one or an EXR file has Y but not R, G and B. Values are as in the file,
-// infinities and NaN included.
-Image readImage(const std::filesystem::path& path);
+// infinities and NaN included. `layer`: of an EXR file, what its channels are called before a dot, or a part, or a
+// single channel.
+Image readImage(const std::filesystem::path& path, const std::string& layer = {});
+
+// Layers by which readImage can be asked for others than the picture; none of formats without any.
+std::vector<std::string> readLayers(const std::filesystem::path& path);
 
 // The same for textures, always with three channels; values that are not finite are an error, negative ones become 0.
 Texels loadTexels(const std::filesystem::path& path);

@@ -1,12 +1,16 @@
 // PNG, BMP and TGA, read by stb, whose implementation is compiled here and nowhere else.
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
 #include <vector>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Log.h"
+#include "Common/Image/BmpRle.h"
 #include "Common/Image/Codecs.h"
+#include "Common/Image/PngColor.h"
 
 #define STBI_NO_STDIO
 #define STBI_ONLY_PNG
@@ -67,10 +71,11 @@ void split(const T* pixels, std::size_t count, bool hasAlpha, std::vector<T>& co
 } // namespace
 
 double stbPixels(std::span<const std::byte> bytes) {
+    if (isRunLengthBmp(bytes)) return runLengthBmpPixels(bytes);
     int width = 0, height = 0, channels = 0;
     const bool known = stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()),
                                              static_cast<int>(bytes.size()), &width, &height, &channels) != 0;
-    return known ? double(width) * height : 0;
+    return known ? double(width) * std::abs(double(height)) : 0;
 }
 
 Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
@@ -79,9 +84,14 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const int size = static_cast<int>(bytes.size());
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
+    if (isRunLengthBmp(bytes)) return decodeRunLengthBmp(bytes, name);
     checkPng(bytes, name);
+    if (const auto colors = otherColorsOfPng(bytes))
+        logWarning(name + ": " + *colors + " is left out: colours are read as sRGB");
     int width = 0, height = 0, channels = 0;
     if (!stbi_info_from_memory(data, size, &width, &height, &channels)) fail("cannot be read as an image: " + reason());
+    // stb turns the rows of a BMP that begins with the upper one, and states its height as the file does.
+    if (std::memcmp(data, "BM", 2) == 0 && height < 0) height = height == std::numeric_limits<int>::min() ? 0 : -height;
     const bool hasAlpha = channels == STBI_grey_alpha || channels == STBI_rgb_alpha;
     const std::size_t stride = hasAlpha ? 4 : 3;
     checkDimensions(name, width, height, double(stride) * width * height, bytes.size());

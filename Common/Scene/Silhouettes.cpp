@@ -230,7 +230,8 @@ void drawBorders(std::vector<TriangleEdge>& edges, EdgeImage& image) {
 double largestCoordinate(const std::vector<Light>& lights) {
     float largest = 0;
     for (const Light& light : lights) {
-        for (const shared::vec3& p : {light.position, light.edgeU, light.edgeV})
+        const bool isSphere = light.kind == shared::kLightSphere; // whose edgeV is no length
+        for (const shared::vec3& p : {light.position, light.edgeU, isSphere ? light.edgeU : light.edgeV})
             largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
     return largest;

@@ -44,6 +44,7 @@ struct Arguments {
     std::string metric;
     std::optional<double> max;
     std::string output;
+    std::string layer;
     std::vector<std::string> parts;
     float exposure = 0;
     std::string tonemap = "none";
@@ -84,7 +85,7 @@ int diff(const Arguments& arguments) {
 }
 
 int info(const Arguments& arguments) {
-    const image::Image image = image::readImage(arguments.a);
+    const image::Image image = image::readImage(arguments.a, arguments.layer);
     const auto [minimum, maximum] = std::minmax_element(image.data.begin(), image.data.end());
     const auto bad = std::count_if(image.data.begin(), image.data.end(), [](float v) { return !std::isfinite(v); });
     const auto mean = image::channelMeans(image);
@@ -92,6 +93,9 @@ int info(const Arguments& arguments) {
               << *minimum << "\nmax " << *maximum << "\nmean";
     for (std::uint32_t c = 0; c < image.channels; ++c) std::cout << ' ' << mean[c];
     std::cout << "\nnonfinite " << bad << '\n';
+    std::string layers;
+    for (const std::string& layer : image::readLayers(arguments.a)) layers += (layers.empty() ? "" : ", ") + layer;
+    if (!layers.empty()) std::cout << "layers " << printable(layers, kMaxDescription) << '\n';
     if (const auto description = image::readDescription(arguments.a)) // by whomever: it must not look like other lines
         std::cout << "render " << printable(*description, kMaxDescription) << '\n';
     return static_cast<int>(ExitCode::Done);
@@ -99,7 +103,7 @@ int info(const Arguments& arguments) {
 
 int convert(const Arguments& arguments) {
     image::checkWritable(arguments.b);
-    const image::Image image = image::readImage(arguments.a);
+    const image::Image image = image::readImage(arguments.a, arguments.layer);
     image::ImageRows rows = image;
     if (arguments.exposure != 0 || arguments.tonemap != "none") {
         if (!image::isDisplayReferred(arguments.b))
@@ -130,7 +134,8 @@ int merge(const Arguments& arguments) {
 
 // Runs the command that the command line asks for.
 int run(int argc, char** argv) {
-    CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga.", kProgram};
+    CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp.",
+                 kProgram};
     app.set_version_flag("--version", std::string(kProgram) + " " RT_VERSION);
     app.require_subcommand(0, 1); // an unknown one is named in its error, a missing one below
     Arguments arguments;
@@ -145,10 +150,12 @@ int run(int argc, char** argv) {
     CLI::App* const infos = app.add_subcommand(
         "info", "Print size, channels, range and mean of an image, and how it was rendered where the file tells");
     infos->add_option("F", arguments.a)->required();
+    infos->add_option("--layer", arguments.layer, "Of an .exr: this layer, part or channel");
 
     CLI::App* const converts = app.add_subcommand("convert", "Write image A in the format of B's extension");
     converts->add_option("A", arguments.a)->required();
     converts->add_option("B", arguments.b)->required();
+    converts->add_option("--layer", arguments.layer, "Of an .exr: this layer, part or channel, as info lists them");
     converts->add_option("--exposure", arguments.exposure, "Stops");
     converts->add_option("--tonemap", arguments.tonemap, "Tone curve")->check(CLI::IsMember(namesOf(app::kTonemaps)));
 

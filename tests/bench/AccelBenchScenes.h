@@ -95,7 +95,8 @@ inline BenchScene sphereCloud(int count = 500000) {
     const float spacing = 1.0f / std::cbrt(static_cast<float>(count));
     for (int i = 0; i < count; ++i) {
         const float x = uniform(), y = uniform(), z = uniform();
-        s.spheres.push_back({2.0f * vec3(x, y, z) - vec3(1.0f), spacing * (0.2f + 0.6f * uniform()), 0, shared::kNone});
+        s.spheres.push_back({2.0f * vec3(x, y, z) - vec3(1.0f), spacing * (0.2f + 0.6f * uniform()), 0, shared::kNone,
+                             shared::kInfinity});
     }
     finish(s);
     return s;
@@ -110,18 +111,18 @@ inline BenchScene oneWeekend() {
     s.fieldOfView = 20.0f;
     std::mt19937 random(2);
     const auto uniform = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
-    s.spheres.push_back({{0.0f, -1000.0f, 0.0f}, 1000.0f, 0, shared::kNone});
+    s.spheres.push_back({{0.0f, -1000.0f, 0.0f}, 1000.0f, 0, shared::kNone, 0.0f});
     for (int a = -11; a < 11; ++a) {
         for (int b = -11; b < 11; ++b) {
             const float x = static_cast<float>(a) + 0.9f * uniform();
             const float z = static_cast<float>(b) + 0.9f * uniform();
             if (shared::length(vec3(x, 0.2f, z) - vec3(4.0f, 0.2f, 0.0f)) > 0.9f) {
-                s.spheres.push_back({{x, 0.2f, z}, 0.2f, 0, shared::kNone});
+                s.spheres.push_back({{x, 0.2f, z}, 0.2f, 0, shared::kNone, shared::kInfinity});
             }
         }
     }
     for (const float x : {0.0f, -4.0f, 4.0f}) {
-        s.spheres.push_back({{x, 1.0f, 0.0f}, 1.0f, 0, shared::kNone});
+        s.spheres.push_back({{x, 1.0f, 0.0f}, 1.0f, 0, shared::kNone, shared::kInfinity});
     }
     finish(s);
     return s;

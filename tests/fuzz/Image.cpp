@@ -32,5 +32,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     });
     if constexpr (kExtension == "png" || kExtension == "exr")
         test::readOrRefuse([&] { image::findDescription(bytes, name); });
+    if constexpr (kExtension == "exr")
+        test::readOrRefuse([&] {
+            const auto layers = image::findExrLayers(bytes, name.string());
+            if (!layers.empty()) image::decodeImage(bytes, name, layers.front());
+        });
     return 0;
 }

@@ -35,11 +35,22 @@ void writeImages(const Seeds& seeds) {
     seeds.write("exr", "levels", exrFile(image, {.compression = Imf::ZIP_COMPRESSION, .levels = Imf::RIPMAP_LEVELS}));
     seeds.write("exr", "parts", rt::test::exrFileOfParts({image, image}, {.lineOrder = Imf::DECREASING_Y}));
     seeds.write("exr", "deep", rt::test::deepExrFile());
+    seeds.write("exr", "chroma", exrFile(image, {.channels = {"Y", "RY", "BY"}, .type = Imf::HALF}));
+    seeds.write("exr", "layer", exrFile(image, {.channels = {"a.R", "a.G", "a.B"}}));
+    seeds.write("hdr", "header",
+                "#?RADIANCE\nEXPOSURE=2\nCOLORCORR=1 2 3\nPRIMARIES=0.64 0.33 0.29 0.6 0.15 0.06 0.333 0.333\n"
+                "FORMAT=32-bit_rle_xyze\n\n-Y 1 +X 4\n\x80\x90\xa0\x80" +
+                    std::string("\1\1\1\3", 4));
     // 1 x 1, 24 bits, uncompressed.
     const char bmp[] =
         "BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\1\0\0\0\1\0\0\0\1\0\x18\0\0\0\0\0\4\0\0\0\0\0\0\0\0\0"
         "\0\0\0\0\0\0\0\0\0\0\x10\x80\xff";
     seeds.write("bmp", "one", std::string(bmp, sizeof bmp));
+    // 2 x 1, 8 bits in runs, two colours.
+    const char runs[] =
+        "BM\x44\0\0\0\0\0\0\0\x3e\0\0\0\x28\0\0\0\2\0\0\0\1\0\0\0\1\0\10\0\1\0\0\0\6\0\0\0\0\0\0\0\0\0"
+        "\0\0\2\0\0\0\0\0\0\0\x10\x80\xff\0\1\2\3\0\2\1\0\0\0\1";
+    seeds.write("bmp", "runs", std::string(runs, sizeof runs - 1));
     const char tga[] = "\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\x10\x80\xff";
     seeds.write("tga", "one", std::string(tga, sizeof tga - 1));
 }

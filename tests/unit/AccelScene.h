@@ -6,6 +6,7 @@
 
 #include "Common/Accel/CpuAccel.h"
 #include "Common/Accel/Traverse/RayQuery.h"
+#include "Common/Scene/SpherePower.h"
 
 namespace rt::accel::testing {
 
@@ -26,13 +27,18 @@ struct Geometry {
     // Everything that is there belongs to the world, unless geometries were set.
     AccelInput input() {
         if (geometries.empty()) geometries.push_back(whole());
+        for (std::size_t i = 0; i < motions.size(); ++i)
+            if (motions[i] != vec3(0.0f)) spheres[i].power = shared::kInfinity;
         return {spheres, motions, quads, positions, triangles, geometries, instances};
     }
     shared::Geometry whole() const {
         return {0, static_cast<std::uint32_t>(spheres.size()),  0, static_cast<std::uint32_t>(quads.size()),
                 0, static_cast<std::uint32_t>(triangles.size())};
     }
-    void addSphere(vec3 center, float radius) { spheres.push_back({center, radius, 0, shared::kNone}); }
+    void addSphere(vec3 center, float radius) {
+        const float power = scene::spherePower(glm::dvec3(center), static_cast<double>(radius));
+        spheres.push_back({center, radius, 0, shared::kNone, power});
+    }
     void addQuad(vec3 corner, vec3 u, vec3 v) {
         quads.push_back({corner, u, v, shared::normalize(shared::cross(u, v)), 0, shared::kNone});
     }

@@ -29,10 +29,12 @@ std::vector<std::pair<std::string, std::vector<float>>> sphereHits(const shared:
                                                                    const std::vector<Ray>& rays) {
     std::vector<std::pair<std::string, std::vector<float>>> results{{"shared", {}}};
     for (const Ray& ray : rays) {
-        results[0].second.push_back(shared::intersectSphere(ray, sphere.center, sphere.radius, shared::kInfinity));
+        results[0].second.push_back(shared::intersectSphere(ray, 1.0f / shared::dot(ray.direction, ray.direction),
+                                                            sphere.center, sphere.radius, sphere.power,
+                                                            shared::kInfinity));
     }
     Geometry g;
-    g.addSphere(sphere.center, sphere.radius);
+    g.spheres.push_back(sphere);
     const auto accel = buildAccel(g, kAlwaysLinear);
     for (const NamedQuery& q : runnableQueries()) {
         results.push_back({q.name, {}});
@@ -48,7 +50,7 @@ TEST(Shapes, SpheresAreExactFromAnyDistance) {
     Random random(21);
     for (const Real ratio : {1.001L, 2.0L, 100.0L, 1e3L, 1e4L, 1e5L}) {
         for (const float radius : {1e-4f, 1.0f, 1e4f}) {
-            const shared::Sphere sphere{random.inCube(radius), radius, 0, shared::kNone};
+            const shared::Sphere sphere{random.inCube(radius), radius, 0, shared::kNone, shared::kInfinity};
             std::vector<Ray> rays;
             for (int i = 0; i < 4000; ++i) {
                 // A ray from `ratio` radii away, towards a point at up to 1.05 radii across it.
@@ -86,7 +88,7 @@ TEST(Shapes, SpheresAreExactFromAnyDistance) {
 }
 
 TEST(Shapes, SpheresNeverGiveNaN) {
-    const shared::Sphere sphere{vec3(0.25f, -1.0f, 2.0f), 0.5f, 0, shared::kNone};
+    const shared::Sphere sphere{vec3(0.25f, -1.0f, 2.0f), 0.5f, 0, shared::kNone, shared::kInfinity};
     std::vector<Ray> rays;
     Random random(22);
     for (const vec3 start : {vec3(0.0f), vec3(0.5f, 0.0f, 0.0f), vec3(0.0f, -0.5f, 0.0f)}) { // centre and surface
@@ -114,9 +116,10 @@ TEST(Shapes, SpheresNeverGiveNaN) {
 // Numerics N3: a ray that starts off its sphere by the error bound leaves it, or crosses it to the far side.
 TEST(Shapes, RaysLeaveTheSphereTheyStartFrom) {
     Random random(23);
-    for (const shared::Sphere& sphere :
-         {shared::Sphere{{0.0f, 0.0f, 0.0f}, 1.0f, 0, 0}, shared::Sphere{{0.0f, -1000.0f, 0.0f}, 1000.0f, 0, 0},
-          shared::Sphere{{10.0f, 3.0f, 5.0f}, 1e-4f, 0, 0}, shared::Sphere{{1e5f, 2e4f, -3e3f}, 1.0f, 0, 0}}) {
+    for (const shared::Sphere& sphere : {shared::Sphere{{0.0f, 0.0f, 0.0f}, 1.0f, 0, 0, shared::kInfinity},
+                                         shared::Sphere{{0.0f, -1000.0f, 0.0f}, 1000.0f, 0, 0, shared::kInfinity},
+                                         shared::Sphere{{10.0f, 3.0f, 5.0f}, 1e-4f, 0, 0, shared::kInfinity},
+                                         shared::Sphere{{1e5f, 2e4f, -3e3f}, 1.0f, 0, 0, shared::kInfinity}}) {
         const vec3 c = shared::abs(sphere.center);
         const float offset = 8.0f * shared::kEpsilon * (shared::max(c.x, shared::max(c.y, c.z)) + sphere.radius);
         std::vector<Ray> outward, inward;

@@ -334,6 +334,7 @@ TEST(AccelTraversal, PowersOfTwoScaleExactly) {
             for (shared::Sphere& s : scaled.spheres) {
                 s.center *= scale;
                 s.radius *= scale;
+                if (s.power < shared::kInfinity) s.power *= scale * scale;
             }
             for (vec3& v : scaled.motions) {
                 v *= scale;

@@ -99,7 +99,8 @@ class Walk {
                 trees_.sphereMotions.empty() ? shared::vec3(0.0f) : shared::vec3(trees_.sphereMotions[i]);
             const shared::vec4 sphere = trees_.spheres.at(i);
             EXPECT_EQ(shared::vec3(sphere), input_.spheres[index].center);
-            EXPECT_EQ(sphere.w, input_.spheres[index].radius);
+            EXPECT_EQ(std::abs(sphere.w), input_.spheres[index].radius);
+            EXPECT_EQ(sphere.w < 0.0f, input_.spheres[index].power < shared::kInfinity);
             if (!input_.motions.empty()) {
                 EXPECT_EQ(motion, input_.motions[index]);
             }

@@ -32,6 +32,7 @@ CompiledScene randomLights(std::uint32_t count, std::uint32_t seed) {
             Sphere sphere{};
             sphere.center = vec3(at);
             sphere.radius = static_cast<float>(size);
+            sphere.power = shared::kInfinity;
             light = scene::sphereLight(sphere, vec3(0));
         } else if (uniform.word() % 2 == 0) {
             Quad quad{};
@@ -203,6 +204,7 @@ TEST(LightTree, OfLightsInOnePlaceAndOfDarkOnes) {
     for (int i = 0; i < 200; ++i) {
         Sphere sphere{};
         sphere.radius = 0.1f;
+        sphere.power = shared::kInfinity;
         Light light = scene::sphereLight(sphere, vec3(0));
         light.emission = vec3(i < 100 ? 1.0f : 0.0f);
         s.lights.push_back(light);

@@ -134,6 +134,7 @@ CompiledScene mixedLights(std::uint32_t count, std::uint32_t seed) {
                 shared::Sphere sphere{};
                 sphere.center = vec3(inBox(uniform, 4));
                 sphere.radius = 0.1f;
+                sphere.power = shared::kInfinity;
                 s.lights.push_back(sphereLight(sphere, vec3(0)));
                 s.lights.back().emission = vec3(emission);
                 break;

@@ -33,6 +33,14 @@ void fillLane(SphereBlock& block, std::uint32_t lane, const AccelInput& input, s
     block.primitive[lane] = index;
 }
 
+void fillLane(NearSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
+    const shared::Sphere& sphere = input.spheres[index];
+    setLane(block.center, lane, sphere.center);
+    block.radius[lane] = sphere.radius;
+    block.power[lane] = sphere.power;
+    block.primitive[lane] = index;
+}
+
 void fillLane(MovingSphereBlock& block, std::uint32_t lane, const AccelInput& input, std::uint32_t index) {
     const shared::Sphere& sphere = input.spheres[index];
     setLane(block.center, lane, sphere.center);

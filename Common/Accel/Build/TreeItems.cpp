@@ -6,6 +6,11 @@
 
 namespace rt::accel {
 
+LeafKind sphereKind(const AccelInput& input, std::uint32_t sphere) {
+    if (input.spheres[sphere].power < shared::kInfinity) return LeafKind::NearSphere;
+    return input.motions.empty() ? LeafKind::Sphere : LeafKind::MovingSphere;
+}
+
 TreeItems::TreeItems(const AccelInput& input, const shared::Geometry& geometry, std::vector<std::uint32_t> instances)
     : input_(input),
       geometry_(geometry),
@@ -15,7 +20,7 @@ TreeItems::TreeItems(const AccelInput& input, const shared::Geometry& geometry, 
       firstInstance_(firstTriangle_ + geometry.triangleCount) {}
 
 LeafKind TreeItems::kind(std::uint32_t item) const {
-    if (item < firstQuad_) return input_.motions.empty() ? LeafKind::Sphere : LeafKind::MovingSphere;
+    if (item < firstQuad_) return sphereKind(input_, geometry_.firstSphere + item);
     if (item < firstTriangle_) return LeafKind::Quad;
     return item < firstInstance_ ? LeafKind::Triangle : LeafKind::Instance;
 }
@@ -31,6 +36,7 @@ Box TreeItems::box(std::uint32_t item, std::span<const Box> geometryBoxes) const
     const std::uint32_t i = index(item);
     switch (kind(item)) {
         case LeafKind::Sphere:
+        case LeafKind::NearSphere:
             return boxOf(input_.spheres[i]);
         case LeafKind::MovingSphere:
             return boxOf(input_.spheres[i], input_.motions[i]);
@@ -47,7 +53,9 @@ Box TreeItems::box(std::uint32_t item, std::span<const Box> geometryBoxes) const
 
 std::vector<std::uint8_t> TreeItems::kinds() const {
     if (size() == 0) return {};
-    if (kind(0) == kind(size() - 1)) return {static_cast<std::uint8_t>(kind(0))};
+    std::uint32_t alike = 1;
+    while (alike < size() && kind(alike) == kind(0)) ++alike;
+    if (alike == size()) return {static_cast<std::uint8_t>(kind(0))};
     std::vector<std::uint8_t> result(size());
     for (std::uint32_t i = 0; i < size(); ++i) {
         result[i] = static_cast<std::uint8_t>(kind(i));

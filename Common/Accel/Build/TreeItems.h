@@ -10,6 +10,9 @@
 
 namespace rt::accel {
 
+// Sphere, NearSphere or MovingSphere. Where any sphere moves, all move that are not near.
+LeafKind sphereKind(const AccelInput& input, std::uint32_t sphere);
+
 class TreeItems {
   public:
     // `instances` are indices into input.instances: all that are placed in the world, none for other geometries. The

@@ -61,6 +61,8 @@ template <class Test>
 RT_FN void forEachListedBlock(shared::Features features, const AccelView& view, const Test& test) {
     if (shared::has(features, shared::kFeatureSpheres)) forEachListedBlock(view.listedSpheres, test);
     if (shared::has(features, shared::kFeatureMovingSpheres)) forEachListedBlock(view.listedMovingSpheres, test);
+    if (shared::has(features, shared::kFeatureSpheres | shared::kFeatureMovingSpheres))
+        forEachListedBlock(view.listedNearSpheres, test);
     if (shared::has(features, shared::kFeatureQuads)) forEachListedBlock(view.listedQuads, test);
     if (shared::has(features, shared::kFeatureTriangles)) forEachListedBlock(view.listedTriangles, test);
 }

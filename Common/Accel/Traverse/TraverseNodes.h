@@ -172,6 +172,8 @@ RT_FN void prefetchReference(shared::Features features, const AccelView& view, R
         prefetchBytes<sizeof(TriangleBlock)>(view.triangles + leafFirst(r));
     } else if (shared::has(features, shared::kFeatureSpheres) && leafKind(r) == LeafKind::Sphere) {
         prefetchBytes<sizeof(SphereBlock)>(view.spheres + leafFirst(r));
+    } else if (shared::has(features, shared::kFeatureSpheres) && leafKind(r) == LeafKind::NearSphere) {
+        prefetchBytes<sizeof(NearSphereBlock)>(view.nearSpheres + leafFirst(r));
     } else if (shared::has(features, shared::kFeatureQuads) && leafKind(r) == LeafKind::Quad) {
         prefetchBytes<sizeof(QuadBlock)>(view.quads + leafFirst(r));
     }

@@ -5,6 +5,8 @@
 namespace rt::accel {
 namespace {
 
+const shared::uint kAnySpheres = shared::kFeatureSpheres | shared::kFeatureMovingSpheres;
+
 RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
     shared::Ray r = ray;
     for (int row = 0; row < 3; ++row) {
@@ -45,6 +47,8 @@ RT_FN void traceLeaf(shared::Features features, const AccelView& view, Reference
         testLeaf(ray.shape, view.quads, leaf, shared::kQuad, instance, best);
     } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
         testLeaf(ray.shape, view.movingSpheres, leaf, shared::kSphere, instance, best);
+    } else if (shared::has(features, kAnySpheres) && kind == LeafKind::NearSphere) {
+        testLeaf(ray.shape, view.nearSpheres, leaf, shared::kSphere, instance, best);
     } else if constexpr (World) {
         if (shared::has(features, shared::kFeatureInstances)) {
             const PlacedGeometry* placed = view.instances + leafFirst(leaf);
@@ -68,6 +72,8 @@ RT_FN bool occludedLeaf(shared::Features features, const AccelView& view, Refere
         return testLeafAny(ray.shape, view.quads, leaf, tMax);
     } else if (shared::has(features, shared::kFeatureMovingSpheres) && kind == LeafKind::MovingSphere) {
         return testLeafAny(ray.shape, view.movingSpheres, leaf, tMax);
+    } else if (shared::has(features, kAnySpheres) && kind == LeafKind::NearSphere) {
+        return testLeafAny(ray.shape, view.nearSpheres, leaf, tMax);
     } else if constexpr (World) {
         if (shared::has(features, shared::kFeatureInstances)) {
             const PlacedGeometry* placed = view.instances + leafFirst(leaf);

@@ -74,7 +74,9 @@ class Search {
         };
         forEach(g.firstSphere, g.sphereCount, [&](std::uint32_t i) {
             const shared::Sphere& sphere = scene_.spheres[i];
-            take(shared::intersectSphere(ray, centerOf(i), sphere.radius, nearest_), sphere.material);
+            const float inverseSquaredLength = 1.0f / shared::dot(ray.direction, ray.direction);
+            take(shared::intersectSphere(ray, inverseSquaredLength, centerOf(i), sphere.radius, sphere.power, nearest_),
+                 sphere.material);
         });
         forEach(g.firstQuad, g.quadCount, [&](std::uint32_t i) {
             const shared::Quad& quad = scene_.quads[i];

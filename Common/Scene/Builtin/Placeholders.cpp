@@ -3,16 +3,22 @@
 #include <system_error>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
 
 namespace rt::scene {
 
 std::optional<std::filesystem::path> locateAsset(const std::string& file, const std::string& standIn,
-                                                 const CompileOptions& options, const std::string& id) {
+                                                 const CompileOptions& options, const std::string& id,
+                                                 std::vector<std::string>& notices) {
     if (!standIn.empty() && options.generatedAssets) return std::nullopt;
     const std::filesystem::path path(file);
     std::error_code ignored;
     if (path.is_absolute() && std::filesystem::is_regular_file(path, ignored)) return path;
+    if (const auto other = findInOtherCase(path); !other.empty()) {
+        notices.push_back(file + ": there is no such file; read: " + other.filename().string());
+        return other;
+    }
     if (path.is_relative() && !path.empty())
         if (const auto asset = findAsset(path)) return asset;
     if (standIn.empty())

@@ -23,8 +23,10 @@ const std::vector<std::string>& meshStandInNames();
 MeshData makeMeshStandIn(const std::string& name); // one of the names
 
 // Where a file named by scene `id` is: its full path, or an asset. Nothing: the stand-in takes over, because there is
-// no such file or the options prefer what is generated. Throws InputError for a missing file without stand-in.
+// no such file or the options prefer what is generated. One whose name differs in case is taken, with a notice. Throws
+// InputError for a missing file without stand-in.
 std::optional<std::filesystem::path> locateAsset(const std::string& file, const std::string& standIn,
-                                                 const CompileOptions& options, const std::string& id);
+                                                 const CompileOptions& options, const std::string& id,
+                                                 std::vector<std::string>& notices);
 
 } // namespace rt::scene

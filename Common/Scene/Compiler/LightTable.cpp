@@ -122,6 +122,7 @@ shared::Light sphereLight(const shared::Sphere& sphere, const shared::vec3& moti
     shared::Light light = emptyLight(shared::kLightSphere);
     light.position = sphere.center;
     light.edgeU = motion;
+    if (sphere.power < shared::kInfinity) light.edgeV = shared::vec3(sphere.power, 1.0f, 0.0f);
     light.radius = sphere.radius;
     light.area = static_cast<float>(4 * std::numbers::pi * sphere.radius * sphere.radius);
     return light;

@@ -15,7 +15,7 @@ const ObjModel& ModelCache::model(const MeshFile& source, bool withMaterials) {
     const std::string key = source.file + '\n' + source.standIn + (withMaterials ? "\n+" : "\n-");
     const auto [entry, isNew] = models_.try_emplace(key);
     if (!isNew) return entry->second;
-    if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id)) {
+    if (const auto path = locateAsset(source.file, source.standIn, options_, desc_.id, out_.notices)) {
         entry->second = loadObj(*path, withMaterials, source.file + "/");
         textures_.add(entry->second.textures);
         for (const auto& [name, material] : entry->second.materials)

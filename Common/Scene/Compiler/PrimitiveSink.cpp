@@ -11,6 +11,7 @@
 #include "Common/Core/SystemMemory.h"
 #include "Common/Scene/Compiler/LightTable.h"
 #include "Common/Scene/Compiler/MeshOrder.h"
+#include "Common/Scene/SpherePower.h"
 #include "Common/Shared/Shape/Ellipsoids.h"
 
 namespace rt::scene {
@@ -158,6 +159,8 @@ void PrimitiveSink::sphere(const glm::dvec3& center, const glm::dvec3& motion, d
     shared::Sphere record{};
     record.center = shared::vec3(c);
     record.radius = static_cast<float>(r);
+    // Of the world only: in the space of an instance the map of rays rounds by what leads from it to the world.
+    record.power = !isMoving && out_.geometries.empty() ? spherePower(c, r) : shared::kInfinity;
     record.material = materials_.index(frame.material);
     record.light = shared::kNone;
     if (isLight(record.material, frame.light))

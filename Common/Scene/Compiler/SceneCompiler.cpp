@@ -15,6 +15,7 @@
 #include "Common/Scene/Compiler/SpecularCasters.h"
 #include "Common/Scene/Compiler/TextureTable.h"
 #include "Common/Scene/Compiler/TexturesInUse.h"
+#include "Common/Scene/SpherePower.h"
 
 namespace rt::scene {
 
@@ -184,6 +185,7 @@ class Compiler {
         if (sink_.ellipsoids().empty()) return;
         shared::Sphere sphere{};
         sphere.radius = 1;
+        sphere.power = shared::kInfinity;
         sphere.material = sink_.ellipsoids().front().material;
         sphere.light = shared::kNone;
         out_->spheres.push_back(sphere);
@@ -239,6 +241,7 @@ class Compiler {
             shared::Sphere sphere{};
             sphere.center = shared::vec3(toWorld.point(boundary->center));
             sphere.radius = static_cast<float>(boundary->radius);
+            sphere.power = spherePower(toWorld.point(boundary->center), boundary->radius);
             appendTarget(sphereLight(sphere, shared::vec3(0)), *out_);
         } else {
             const auto& desc = std::get<QuadDesc>(target.shape);

@@ -1,6 +1,7 @@
 #include "Common/Scene/Compiler/SpecularCasters.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -161,11 +162,17 @@ class CasterSelection {
 
 using Visit = std::function<void(std::uint32_t sphere, const InstancePlacement& at)>;
 
+// Of a mirror that is the ground, say: what connections keep off its surface by, a part of the radius, would be more
+// than what stands there.
+bool isTooNear(const shared::Sphere& sphere) {
+    return std::abs(sphere.power) < 0.02f * sphere.radius * sphere.radius;
+}
+
 // The spheres of a geometry whose own material is smooth, whatever that of an instance is.
 std::vector<std::uint32_t> specularCastersOf(const CompiledScene& scene, const shared::Geometry& geometry) {
     std::vector<std::uint32_t> spheres;
     for (std::uint32_t i = geometry.firstSphere; i < geometry.firstSphere + geometry.sphereCount; ++i)
-        if (isSmooth(scene.materials[scene.spheres[i].material])) spheres.push_back(i);
+        if (isSmooth(scene.materials[scene.spheres[i].material]) && !isTooNear(scene.spheres[i])) spheres.push_back(i);
     return spheres;
 }
 

@@ -157,7 +157,7 @@ shared::Texture TextureTable::record(const TextureDesc& desc) {
 }
 
 EncodedTexels TextureTable::open(const ImageTexture& source) {
-    std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_);
+    std::optional<std::filesystem::path> path = locateAsset(source.file, source.standIn, options_, id_, out_.notices);
     if (!path) {
         const std::filesystem::path installed =
             options_.installedMaps ? installedPlanetMap(source.standIn) : std::filesystem::path();

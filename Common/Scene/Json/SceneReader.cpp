@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "Common/Core/OtherCase.h"
 #include "Common/Core/Paths.h"
 #include "Common/Core/ReadFile.h"
 #include "Common/Scene/Json/SceneJson.h"
@@ -118,9 +119,10 @@ ColorOrTexture SceneReferences::colorOrTexture(const JsonNode& node) const {
 std::string SceneReferences::file(const JsonNode& node, bool hasStandIn) const {
     const std::filesystem::path path(node.string());
     const std::filesystem::path beside = path.is_absolute() ? path : folder_ / path;
+    const std::filesystem::path whole = path.empty() ? path : std::filesystem::absolute(beside).lexically_normal();
     std::error_code ignored;
-    if (!path.empty() && std::filesystem::is_regular_file(beside, ignored))
-        return std::filesystem::absolute(beside).lexically_normal().generic_string();
+    if (std::filesystem::is_regular_file(whole, ignored) || !findInOtherCase(whole).empty())
+        return whole.generic_string();
     const bool isAsset = !path.empty() && path.is_relative() && findAsset(path);
     if (!hasStandIn && !isAsset) node.failValue("an existing file, beside the scene or among the assets");
     return node.string();

@@ -24,7 +24,8 @@ struct Sphere {
     vec3 center;  // at time 0
     float radius; // > 0
     uint material;
-    uint light; // index into lights, or kNone
+    uint light;  // index into lights, or kNone
+    float power; // |center|^2 - radius^2, not of their rounded values, of a near sphere; kInfinity of any other
 };
 
 // Parallelogram corner + a edgeU + b edgeV, a and b in [0,1]; the front is the side that edgeU x edgeV points to.
@@ -164,7 +165,7 @@ struct Light {
                    // centre of the scene
     vec3 edgeU;    // quad; triangle: vertex 1 - vertex 0; sphere: displacement over the shutter; ellipsoid: image of x;
                    // spot: 1 - cos(outer angle), 1 / (cos(inner angle) - cos(outer angle)), 0
-    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y
+    vec3 edgeV;    // quad; triangle: vertex 2 - vertex 0; ellipsoid: image of y; near sphere: its power, 1, 0
     vec3 normal;   // unit, front side; quad and triangle; ellipsoid: image of z; unit direction in which a spot or
                    // directional light shines
     float radius;  // sphere; ellipsoid: that of a sphere of the same area; directional light: of the scene

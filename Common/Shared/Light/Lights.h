@@ -61,7 +61,11 @@ RT_FN LightSample sampleLight(Features features, RT_IN(RenderParams) params, RT_
             s = sampleTriangleLight(features, params, light, position, normal, u);
         }
     }
-    return completeSample(features, light, normal, s);
+    s = completeSample(features, light, normal, s);
+    if (has(features, kFeatureSphereLights) && isNearSphereLight(light)) {
+        s = placeOnNearSphere(light, position, time, s);
+    }
+    return s;
 }
 
 // Density of wi under sampleLight, for a direction that meets the light at `distance` under its geometric normal

@@ -3,6 +3,7 @@
 #define RT_SHARED_SPHERE_LIGHT_H
 #include "Common/Shared/Light/LightSample.h"
 #include "Common/Shared/Light/Projected/ProjectedLights.h"
+#include "Common/Shared/Shape/Shapes.h"
 
 RT_SHARED_BEGIN
 
@@ -67,6 +68,30 @@ RT_FN LightSample sampleSphereCone(RT_IN(Light) light, bool isCap, vec3 center, 
     s.normal = c.normal;
     s.point = pointOnSphere(cone.distance, center, light.radius, c.normal, position + c.direction * c.distance);
     s.pdf = pdf;
+    return s;
+}
+
+// See Shapes.h.
+RT_FN bool isNearSphereLight(RT_IN(Light) light) {
+    return light.kind == kLightSphere && light.edgeV.y > 0.0f;
+}
+
+// A sample whose point is known as well as the shading point and the way from there, not as the light's coordinates.
+RT_FN LightSample placeOnNearSphere(RT_IN(Light) light, vec3 position, float time, RT_IN(LightSample) drawn) {
+    LightSample s = drawn;
+    Ray ray;
+    ray.origin = position;
+    ray.direction = s.wi;
+    ray.time = time;
+    float t = intersectSphere(ray, 1.0f / dot(s.wi, s.wi), light.position, light.radius, light.edgeV.x, kInfinity);
+    if (!(s.pdf > 0.0f && t > 0.0f)) return s; // beside it, by rounding
+    SpherePoint point = spherePoint(ray, light.position, light.radius, light.edgeV.x, t);
+    // Rounding may have taken the shading point to be on the other side of the surface, as sphereLightPdf() does.
+    if ((dot(point.normal, s.wi) > 0.0f) != (dot(s.normal, s.wi) > 0.0f)) s.pdf = 0.0f;
+    s.distance = t;
+    s.point = point.position;
+    s.normal = point.normal;
+    s.error = vec3(4.0f * point.error);
     return s;
 }
 

@@ -6,6 +6,7 @@
 // two changes no bit of a decision.
 #ifndef RT_SHARED_SHAPES_H
 #define RT_SHARED_SHAPES_H
+#include "Common/Shared/Base/Sampling.h"
 #include "Common/Shared/Base/Types.h"
 
 RT_SHARED_BEGIN
@@ -31,8 +32,8 @@ RT_FN vec3 sphereCenter(vec3 centerAtStart, vec3 motion, float time) {
 // The nearest t in (0, tMax) where the ray meets the sphere, or -1. Half the chord comes from the ray's distance to the
 // centre, not from a difference of large squares, so a distant sphere loses no digits (Haines et al., "Precision
 // Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019). The error of t is a few roundings of the distance
-// to the centre: that is what the origin of a ray that leaves the sphere is offset by. inverseSquaredLength: 1 /
-// dot(direction, direction).
+// to the centre: that is what the origin of a ray that leaves the sphere is offset by. For near spheres, below, it is
+// less. inverseSquaredLength: 1 / dot(direction, direction).
 RT_FN float intersectSphere(Ray ray, float inverseSquaredLength, vec3 center, float radius, float tMax) {
     vec3 f = center - ray.origin;
     float middle = dot(f, ray.direction) * inverseSquaredLength;
@@ -48,45 +49,81 @@ RT_FN float intersectSphere(Ray ray, vec3 center, float radius, float tMax) {
     return intersectSphere(ray, 1.0f / dot(ray.direction, ray.direction), center, radius, tMax);
 }
 
+// ---- near spheres --------------------------------------------------------------------------------------------------
+//
+// Those that rest and whose surface passes near the origin of coordinates, which is where the camera was at first: huge
+// ones mostly, the ground say. Their coordinates would take the digits of all that stands on them. What is known of
+// where the surface is, is the power of that origin with respect to the sphere, |center|^2 - radius^2, rounded once:
+// that of any other point o follows as power + o . (o - 2 center), without a difference of large squares, so that
+// errors grow with coordinates of the ray and the distance along it, and not with the radius.
+
+// Whether the surface of a sphere is so near the origin of coordinates that the power of that is worth having.
+RT_FN bool isNearSphere(float power, float radius) {
+    return abs(power) < 0.75f * radius * radius;
+}
+
+// Whether a ray begins where the power tells more than the distance from the centre does.
+RT_FN bool isInReach(vec3 origin, float radius) {
+    return maxComponent(abs(origin)) < 4.0f * radius;
+}
+
+// As intersectSphere(), of a sphere with this power, or kInfinity if it is not a near one. The root of larger magnitude
+// is a sum without cancellation, the other one follows from their product.
+RT_FN float intersectSphere(Ray ray, float inverseSquaredLength, vec3 center, float radius, float power, float tMax) {
+    if (!(power < kInfinity && isInReach(ray.origin, radius)))
+        return intersectSphere(ray, inverseSquaredLength, center, radius, tMax);
+    float middle = dot(center - ray.origin, ray.direction) * inverseSquaredLength;
+    float product = (power + dot(ray.origin, ray.origin - 2.0f * center)) * inverseSquaredLength;
+    float squaredHalf = middle * middle - product;
+    if (!(squaredHalf >= 0.0f)) return -1.0f;
+    float halfChord = sqrt(squaredHalf);
+    float larger = middle < 0.0f ? middle - halfChord : middle + halfChord;
+    float smaller = product / larger;
+    float nearest = min(larger, smaller);
+    float t = nearest > 0.0f ? nearest : max(larger, smaller);
+    return t > 0.0f && t < tMax ? t : -1.0f;
+}
+
+// ---- points on spheres ---------------------------------------------------------------------------------------------
+
 struct SpherePoint {
     vec3 position;
     vec3 normal; // unit, outwards
+    float error; // bound of how far the position, and then a ray that leaves it, is off the sphere
 };
 
-// Where the ray meets the sphere, on the side that the hit at parameter t is on. The position is off the sphere by less
-// than 8 roundings of |center| + radius, which is what rays that leave it are offset by.
+// Where the ray meets the sphere, on the side that the hit at parameter t is on. The normal from the foot of the
+// perpendicular, not from origin + t direction, whose error grows with t (Haines et al., Ray Tracing Gems, ch. 7). The
+// direction is not unit in the space of an instance.
 RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float t) {
     vec3 f = ray.origin - center;
     float a = dot(ray.direction, ray.direction);
     float middle = -dot(f, ray.direction) / a;
-    bool first = t < middle;
-    SpherePoint point;
-    vec3 reach = abs(ray.origin) + abs(ray.direction) * t;
-    vec3 size = abs(center) + radius;
-    if (4.0f * max(reach.x, max(reach.y, reach.z)) < max(size.x, max(size.y, size.z))) {
-        // Near a huge sphere, the ground say: the sphere's coordinates would take the digits of the point's. Half the
-        // chord from the power of the origin, which is small, without the cancellation of its largest term; then along
-        // the ray.
-        vec3 m = abs(f);
-        float largest = max(m.x, max(m.y, m.z));
-        vec3 others = m.x == largest   ? vec3(0.0f, m.y, m.z)
-                      : m.y == largest ? vec3(m.x, 0.0f, m.z)
-                                       : vec3(m.x, m.y, 0.0f);
-        float power = ((largest - radius) * (largest + radius) + dot(others, others)) / a;
-        float halfChord = sqrt(max(middle * middle - power, 0.0f));
-        bool behind = middle < 0.0f;
-        float q = behind ? middle - halfChord : middle + halfChord; // the root of larger magnitude
-        vec3 along = ray.direction * (first == behind ? q : power / q);
-        point.position = ray.origin + along;
-        point.normal = normalize(f + along);
-        return point;
-    }
-    // The normal from the foot of the perpendicular, not from origin + t direction, whose error grows with t (Haines et
-    // al., Ray Tracing Gems, ch. 7). The direction is not unit in the space of an instance.
     vec3 foot = f + ray.direction * middle;
     float halfChord = sqrt(max(0.0f, radius * radius - dot(foot, foot)) / a);
-    point.normal = normalize(foot + ray.direction * (first ? -halfChord : halfChord));
+    SpherePoint point;
+    point.normal = normalize(foot + ray.direction * (t < middle ? -halfChord : halfChord));
     point.position = center + point.normal * radius;
+    point.error = 8.0f * kEpsilon * (maxComponent(abs(center)) + radius);
+    return point;
+}
+
+// Bound of how far a point that is `way` from `origin` is off a near sphere, and a ray that leaves it is: the roundings
+// of both tests and of the point. The second term is what a ray along the surface needs, whose cosine rounding may turn
+// round: the square of that over twice the radius.
+RT_FN float nearSphereError(vec3 origin, vec3 way, float radius) {
+    return 16.0f * kEpsilon * (maxComponent(abs(origin)) + maxComponent(abs(way))) +
+           32.0f * kEpsilon * kEpsilon * radius;
+}
+
+// The same of a sphere with this power, see above.
+RT_FN SpherePoint spherePoint(Ray ray, vec3 center, float radius, float power, float t) {
+    if (!(power < kInfinity)) return spherePoint(ray, center, radius, t);
+    vec3 way = ray.direction * t;
+    SpherePoint point;
+    point.position = ray.origin + way;
+    point.normal = normalize(point.position - center);
+    point.error = nearSphereError(ray.origin, way, radius);
     return point;
 }
 

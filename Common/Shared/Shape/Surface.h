@@ -55,12 +55,12 @@ RT_FN vec3 sphereCenter(Features features, SceneRef scene, RT_IN(Sphere) sphere,
 RT_FN Surface sphereSurface(Features features, SceneRef scene, RT_IN(Ray) ray, RT_IN(Hit) hit) {
     RT_IN(Sphere) sphere = loadSphere(scene, hit.primitive);
     vec3 center = sphereCenter(features, scene, sphere, hit.primitive, ray.time);
-    SpherePoint point = spherePoint(ray, center, sphere.radius, hit.t);
+    SpherePoint point = spherePoint(ray, center, sphere.radius, sphere.power, hit.t);
     Surface s;
     s.normal = point.normal;
     s.shading = s.normal;
     s.position = point.position;
-    s.error = vec3(8.0f * kEpsilon * (max(max(abs(center.x), abs(center.y)), abs(center.z)) + sphere.radius));
+    s.error = vec3(point.error);
     s.uv = vec2(0.0f, 0.0f);
     if (has(features, kFeatureImages)) s.uv = sphereUv(s.normal);
     // u runs eastwards.

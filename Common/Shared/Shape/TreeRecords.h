@@ -74,8 +74,9 @@ struct TreeTriangle {
 };
 
 // ---- lists ---------------------------------------------------------------------------------------------------------
-// Vectors of one array: two a sphere (center, radius; motion, index of the primitive), two a quad whose edges run along
-// axes (below), four a cuboid (below), then four of any other quad, three a triangle, as above.
+// Vectors of one array: two a sphere (center, radius, that is negative for near spheres; motion, index of the
+// primitive), two a quad whose edges run along axes (below), four a cuboid (below), then four of any other quad, three
+// a triangle, as above.
 //
 // Quads along axes, those perpendicular to x first, then to y, to z: center and index of the primitive; half of what
 // they extend (intersectAxisQuad()) along the two axes that follow the perpendicular one in cyclic order.

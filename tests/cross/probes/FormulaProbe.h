@@ -290,9 +290,10 @@ RT_FN uvec4 probeScene(RT_INOUT(Arguments) a, uint which, uint i) {
         // Every second sphere is huge against the ray.
         float radius = (i & 1u) == 0u ? 0.25f + uniformNumber(a) : 1000.0f;
         vec3 center = cubePoint(a) * 0.5f - vec3(0.0f, radius > 2.0f ? radius : 0.0f, 0.0f);
-        float t = intersectSphere(ray, center, radius, kInfinity);
+        float power = radius > 2.0f ? dot(center, center) - radius * radius : kInfinity;
+        float t = intersectSphere(ray, 1.0f / dot(ray.direction, ray.direction), center, radius, power, kInfinity);
         if (t < 0.0f) return floatWords(t, 0.0f, 0.0f, 0.0f);
-        return floatWords(spherePoint(ray, center, radius, t).position, 0.0f);
+        return floatWords(spherePoint(ray, center, radius, power, t).position, 0.0f);
     }
     if (which == kProbeAxisQuadHit) {
         vec3 direction = ray.direction;

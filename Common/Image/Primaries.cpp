@@ -1,0 +1,75 @@
+#include "Common/Image/Primaries.h"
+
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace rt::image {
+
+namespace {
+
+using glm::dmat3;
+using glm::dvec2;
+using glm::dvec3;
+
+constexpr double kRounding = 5e-4; // of chromaticities in files
+
+// XYZ over Y.
+dvec3 xyzOf(const dvec2& xy) {
+    return dvec3(xy.x / xy.y, 1, (1 - xy.x - xy.y) / xy.y);
+}
+
+bool isFinite(const dmat3& m) {
+    bool all = true;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row) all = all && std::isfinite(m[column][row]);
+    return all;
+}
+
+// From one white to another, of XYZ: the cone responses of Bradford, each scaled on its own.
+dmat3 adaptation(const dvec3& from, const dvec3& to) {
+    const dmat3 cones(0.8951, -0.7502, 0.0389, 0.2664, 1.7135, -0.0685, -0.1614, 0.0367, 1.0296); // columns
+    const dvec3 ratio = (cones * to) / (cones * from);
+    return glm::inverse(cones) * dmat3(ratio.x, 0, 0, 0, ratio.y, 0, 0, 0, ratio.z) * cones;
+}
+
+} // namespace
+
+bool areSame(const Primaries& a, const Primaries& b) {
+    const auto near = [](const dvec2& p, const dvec2& q) {
+        return std::abs(p.x - q.x) <= kRounding && std::abs(p.y - q.y) <= kRounding;
+    };
+    return near(a.red, b.red) && near(a.green, b.green) && near(a.blue, b.blue) && near(a.white, b.white);
+}
+
+std::optional<dmat3> toXyz(const Primaries& p) {
+    // Primaries by X + Y + Z = 1, as one of them, of blue light, may have no luminance.
+    const auto column = [](const dvec2& xy) { return dvec3(xy.x, xy.y, 1 - xy.x - xy.y); };
+    const dmat3 columns(column(p.red), column(p.green), column(p.blue));
+    if (!(std::abs(glm::determinant(columns)) > 1e-6) || !(std::abs(p.white.y) > 1e-6)) return std::nullopt;
+    const dvec3 amounts = glm::inverse(columns) * xyzOf(p.white);
+    const dmat3 matrix(columns[0] * amounts.x, columns[1] * amounts.y, columns[2] * amounts.z);
+    return isFinite(matrix) ? std::optional(matrix) : std::nullopt;
+}
+
+dmat3 xyzToRec709() {
+    return glm::inverse(*toXyz(kRec709));
+}
+
+std::optional<dmat3> toRec709(const Primaries& primaries, White white) {
+    const std::optional<dmat3> xyz = toXyz(primaries);
+    if (!xyz || white == White::Kept) return xyz ? std::optional(xyzToRec709() * *xyz) : std::nullopt;
+    const dmat3 matrix = xyzToRec709() * adaptation(xyzOf(primaries.white), xyzOf(kRec709.white)) * *xyz;
+    return isFinite(matrix) ? std::optional(matrix) : std::nullopt;
+}
+
+void multiplyColors(Image& image, const dmat3& matrix) {
+    for (std::size_t i = 0; i + 2 < image.data.size(); i += 3) {
+        const dvec3 color = matrix * dvec3(image.data[i], image.data[i + 1], image.data[i + 2]);
+        for (int c = 0; c < 3; ++c) image.data[i + static_cast<std::size_t>(c)] = static_cast<float>(color[c]);
+    }
+}
+
+} // namespace rt::image
