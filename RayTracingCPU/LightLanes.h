@@ -239,9 +239,9 @@ RT_CALL void sampleDirectLights(const CpuScene& scene, const RenderParams& param
             const Vertex v = get(lanes.vertices, i);
             const vec2 u = get(lanes.position, i);
             set(lanes.lightSamples, i, sampleChosenLight(kFeatures, scene, params, light, v, lanes.time.at[i], u));
-        } else if (has(kFeatures, kTexturedFeatures) && light.material != kNone) {
+        } else if (variesOver(kFeatures, light)) {
             LightSample sampled = get(lanes.lightSamples, i);
-            applyEmissionTexture(kFeatures, scene, light, sampled);
+            applyMaterial(kFeatures, scene, light, sampled);
             set(lanesOf<&LightSample::radiance>(lanes.lightSamples), i, sampled.radiance);
         }
     });

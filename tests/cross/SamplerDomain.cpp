@@ -125,8 +125,8 @@ std::optional<double> SamplerDomain::knownDensity(const dvec3& w) const {
     const bool isByArea = shared::probeShape(family_, which_) == shared::kShapeArea;
     if (isRound_) {
         const dvec3 center = toSphere_ * corner_, v = glm::normalize(toSphere_ * w);
-        const double remapSample = glm::length(glm::inverse(toSphere_) * v);
-        const double jacobian = remapSample * remapSample * remapSample * std::abs(glm::determinant(toSphere_));
+        const double stretch = glm::length(glm::inverse(toSphere_) * v);
+        const double jacobian = stretch * stretch * stretch * std::abs(glm::determinant(toSphere_));
         const double d2 = glm::dot(center, center), along = glm::dot(center, v);
         if (!isByArea) return jacobian / (2 * kPi * (1 - std::sqrt(1 - 1 / d2)));
         const double cosine = std::sqrt(std::max(along * along - d2 + 1, 0.0)), distance = along - cosine;

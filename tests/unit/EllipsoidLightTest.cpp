@@ -70,7 +70,7 @@ TEST(Ellipsoids, DensityOfDirectionsIsTheJacobianOfTheirMap) {
         const dvec3 center = unitVector(uniform) * (1 + uniform.logBetween(0.01, 100));
         const EllipsoidCone cone = makeEllipsoidCone(e, vec3(center));
         const dvec3 axis(cone.axis);
-        const dmat3 relax = dmat3(1) + (1 / double(cone.remapSample) - 1) * glm::outerProduct(axis, axis);
+        const dmat3 relax = dmat3(1) + (1 / double(cone.stretch) - 1) * glm::outerProduct(axis, axis);
         const dvec3 side = glm::normalize(glm::cross(axis, unitVector(uniform)));
         const double sine = std::sqrt((1 - double(cone.cosine)) * (1 + double(cone.cosine)));
         const dvec3 w = glm::normalize(axis + side * (sine / double(cone.cosine) * double(uniform())));

@@ -14,6 +14,13 @@ namespace {
 
 constexpr double kMinAttenuation = 1e-6; // of attenuation colours: black would absorb infinitely much
 
+// Share of the rays that meet a surface; of one whose opacity has a texture 1, which bounds it.
+double constantOpacity(const shared::Principled& p) {
+    if (p.opacity.texture != shared::kNone) return 1;
+    if (p.alphaCutoff < 0) return p.opacity.factor;
+    return p.opacity.factor < p.alphaCutoff ? 0 : 1;
+}
+
 } // namespace
 
 MaterialTable::MaterialTable(const SceneDesc& desc, const CompileOptions& options, CompiledScene& out,
@@ -51,7 +58,10 @@ std::uint32_t MaterialTable::index(const MaterialDesc& desc) {
             material.emissionTexture == shared::kNone ? glm::dvec3(factor) : textures_.mean(material.emissionTexture);
         material.emission *= factor;
     }
-    if (desc.kind == MaterialKind::Principled) addPrincipled(desc.principled);
+    if (desc.kind == MaterialKind::Principled) {
+        addPrincipled(desc.principled);
+        mean *= constantOpacity(out_.principled.back());
+    }
     out_.materials.push_back(material);
     out_.materialNames.push_back(names_[&desc]);
     if (!out_.principled.empty()) out_.principled.resize(out_.materials.size());
@@ -82,8 +92,8 @@ void MaterialTable::addPrincipled(const PrincipledDesc& desc) {
         number.texture = textures_.resolve(source.texture, color);
         if (number.texture == shared::kNone) {
             constant = shared::vec4(color, 1.0f);
-            number.factor = (number.factor < 0 ? 1.0f : 0.0f) +
-                            number.factor * constant[static_cast<int>(source.channel)];
+            number.factor =
+                (number.factor < 0 ? 1.0f : 0.0f) + number.factor * constant[static_cast<int>(source.channel)];
         }
         return number;
     };

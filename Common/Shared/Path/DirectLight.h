@@ -46,22 +46,39 @@ RT_FN vec2 positionSample(Features features, RT_IN(SceneGlobals) globals, RT_IN(
     return usesLightTree(features, globals.lightCount) ? u.light : vec2(choice.u, u.light.y);
 }
 
-// Replaces the radiance of a light's sample by that of its emission's texture, if it has one.
-RT_FN void applyEmissionTexture(Features features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
-    if (!has(features, kTexturedFeatures) || light.material == kNone) return;
+// Whether the radiance of a light's sample is not that of all its points.
+RT_FN bool variesOver(Features features, RT_IN(Light) light) {
+    return has(features, kTexturedFeatures | kFeatureOpacity) && light.material != kNone;
+}
+
+// Replaces the radiance of a light's sample by that of its point: what the material emits there, by texture, times its
+// opacity, which is the share of the rays there that meet the light.
+RT_FN void applyMaterial(Features features, SceneRef scene, RT_IN(Light) light, RT_INOUT(LightSample) sampled) {
+    if (!variesOver(features, light)) return;
     if (light.kind == kLightSphere) sampled.uv = sphereUv(sampled.normal);
     if (has(features, kFeatureEllipsoidLights) && light.kind == kLightEllipsoid) {
         sampled.uv = sphereUv(normalize(normalReach(light.edgeU, light.edgeV, light.normal, sampled.normal)));
     }
-    vec2 uv = sampled.uv;
-    vec2 uv2 = uv;
+    Surface s; // as far as emission and opacity look at it
+    s.position = sampled.point;
+    s.uv = sampled.uv;
+    s.uv2 = sampled.uv;
+    s.color = vec4(1.0f, 1.0f, 1.0f, 1.0f);
+    s.material = light.material;
     if (has(features, kFeatureTriangleLights) && light.kind == kLightTriangle) {
         uvec3 index = loadTriangle(scene, light.triangle);
         RT_IN(Mesh) mesh = loadMesh(scene, loadTriangleMesh(scene, light.triangle));
-        if (mesh.firstUv != kNone) uv = meshUv(scene, mesh, mesh.firstUv, index, sampled.uv);
-        uv2 = mesh.firstUv2 != kNone ? meshUv(scene, mesh, mesh.firstUv2, index, sampled.uv) : uv;
+        if (mesh.firstUv != kNone) s.uv = meshUv(scene, mesh, mesh.firstUv, index, sampled.uv);
+        s.uv2 = mesh.firstUv2 != kNone ? meshUv(scene, mesh, mesh.firstUv2, index, sampled.uv) : s.uv;
+        if (has(features, kFeatureOpacity) && mesh.firstColor != kNone) {
+            s.color = meshColor(scene, mesh, index, sampled.uv);
+        }
     }
-    sampled.radiance = emittedRadiance(features, scene, loadMaterial(scene, light.material), sampled.point, uv, uv2);
+    Material material = loadMaterial(scene, light.material);
+    sampled.radiance = surfaceEmission(features, scene, material, s);
+    if (has(features, kFeatureOpacity) && isPrincipled(features, material)) {
+        sampled.radiance *= surfaceOpacity(features, scene, loadPrincipled(scene, light.material), s);
+    }
 }
 
 RT_FN LightSample sampleChosenLight(Features features, SceneRef scene, RT_IN(RenderParams) params, RT_IN(Light) light,
@@ -69,7 +86,7 @@ RT_FN LightSample sampleChosenLight(Features features, SceneRef scene, RT_IN(Ren
     if (has(features, kFeatureSkyImage) && light.kind == kLightSky) return sampleSky(scene, u);
     if (isPunctual(features, light)) return samplePunctualLight(light, v.origin, v.shading);
     LightSample sampled = sampleLight(features, params, light, v.origin, v.shading, time, u);
-    applyEmissionTexture(features, scene, light, sampled);
+    applyMaterial(features, scene, light, sampled);
     return sampled;
 }
 

@@ -17,13 +17,16 @@ RT_FN float targetShare(RT_IN(SceneGlobals) globals) {
     return float(globals.targetCount) / float(globals.lightCount + globals.targetCount);
 }
 
-// The sample that chooses among the lights proper: of the mixture's the part that does not choose a target. (The light
-// is chosen even when a target is sampled, since the density of the direction sums over all of them.)
+// The sample that chooses among the lights proper: of the mixture's what is left of it behind the choice between targets
+// and lights, whichever it was. (A light is chosen even when a target is sampled: the density of the direction sums over
+// all of them, and punctual lights, which no direction hits, are sampled beside.)
 RT_FN vec2 lightSelectionSample(Features features, RT_IN(RenderParams) params, RT_IN(SceneGlobals) globals,
                                 RT_IN(VertexSamples) u) {
     vec2 selection = selectionSample(features, globals, u);
     if (has(features, kMethodMixture) && params.lightSampling == kSampleMixture) {
-        selection.x = remapSample(selection.x, targetShare(globals), 1.0f);
+        float share = targetShare(globals);
+        selection.x =
+            selection.x < share ? remapSample(selection.x, 0.0f, share) : remapSample(selection.x, share, 1.0f);
     }
     return selection;
 }

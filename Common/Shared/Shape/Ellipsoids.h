@@ -65,7 +65,7 @@ struct EllipsoidCone {
     vec3 axis;            // unit, towards the centre, in the sphere's space
     float distance;       // to the centre, there
     float tangent2;       // of the half angle there, squared
-    float remapSample;    // along the axis
+    float stretch;        // along the axis
     float cosine;         // of the half angle when stretched
     float oneMinusCosine; // of that angle; solid angle / (2 pi)
 };
@@ -77,9 +77,9 @@ RT_FN EllipsoidCone makeEllipsoidCone(RT_IN(Ellipsoid) e, vec3 center) {
     c.axis = center * (1.0f / c.distance);
     c.tangent2 = 1.0f / max((c.distance - 1.0f) * (c.distance + 1.0f), 1.0e-37f);
     float along = length(fromSphere(e, c.axis));
-    c.remapSample = along * sqrt(along / e.volume);
-    float whole = c.remapSample * c.remapSample + c.tangent2;
-    c.cosine = c.remapSample / sqrt(whole);
+    c.stretch = along * sqrt(along / e.volume);
+    float whole = c.stretch * c.stretch + c.tangent2;
+    c.cosine = c.stretch / sqrt(whole);
     c.oneMinusCosine = c.tangent2 / (whole * (1.0f + c.cosine));
     return c;
 }
@@ -89,8 +89,8 @@ RT_FN float ellipsoidConePdf(RT_IN(Ellipsoid) e, RT_IN(EllipsoidCone) c, vec3 wi
     vec3 w = toSphere(e, wi);
     float along = dot(w, c.axis);
     vec3 across = w - c.axis * along;
-    float length2 = dot(across, across) + square(c.remapSample * along);
-    return c.remapSample / (2.0f * kPi * c.oneMinusCosine * (e.volume * length2 * sqrt(length2)));
+    float length2 = dot(across, across) + square(c.stretch * along);
+    return c.stretch / (2.0f * kPi * c.oneMinusCosine * (e.volume * length2 * sqrt(length2)));
 }
 
 // A point of the near side in the sphere's space, and the way there from where it is seen.

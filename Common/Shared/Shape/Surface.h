@@ -95,14 +95,18 @@ RT_FN vec2 meshUv(SceneRef scene, RT_IN(Mesh) mesh, uint first, uvec3 index, vec
     return loadUv(scene, t.x) * w + loadUv(scene, t.y) * weights.x + loadUv(scene, t.z) * weights.y;
 }
 
+// Vertex colour there, with opacity.
+RT_FN vec4 meshColor(SceneRef scene, RT_IN(Mesh) mesh, uvec3 index, vec2 weights) {
+    uvec3 c = index + (mesh.firstColor - mesh.firstVertex);
+    float w = 1.0f - weights.x - weights.y;
+    return loadColor(scene, c.x) * w + loadColor(scene, c.y) * weights.x + loadColor(scene, c.z) * weights.y;
+}
+
 RT_FN void addMeshDetail(SceneRef scene, RT_IN(Mesh) mesh, uvec3 index, RT_IN(Hit) hit, RT_INOUT(Surface) s) {
     float w = 1.0f - hit.u - hit.v;
     addDetail(s.uv, vec4(0.0f, 0.0f, 0.0f, 0.0f), s);
     if (mesh.firstUv2 != kNone) s.uv2 = meshUv(scene, mesh, mesh.firstUv2, index, vec2(hit.u, hit.v));
-    if (mesh.firstColor != kNone) {
-        uvec3 c = index + (mesh.firstColor - mesh.firstVertex);
-        s.color = loadColor(scene, c.x) * w + loadColor(scene, c.y) * hit.u + loadColor(scene, c.z) * hit.v;
-    }
+    if (mesh.firstColor != kNone) s.color = meshColor(scene, mesh, index, vec2(hit.u, hit.v));
     if (mesh.firstTangent != kNone) {
         uvec3 t = index + (mesh.firstTangent - mesh.firstVertex);
         vec4 t0 = loadTangent(scene, t.x);

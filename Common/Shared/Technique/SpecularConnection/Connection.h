@@ -85,7 +85,7 @@ RT_FN LightEnd sampleEnd(Features features, SceneRef scene, RT_IN(RenderParams) 
     }
     RT_IN(Light) light = loadLight(scene, choice.light);
     LightSample s = sampleLight(features, params, light, center, vec3(0.0f), time, u);
-    applyEmissionTexture(features, scene, light, s);
+    applyMaterial(features, scene, light, s);
     LightEnd end;
     end.point = s.point;
     end.error = s.error;
