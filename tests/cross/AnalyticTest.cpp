@@ -207,6 +207,15 @@ TEST_P(AnalyticTest, IrradianceUnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
+TEST_P(AnalyticTest, IrradianceUnderLampsThatArePartlyClear) {
+    for (const ClearLamp& lamp : clearLamps()) {
+        // On the device the kinds of lights are one text: the other reasons run on the CPU.
+        if (isNightly(AnalyticTest::GetParam()) || lamp.what == std::string("quad") ||
+            lamp.what == std::string("triangle of clear vertex colours"))
+            expectIrradiance(lamp.desc, lamp.formFactor, lamp.what);
+    }
+}
+
 TEST_P(AnalyticTest, IrradianceUnderPunctualLights) {
     std::vector<std::vector<ObjectDesc>> scenes = {manyPunctualLights(12), manyPunctualLights(40)};
     for (const ObjectDesc& light : punctualLights()) scenes.push_back({light});

@@ -1,8 +1,10 @@
 #include "tests/image/AnalyticScenes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -175,6 +177,65 @@ dvec3 punctualIrradiance(const std::vector<ObjectDesc>& objects) {
         }
     }
     return sum;
+}
+
+// Black, but for what it emits to both sides.
+MaterialDesc clearLamp(double opacity) {
+    MaterialDesc m;
+    m.kind = MaterialKind::Principled;
+    m.albedo = dvec3(0);
+    m.emission = dvec3(3, 2, 1);
+    m.sides = Sides::Both;
+    m.principled.specular.factor = 0;
+    m.principled.roughness.factor = 1;
+    m.principled.opacity.factor = opacity;
+    return m;
+}
+
+std::vector<ClearLamp> clearLamps() {
+    std::vector<ClearLamp> lamps;
+    const auto add = [&lamps](const char* what, MaterialDesc material, ObjectDesc object,
+                              double formFactor) -> SceneDesc& {
+        SceneDesc desc = floorScene();
+        desc.materials["light"] = std::move(material);
+        desc.objects.push_back(std::move(object));
+        lamps.push_back({what, std::move(desc), formFactor});
+        return lamps.back().desc;
+    };
+    const ObjectDesc quad{QuadDesc{{-1, 1.5, 0}, {2, 0, 0}, {0, 0, 0.9}, "light"}};
+    const std::array<dvec3, 4> outline{dvec3(-1, 1.5, 0), dvec3(1, 1.5, 0), dvec3(1, 1.5, 0.9), dvec3(-1, 1.5, 0.9)};
+    const double whole = polygonIrradiance(outline);
+    add("quad", clearLamp(0.3), quad, 0.3 * whole);
+
+    MaterialDesc cut = clearLamp(0.3);
+    cut.principled.alphaCutoff = 0.25;
+    add("quad above its cutoff", cut, quad, whole);
+    cut.principled.alphaCutoff = 0.35;
+    add("quad below its cutoff", cut, quad, 0);
+
+    // The quad is in two cubes of the checker, an even one at the left and an odd one.
+    MaterialDesc half = clearLamp(1);
+    half.principled.opacity.texture = "half";
+    const std::array<dvec3, 4> right{dvec3(0, 1.5, 0), outline[1], outline[2], dvec3(0, 1.5, 0.9)};
+    const CheckerTexture checker{1, dvec3(0), dvec3(1)};
+    add("quad of textured opacity", half, quad, polygonIrradiance(right)).textures["half"] = checker;
+    half.principled.opacity.factor = 0.6;
+    half.principled.alphaCutoff = 0.5;
+    add("the same with a cutoff", half, quad, polygonIrradiance(right)).textures["half"] = checker;
+
+    MeshData triangle;
+    triangle.positions = {{-1, 0.8, 0.3}, {1.2, 1.1, 0.1}, {0.2, 0.9, -1.4}};
+    triangle.triangles = {{0, 1, 2}};
+    triangle.colors.assign(3, glm::dvec4(1, 1, 1, 0.4));
+    add("triangle of clear vertex colours", clearLamp(0.5), {MeshDesc{triangle, "light"}},
+        0.2 * polygonIrradiance(triangle.positions));
+
+    // Light of the far side comes through the near one.
+    const dvec3 center(0.5, 2, 0);
+    const double distance = glm::length(center);
+    const double disk = pi * (0.64 / (distance * distance)) * center.y / distance;
+    add("sphere", clearLamp(0.5), {SphereDesc{center, 0.8, {}, "light"}}, 0.75 * disk);
+    return lamps;
 }
 
 } // namespace rt::test

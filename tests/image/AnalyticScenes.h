@@ -43,6 +43,14 @@ std::vector<scene::Transform> lampTransforms();
 // Lambert's polygon formula for a receiver in the origin with normal +y, per radiance; all vertices above the horizon.
 double polygonIrradiance(std::span<const glm::dvec3> vertices);
 
+// floorScene() under a lamp of radiance (3, 2, 1) that is partly clear, for each reason and shape there is.
+struct ClearLamp {
+    const char* what;
+    scene::SceneDesc desc;
+    double formFactor; // pi times the irradiance at the origin, per radiance
+};
+std::vector<ClearLamp> clearLamps();
+
 // Punctual lights of every kind that shine on the origin of floorScene(): one light a scene.
 std::vector<scene::ObjectDesc> punctualLights();
 // `count` of all kinds, above, below and beside the floor.

@@ -75,6 +75,40 @@ TEST(Irradiance, UnderATriangle) {
     expectIrradiance(desc, polygonIrradiance(triangle), "triangle");
 }
 
+// Rays go through a part of a lamp, and shadow rays end before it: its samples have to know.
+TEST(Irradiance, UnderLampsThatArePartlyClear) {
+    for (const ClearLamp& lamp : clearLamps()) expectIrradiance(lamp.desc, lamp.formFactor, lamp.what);
+}
+
+TEST(Irradiance, LampsThatNothingMeetsAreNoLights) {
+    for (const ClearLamp& lamp : clearLamps())
+        EXPECT_EQ(compileScene(lamp.desc)->lights.empty(), lamp.formFactor == 0) << lamp.what;
+}
+
+// Shirley's mixture aims at a lamp and at a target, beside which a point light is sampled: each by numbers that chose
+// between the others.
+TEST(Irradiance, UnderALampAPointLightAndATarget) {
+    SceneDesc desc = floorScene();
+    const dvec3 center(0, 2, 0);
+    desc.objects.push_back({SphereDesc{center, 0.8, {}, "light"}});
+    const std::vector<ObjectDesc> lights = {{PointLightDesc{dvec3(1, 2, -0.5), dvec3(0.5)}}};
+    desc.objects.push_back(lights[0]);
+    const dvec3 irradiance = dvec3(3, 2, 1) * (std::numbers::pi * 0.64 / 4) + punctualIrradiance(lights);
+    for (const int targets : {1, 3}) {
+        desc.importanceTargets.assign(static_cast<std::size_t>(targets), {SphereBoundary{dvec3(-2, 1, 0.5), 0.5}});
+        const auto scene = compileScene(desc);
+        for (app::RenderSettings settings : allEstimators(smallSettings(4, 4096))) {
+            settings.maxDepth = 2;
+            for (auto selection :
+                 {app::LightSelection::Contribution, app::LightSelection::Power, app::LightSelection::Uniform}) {
+                settings.lightSelection = selection;
+                EXPECT_TRUE(isMean(render(*scene, settings), irradiance * (kFloorAlbedo / std::numbers::pi)))
+                    << targets << " targets, " << describe(settings);
+            }
+        }
+    }
+}
+
 // The radiance of the floor, by every estimator, which all sample punctual lights.
 void expectPunctual(const std::vector<ObjectDesc>& lights, std::uint32_t spp) {
     const auto scene = compileScene(floorUnder(lights));

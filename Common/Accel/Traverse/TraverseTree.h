@@ -5,7 +5,7 @@
 namespace rt::accel {
 namespace {
 
-const shared::uint kAnySpheres = shared::kFeatureSpheres | shared::kFeatureMovingSpheres;
+constexpr shared::Features kAnySpheres = shared::kFeatureSpheres | shared::kFeatureMovingSpheres;
 
 RT_FN shared::Ray toObject(const PlacedGeometry& placed, const shared::Ray& ray) {
     shared::Ray r = ray;
