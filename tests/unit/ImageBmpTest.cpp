@@ -29,7 +29,7 @@ std::string bmpFile(std::int32_t width, std::int32_t height, std::uint32_t bits,
         "BM" + littleEndian(pixelsAt + static_cast<std::uint32_t>(pixels.size()), 4) + littleEndian(0, 4) +
         littleEndian(pixelsAt, 4) + littleEndian(40, 4) + littleEndian(static_cast<std::uint32_t>(width), 4) +
         littleEndian(static_cast<std::uint32_t>(height), 4) + littleEndian(1, 2) + littleEndian(bits, 2) +
-        littleEndian(compression, 4) + littleEndian(static_cast<std::uint32_t>(pixels.size()), 4) + littleEndian(0, 16);
+        littleEndian(compression, 4) + littleEndian(static_cast<std::uint32_t>(pixels.size()), 4) + std::string(16, '\0');
     for (std::uint32_t i = 0; i < colors; ++i)
         bytes += littleEndian(7 * i & 255, 1) + littleEndian(255 - i, 1) + littleEndian(i, 2);
     return bytes + pixels;
