@@ -25,11 +25,12 @@ std::string bmpFile(std::int32_t width, std::int32_t height, std::uint32_t bits,
                     const std::string& pixels) {
     const std::uint32_t colors = bits <= 8 ? 1u << bits : 0;
     const std::uint32_t pixelsAt = 54 + 4 * colors;
-    std::string bytes =
-        "BM" + littleEndian(pixelsAt + static_cast<std::uint32_t>(pixels.size()), 4) + littleEndian(0, 4) +
-        littleEndian(pixelsAt, 4) + littleEndian(40, 4) + littleEndian(static_cast<std::uint32_t>(width), 4) +
-        littleEndian(static_cast<std::uint32_t>(height), 4) + littleEndian(1, 2) + littleEndian(bits, 2) +
-        littleEndian(compression, 4) + littleEndian(static_cast<std::uint32_t>(pixels.size()), 4) + std::string(16, '\0');
+    std::string bytes = "BM" + littleEndian(pixelsAt + static_cast<std::uint32_t>(pixels.size()), 4) +
+                        littleEndian(0, 4) + littleEndian(pixelsAt, 4) + littleEndian(40, 4) +
+                        littleEndian(static_cast<std::uint32_t>(width), 4) +
+                        littleEndian(static_cast<std::uint32_t>(height), 4) + littleEndian(1, 2) +
+                        littleEndian(bits, 2) + littleEndian(compression, 4) +
+                        littleEndian(static_cast<std::uint32_t>(pixels.size()), 4) + std::string(16, '\0');
     for (std::uint32_t i = 0; i < colors; ++i)
         bytes += littleEndian(7 * i & 255, 1) + littleEndian(255 - i, 1) + littleEndian(i, 2);
     return bytes + pixels;
