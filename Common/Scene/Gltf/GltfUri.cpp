@@ -39,7 +39,7 @@ std::string withoutEscapes(std::string_view uri) {
     return text;
 }
 
-std::string lowerCase(std::string_view text) {
+std::string inLowerCase(std::string_view text) {
     std::string lower(text);
     std::transform(lower.begin(), lower.end(), lower.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -74,14 +74,14 @@ bool hasScheme(std::string_view uri) {
 } // namespace
 
 bool isDataUri(std::string_view uri) {
-    return lowerCase(uri.substr(0, 5)) == "data:";
+    return inLowerCase(uri.substr(0, 5)) == "data:";
 }
 
 std::vector<std::byte> bytesOfDataUri(const JsonNode& uri) {
     const std::string text = uri.string();
     const std::size_t comma = text.find(',');
     if (comma == text.npos) uri.fail("there is no comma between the media type and the data");
-    const std::string type = lowerCase(std::string_view(text).substr(0, comma));
+    const std::string type = inLowerCase(std::string_view(text).substr(0, comma));
     const std::string_view data = std::string_view(text).substr(comma + 1);
     constexpr std::string_view kBase64 = ";base64";
     const bool isBase64 =
