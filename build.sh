@@ -5,8 +5,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 
 # Debian 12, Debian 13 and Ubuntu 24.04 have all of these.
 build_packages=(g++ cmake ninja-build pkg-config libglm-dev libspdlog-dev nlohmann-json3-dev libcli11-dev
-                libtinyobjloader-dev libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev
-                libwebp-dev libtbb-dev libvulkan-dev glslang-tools spirv-tools libglfw3-dev libimgui-dev fonts-dejavu-core)
+                libtinygltf-dev libstb-dev libjpeg-dev libpng-dev libopenexr-dev libtiff-dev libwebp-dev libtbb-dev
+                libvulkan-dev glslang-tools spirv-tools libglfw3-dev libimgui-dev fonts-dejavu-core)
 test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validationlayers xvfb xdotool libx11-dev
                assimp-testmodels)
 bench_packages=(libbenchmark-dev libembree-dev)

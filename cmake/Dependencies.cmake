@@ -51,8 +51,6 @@ rt_require(spdlog libspdlog-dev spdlog PACKAGE spdlog TARGETS spdlog::spdlog PKG
 rt_require(json nlohmann-json3-dev nlohmann-json PACKAGE nlohmann_json TARGETS nlohmann_json::nlohmann_json
            PKGCONFIG nlohmann_json HEADER nlohmann/json.hpp)
 rt_require(cli11 libcli11-dev cli11 PACKAGE CLI11 TARGETS CLI11::CLI11 PKGCONFIG CLI11 HEADER CLI/CLI.hpp)
-rt_require(tinyobjloader libtinyobjloader-dev tinyobjloader PACKAGE tinyobjloader TARGETS tinyobjloader::tinyobjloader
-           PKGCONFIG tinyobjloader)
 # Headers only: Common/Image compiles the parts that it uses, as Debian's library would bring all of them and vcpkg has none.
 rt_require(stb libstb-dev stb HEADER stb_image.h)
 # The header only, as with stb: Common/Scene/Gltf/TinyGltf.cpp compiles it.

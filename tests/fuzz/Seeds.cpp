@@ -54,6 +54,11 @@ void writeMeshes(const Seeds& seeds) {
         "newmtl b\nKs 1 1 1\nPr .1\nillum 3\nnewmtl c\nillum 4\nNi 1.5\nTf 1 1 1\n"
         "newmtl d\nKe 4 4 4\n";
     seeds.write("obj", "materials", mesh + '\0' + materials);
+    seeds.write("obj", "odd",
+                "f 1/1 2 3//1 # first\nv 0 0 0 255 0 0\nv 1 0 0 0 128 0\nv 1 nan 0\nv 1 1 \\\n0 1 2 3\nvn 0 0 1\nvt 0\n"
+                "s 1\nf 1 2 4\nf 1 2\nF 4//1 2//1 1//1\ns off\nUSEMTL \"A\" # b\nf 4 2 1\nmtllib F.MTL # c\n" +
+                    std::string(1, '\0') +
+                    "newmtl A #1\nKd 1 x 1\nillum 0\nnewmtl a\nillum 5\nKd 1 1 1\nKs .2 .2 .2\n");
     seeds.write("obj", "plain", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
 }
 

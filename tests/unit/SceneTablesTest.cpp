@@ -124,6 +124,23 @@ double areaOf(const std::vector<glm::dvec3>& corners, const std::vector<glm::uve
 TEST(Polygon, ConcaveOnesAreCoveredOnce) {
     const std::vector<glm::dvec3> arrow = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
     EXPECT_NEAR(areaOf(arrow, cutPolygon(arrow), true), 16 - 6, 1e-12);
+    for (int turns = 0; turns < 3; ++turns) { // whatever it faces
+        std::vector<glm::dvec3> turned;
+        for (const glm::dvec3& p : arrow) turned.emplace_back(p[turns], p[(turns + 1) % 3], p[(turns + 2) % 3]);
+        for (int side = 0; side < 2; ++side, std::reverse(turned.begin(), turned.end())) {
+            glm::dvec3 sum(0), whole(0);
+            double sizes = 0;
+            for (const glm::uvec3& t : cutPolygon(turned)) {
+                const glm::dvec3 area = glm::cross(turned[t.y] - turned[t.x], turned[t.z] - turned[t.x]);
+                sum += 0.5 * area;
+                sizes += 0.5 * glm::length(area);
+            }
+            for (std::size_t i = 0; i < turned.size(); ++i)
+                whole += 0.5 * glm::cross(turned[i], turned[(i + 1) % turned.size()]);
+            EXPECT_LT(glm::length(sum - whole), 1e-12);
+            EXPECT_NEAR(sizes, 10, 1e-12);
+        }
+    }
     // A comb with 200 teeth.
     std::vector<glm::dvec3> comb;
     for (int i = 0; i < 200; ++i) comb.insert(comb.end(), {{i, 0, 0}, {i + 0.5, -3, 0}});
@@ -131,6 +148,46 @@ TEST(Polygon, ConcaveOnesAreCoveredOnce) {
     const auto triangles = cutPolygon(comb);
     EXPECT_EQ(triangles.size(), comb.size() - 2);
     EXPECT_NEAR(areaOf(comb, triangles, true), 200 * 1 + 200 * 1.5, 1e-9);
+}
+
+// Where cutting takes time in proportion to the square of the corners, this takes as long as a nightly run.
+TEST(Polygon, HugeOnesAreCoveredOnce) {
+    constexpr int kCorners = 200'000;
+    constexpr double kTurn = 2 * 3.14159265358979323846 / kCorners;
+    const auto around = [](const auto& radius) {
+        std::vector<glm::dvec3> corners;
+        for (int i = 0; i < kCorners; ++i) {
+            const double r = radius(i);
+            corners.emplace_back(r * std::cos(i * kTurn), r * std::sin(i * kTurn), 1);
+        }
+        return corners;
+    };
+    const double sector = 0.5 * std::sin(kTurn);
+    const auto disc = around([](int) { return 1.0; });
+    EXPECT_NEAR(areaOf(disc, cutPolygon(disc), true), kCorners * sector, 1e-9);
+    const auto star = around([](int i) { return i % 2 == 0 ? 1.0 : 0.5; });
+    EXPECT_NEAR(areaOf(star, cutPolygon(star), true), kCorners * 0.5 * sector, 1e-9);
+    // A coast: radii at random.
+    std::mt19937 random(1);
+    std::vector<double> radii;
+    for (int i = 0; i < kCorners; ++i) radii.push_back(std::uniform_real_distribution<double>(0.5, 1)(random));
+    const auto coast = around([&](int i) { return radii[static_cast<std::size_t>(i)]; });
+    double area = 0;
+    for (std::size_t i = 0; i < radii.size(); ++i) area += radii[i] * radii[(i + 1) % radii.size()] * sector;
+    EXPECT_NEAR(areaOf(coast, cutPolygon(coast), true), area, 1e-9);
+    // A double spiral, a strip wound up: both ends are ears, and few others.
+    std::vector<glm::dvec3> spiral;
+    const auto at = [](int i, double inwards) {
+        const double angle = 0.01 * i, r = 1 + 0.1 * angle - inwards;
+        return glm::dvec3(r * std::cos(angle), r * std::sin(angle), 2);
+    };
+    constexpr int kSteps = 20'000;
+    for (int i = 0; i < kSteps; ++i) spiral.push_back(at(i, 0));
+    for (int i = kSteps; i-- > 0;) spiral.push_back(at(i, 0.1));
+    double strip = 0;
+    for (std::size_t i = 0; i < spiral.size(); ++i)
+        strip += 0.5 * glm::cross(spiral[i], spiral[(i + 1) % spiral.size()]).z;
+    EXPECT_NEAR(areaOf(spiral, cutPolygon(spiral), true), strip, 1e-9 * strip);
 }
 
 TEST(Polygon, OddOnesAreCutToo) {

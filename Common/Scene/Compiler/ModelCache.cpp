@@ -41,7 +41,7 @@ std::vector<ModelCache::Part> ModelCache::parts(const MeshDesc& object) {
             material = &materials_.find(object.material);
         else if (!part.material.empty())
             material = &model.materials.at(part.material);
-        parts.push_back({&part.mesh, material});
+        parts.push_back({&part.mesh, material, part.isUnlit});
     }
     return parts;
 }

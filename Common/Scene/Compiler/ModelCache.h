@@ -19,6 +19,7 @@ class ModelCache {
     struct Part {
         const MeshData* mesh;
         const MaterialDesc* material;
+        bool isUnlit = false; // no light, whatever it emits
     };
     // Surfaces of an object with their own materials; everything stays valid as long as the cache. Throws InputError.
     std::vector<Part> parts(const MeshDesc& object);

@@ -77,7 +77,7 @@ class Compiler {
     }
     void emitOne(const MeshDesc& object, const Placement& at) {
         for (const ModelCache::Part& part : models_.parts(object))
-            sink_.add(*part.mesh, *part.material, object.light, at);
+            sink_.add(*part.mesh, *part.material, object.light && !part.isUnlit, at);
     }
     void emitOne(const GroupDesc& group, Placement at) {
         at.local = at.local * toAffine(group.transform);

@@ -3,59 +3,41 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <locale>
 #include <map>
-#include <sstream>
 #include <string_view>
 
 #include "Common/Core/Error.h"
+#include "Common/Core/Interruption.h"
+#include "Common/Core/Printable.h"
 #include "Common/Scene/Obj/ObjText.h"
 
 namespace rt::scene {
 
 namespace {
 
-std::string lowerCase(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
-}
-
-// The finite number that the whole text is, with a decimal point in any locale; what is too large is the largest there
-// is.
-std::optional<double> numberOf(std::string_view text) {
-    if (text.empty() || text.find_first_not_of("+-.0123456789eE") != text.npos) return std::nullopt;
-    std::istringstream stream{std::string(text)};
-    stream.imbue(std::locale::classic());
-    double value = 0;
-    stream >> value;
-    if (stream.fail()) return std::abs(value) > 1 ? std::optional(value) : std::nullopt;
-    return stream.peek() == std::istringstream::traits_type::eof() ? std::optional(value) : std::nullopt;
-}
-
 // One statement: its keyword and what follows.
 class Statement {
   public:
-    Statement(std::string_view line, std::string place) : rest_(line), place_(std::move(place)) {
-        place_ += ": " + std::string(peek());
-        keyword_ = lowerCase(next());
-    }
-    const std::string& keyword() const { return keyword_; }
+    explicit Statement(std::string_view line) : rest_(line), keyword_(peek()) { next(); }
+    const std::string& keyword() const { return keyword_; } // as it is written
 
-    std::string_view peek() const { return rest_.substr(0, rest_.find_first_of(" \t\r")); }
+    std::string_view peek() const {
+        std::string_view text = rest_;
+        return takeWord(text);
+    }
     std::string_view next() {
-        const std::string_view word = peek();
-        rest_ = trimmed(rest_.substr(word.size()));
+        const std::string_view word = takeWord(rest_);
+        rest_ = trimmed(rest_);
         return word;
     }
     std::string_view rest() const { return rest_; }
 
+    // Throws InputError, as do those that follow, without its place.
     double number() {
         const std::string_view word = next();
         const std::optional<double> value = numberOf(word);
-        if (word.empty()) throw InputError(place_ + ": a number is missing");
-        if (!value) throw InputError(place_ + ": \"" + std::string(word) + "\" is not a finite number");
+        if (word.empty()) throw InputError(keyword_ + ": a number is missing");
+        if (!value) throw InputError(keyword_ + ": \"" + printable(word, kShown) + "\" is not a finite number");
         return *value;
     }
     // Up to `most` numbers, as long as words are some.
@@ -67,20 +49,22 @@ class Statement {
     // Three components, or one that counts for all.
     glm::dvec3 color() {
         const double first = number();
-        if (rest_.empty() || rest_.front() == '#') return glm::dvec3(first);
+        if (peek().empty()) return glm::dvec3(first);
         const double second = number();
         return {first, second, number()};
     }
 
   private:
+    static constexpr std::size_t kShown = 60; // bytes of what is quoted
+
     std::string_view rest_;
-    std::string place_, keyword_;
+    std::string keyword_;
 };
 
 // Options, each with what follows it, and the file's name, which may hold spaces.
 MtlMap readMap(Statement& statement) {
     MtlMap map;
-    while (!statement.rest().empty() && statement.peek().front() == '-') {
+    while (statement.peek().substr(0, 1) == "-") {
         const std::string option = lowerCase(statement.peek());
         const auto pair = [&](double usual) {
             statement.next();
@@ -111,7 +95,7 @@ MtlMap readMap(Statement& statement) {
             break; // a name that begins like an option
         }
     }
-    map.file = statement.rest();
+    if (!withoutComment(statement.rest()).empty()) map.file = statement.rest();
     return map;
 }
 
@@ -152,8 +136,14 @@ void readTransparency(Statement& statement, MtlMaterial& material) {
     if (!material.opacity) material.opacity = 1 - transparency;
 }
 
+constexpr int kLastModel = 10; // of illumination
+
 void readIllumination(Statement& statement, MtlMaterial& material) {
-    material.illumination = static_cast<int>(std::clamp(statement.number(), -1.0, 100.0));
+    const double model = statement.number();
+    if (!(model >= 0 && model <= kLastModel && model == std::floor(model)))
+        throw InputError(statement.keyword() + ": the models of illumination are 0 to " + std::to_string(kLastModel));
+    material.illumination = static_cast<int>(model);
+    if (model == kLastModel) material.leftOut.push_back("that only shadows are seen (illum 10)");
 }
 
 void readAnisotropy(Statement& statement, MtlMaterial& material) {
@@ -209,25 +199,30 @@ const std::map<std::string, Action>& actions() {
 
 } // namespace
 
-std::vector<MtlMaterial> readMtl(const std::filesystem::path& path) {
+std::vector<MtlMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notices) {
     const std::vector<std::byte> bytes = readText(path);
-    std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::vector<MtlMaterial> materials;
-    for (std::size_t line = 1; !text.empty(); ++line) {
-        const std::size_t end = std::min(text.find_first_of("\r\n"), text.size());
-        const std::string_view content = trimmed(text.substr(0, end));
-        const bool isPair = text.substr(end, 2) == "\r\n";
-        text.remove_prefix(std::min(end + (isPair ? 2 : 1), text.size()));
-        if (content.empty() || content.front() == '#') continue;
-        Statement statement(content, path.string() + ":" + std::to_string(line));
-        if (statement.keyword() == "newmtl") {
+    std::string firstError;
+    std::size_t errors = 0;
+    for (TextLines lines({reinterpret_cast<const char*>(bytes.data()), bytes.size()}); lines.next();) {
+        interruptionPoint();
+        Statement statement(lines.line());
+        const std::string keyword = lowerCase(statement.keyword());
+        if (keyword == "newmtl") {
             materials.emplace_back();
-            materials.back().name = statement.rest();
+            materials.back().name = nameIn(statement.rest());
             continue;
         }
-        const auto action = actions().find(statement.keyword());
-        if (action != actions().end() && !materials.empty()) action->second(statement, materials.back());
+        const auto action = actions().find(keyword);
+        if (action == actions().end() || materials.empty()) continue;
+        try {
+            action->second(statement, materials.back());
+        } catch (const InputError& error) {
+            if (errors++ == 0) firstError = path.string() + ":" + std::to_string(lines.number()) + ": " + error.what();
+        }
     }
+    if (errors > 0)
+        notices.push_back(firstError + "; " + counted(errors, "statement is", "statements are") + " left out");
     std::erase_if(materials, [](const MtlMaterial& material) { return material.name.empty(); });
     return materials;
 }

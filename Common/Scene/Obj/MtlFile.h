@@ -12,7 +12,7 @@ namespace rt::scene {
 
 // An image as a material refers to it.
 struct MtlMap {
-    std::string file;                     // empty: none
+    std::string file;                     // as it is written, with any comment; empty: none
     glm::dvec2 offset{0, 0}, scale{1, 1}; // the place in the image is uv scale + offset
     bool isClamped = false;               // else repeated
     double strength = 1;                  // -bm, of bumps
@@ -22,7 +22,7 @@ struct MtlMap {
 
 // What is not said is unset.
 struct MtlMaterial {
-    std::string name;                                               // without spaces around it
+    std::string name;                                               // as nameIn() has it
     std::optional<glm::dvec3> diffuse, specular, emission, filter;  // Kd, Ks, Ke, Tf
     std::optional<double> exponent, ior, opacity;                   // Ns, Ni, d or 1 - Tr
     std::optional<double> roughness, metallic, sheen;               // Pr, Pm, Ps: the PBR extension
@@ -34,7 +34,8 @@ struct MtlMaterial {
 };
 
 // Reads a file. Keywords may be in any case; those that are unknown count for nothing, as does what stands before the
-// first material and materials without a name. Throws InputError with file and line.
-std::vector<MtlMaterial> readMtl(const std::filesystem::path& path);
+// first material and materials without a name. A statement that cannot be understood is left out; the first of them is
+// a notice, with file and line. Throws InputError where the file cannot be read.
+std::vector<MtlMaterial> readMtl(const std::filesystem::path& path, std::vector<std::string>& notices);
 
 } // namespace rt::scene

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <glm/common.hpp>
 
+#include "Common/Scene/Compiler/MaterialTable.h"
 #include "Common/Scene/Json/JsonNode.h"
+#include "Common/Scene/Obj/MtlModels.h"
 #include "Common/Scene/Obj/ObjText.h"
 
 namespace rt::scene {
@@ -24,55 +28,18 @@ double fraction(double value) {
     return std::clamp(value, 0.0, 1.0);
 }
 
-double maxComponent(const glm::dvec3& v) {
-    return std::max({v.x, v.y, v.z});
-}
-
-glm::dvec3 colorOf(const std::optional<glm::dvec3>& stated, const glm::dvec3& usual) {
-    return glm::clamp(stated.value_or(usual), 0.0, 1.0);
-}
-
-// ---- what a material says ------------------------------------------------------------------------------------------
-
-// The reflection models of the format's specification that are not diffuse.
-bool isGlass(const MtlMaterial& m) {
-    const int model = m.illumination.value_or(0);
-    return model == 4 || model == 6 || model == 7 || model == 9;
-}
-bool isMirror(const MtlMaterial& m) {
-    const int model = m.illumination.value_or(0);
-    return model == 3 || model == 5 || model == 8;
-}
-
-bool saysMetallic(const MtlMaterial& m) {
-    return m.metallic || m.metallicMap;
-}
-bool isLayered(const MtlMaterial& m) {
-    return m.sheen.value_or(0) > 0 || m.sheenMap || m.clearcoat.value_or(0) > 0;
-}
-bool isBumpy(const MtlMaterial& m) {
-    return m.normalMap || m.bumpMap;
-}
-bool isSeeThrough(const MtlMaterial& m) {
-    return m.opacity.value_or(1) < 1 || m.opacityMap;
-}
-bool usesPbr(const MtlMaterial& m) {
-    return saysMetallic(m) || m.roughness || m.roughnessMap || isLayered(m);
-}
-bool isShiny(const MtlMaterial& m) {
-    constexpr int kDiffuse = 1; // diffuse and ambient alone
-    return m.specular && maxComponent(*m.specular) > 0 && m.illumination.value_or(0) != kDiffuse;
-}
-
 // ---- the reflection of dielectrics ---------------------------------------------------------------------------------
 
 double iorOf(const MtlMaterial& m) {
     return m.ior.value_or(1) > 1 ? std::min(*m.ior, kLargestIor) : kUsualIor;
 }
 
-// Index with `times` the reflectance at normal incidence of another.
-double scaledIor(double ior, double times) {
-    const double amplitude = std::sqrt(times) * (ior - 1) / (ior + 1);
+double reflectanceOf(double ior) { // at normal incidence
+    const double amplitude = (ior - 1) / (ior + 1);
+    return amplitude * amplitude;
+}
+double iorOfReflectance(double reflectance) {
+    const double amplitude = std::sqrt(reflectance);
     return amplitude < 1 ? std::min((1 + amplitude) / (1 - amplitude), kLargestIor) : kLargestIor;
 }
 
@@ -91,10 +58,12 @@ MaterialDesc withVertexColors(MaterialDesc material) {
     return material;
 }
 
-std::string MtlMaterials::addWhite() {
-    const std::string key = prefix_ + names_.unique("vertex colours", "material", keys_.size());
-    model_.materials[key] = withVertexColors({});
-    return key;
+const std::string& MtlMaterials::white() {
+    if (white_.empty()) {
+        white_ = prefix_ + names_.unique("vertex colours", "material", keys_.size());
+        model_.materials[white_] = withVertexColors({});
+    }
+    return white_;
 }
 
 // ---- textures ------------------------------------------------------------------------------------------------------
@@ -102,11 +71,11 @@ std::string MtlMaterials::addWhite() {
 // Name of a texture of the model; empty where there is no image.
 std::string MtlMaterials::texture(const MtlMap& map, const char* keyword, ColorSpace space, const glm::dvec3& tint) {
     if (!map) return {};
-    fs::path path = findNamed(map.file, modelFolder_);
-    if (path.empty()) path = findMoved(map.file, folder_);
-    if (path.empty()) path = findMoved(map.file, modelFolder_);
+    fs::path path = files_.find(map.file, modelFolder_);
+    if (path.empty()) path = files_.findMoved(map.file, folder_);
+    if (path.empty()) path = files_.findMoved(map.file, modelFolder_);
     if (path.empty()) {
-        missing_.insert(map.file);
+        missing_.emplace(withoutComment(map.file));
         return {};
     }
     ImageTexture texture;
@@ -141,37 +110,91 @@ NumberOrTexture MtlMaterials::number(std::optional<double> factor, double usual,
 // ---- materials -----------------------------------------------------------------------------------------------------
 
 void MtlMaterials::addFile(const fs::path& file) {
-    const std::vector<MtlMaterial> materials = readMtl(file);
+    const std::vector<MtlMaterial> materials = readMtl(file, model_.notices);
     if (materials.empty()) model_.notices.push_back(file.string() + ": there is no material in it");
     folder_ = file.parent_path();
     for (const MtlMaterial& source : materials) {
         const auto [entry, isNew] = keys_.try_emplace(source.name);
         if (isNew) entry->second = prefix_ + names_.unique(source.name, "material", keys_.size());
         key_ = entry->second;
+        if (const std::string_view bare = withoutComment(source.name); !bare.empty()) bareKeys_.emplace(bare, key_);
+        lowerKeys_.emplace(lowerCase(source.name), key_);
         model_.materials[key_] = surface(source);
-        const std::set<std::string> leftOut(source.leftOut.begin(), source.leftOut.end());
-        for (const std::string& what : leftOut) ++leftOut_[what];
+        sources_[key_] = source;
     }
 }
 
-const std::string* MtlMaterials::find(std::string_view name) const {
-    const auto found = keys_.find(name);
-    return found == keys_.end() ? nullptr : &found->second;
+const std::string* MtlMaterials::find(const std::string& name) {
+    const auto use = [this](const std::string& key) { return &*used_.insert(key).first; };
+    if (const auto found = keys_.find(name); found != keys_.end()) return use(found->second);
+    const std::string bare(withoutComment(name));
+    const auto& others = bare == name ? bareKeys_ : keys_;
+    if (const auto found = others.find(bare); found != others.end()) return use(found->second);
+    for (const std::string& meant : {name, bare})
+        if (const auto found = lowerKeys_.find(lowerCase(meant)); found != lowerKeys_.end()) {
+            inOtherCase_.insert(meant);
+            return use(found->second);
+        }
+    return nullptr;
+}
+
+const std::string& MtlMaterials::withoutMaps(const std::string& key) {
+    const auto [entry, isNew] = withoutMaps_.try_emplace(key, key);
+    const auto source = sources_.find(key);
+    if (!isNew || source == sources_.end()) return entry->second;
+    bool hasTextures = false;
+    forEachTexture(model_.materials.at(key), [&](const std::string&) { hasTextures = true; });
+    if (!hasTextures) return entry->second;
+    key_ = prefix_ + names_.unique(key.substr(prefix_.size()) + " without images", "material", keys_.size());
+    entry->second = key_;
+    model_.materials[key_] = surface(bareOf(source->second));
+    return entry->second;
 }
 
 void MtlMaterials::appendNotices() {
     if (!missing_.empty())
         model_.notices.push_back("images that do not exist are left out of materials: " + listed(missing_));
-    for (const auto& [what, count] : leftOut_)
-        model_.notices.push_back(what + " of " + std::to_string(count) +
-                                 (count == 1 ? " material is" : " materials are") + " left out");
+    std::map<std::string, std::size_t> leftOut; // materials, by what
+    std::set<std::string> invisible;
+    for (const std::string& key : used_) {
+        const MtlMaterial& source = sources_.at(key);
+        const MaterialDesc& made = model_.materials.at(key);
+        std::set<std::string> lost(source.leftOut.begin(), source.leftOut.end());
+        if (isFiltered(source) && !isGlass(source)) lost.insert("the colour of what passes through (Tf)");
+        for (const std::string& what : lost) ++leftOut[what];
+        if (made.kind == MaterialKind::Principled && made.principled.opacity.factor == 0) invisible.insert(source.name);
+    }
+    for (const auto& [what, count] : leftOut)
+        model_.notices.push_back(what + " of " + counted(count, "material is", "materials are") + " left out");
+    if (!invisible.empty())
+        model_.notices.push_back("materials that nothing is seen of, as d is 0 or Tr 1: " + listed(invisible));
+    if (!inOtherCase_.empty())
+        model_.notices.push_back("materials that are named in other case: " + listed(inOtherCase_));
 }
 
 MaterialDesc MtlMaterials::surface(const MtlMaterial& source) {
+    unlit_.erase(key_);
+    if (saysUnlit(source)) return unlit(source);
     MaterialDesc material = isGlass(source) ? glass(source) : isMirror(source) ? mirror(source) : opaque(source);
     material.emission = glm::clamp(source.emission.value_or(glm::dvec3(0)), 0.0, kLargest);
     material.emissionTexture = texture(source.emissionMap, "map_Ke", ColorSpace::Srgb, glm::dvec3(1));
     if (!material.emissionTexture.empty() && material.emission == glm::dvec3(0)) material.emission = glm::dvec3(1);
+    return material;
+}
+
+// As bright as Kd whatever light there is: black, and emitting it.
+MaterialDesc MtlMaterials::unlit(const MtlMaterial& source) {
+    unlit_.insert(key_);
+    MaterialDesc material;
+    material.kind = MaterialKind::Principled;
+    material.sides = Sides::Both;
+    material.albedo = glm::dvec3(0);
+    material.principled.specular.factor = 0;
+    material.emissionTexture = texture(source.diffuseMap, "map_Kd", ColorSpace::Srgb, glm::dvec3(1));
+    const bool hasMap = !material.emissionTexture.empty();
+    material.emission = colorOf(source.diffuse, hasMap ? glm::dvec3(1) : std::get<glm::dvec3>(plainMaterial().albedo));
+    if (hasMap && material.emission == glm::dvec3(0)) material.emission = glm::dvec3(1);
+    addOpacity(source, material);
     return material;
 }
 
@@ -195,9 +218,9 @@ MaterialDesc MtlMaterials::glass(const MtlMaterial& source) {
 }
 
 MaterialDesc MtlMaterials::mirror(const MtlMaterial& source) {
-    if (saysMetallic(source)) return opaque(source);
+    const glm::dvec3 tint = specularOf(source);
+    if (hasDiffuse(source) && maxComponent(tint) <= reflectanceOf(kLargestIor)) return coated(source);
     MaterialDesc material;
-    const glm::dvec3 tint = colorOf(source.specular, glm::dvec3(0));
     const bool isPlain =
         !(source.specularMap || source.roughnessMap || isLayered(source) || isBumpy(source) || isSeeThrough(source));
     if (isPlain) {
@@ -216,12 +239,33 @@ MaterialDesc MtlMaterials::mirror(const MtlMaterial& source) {
     return material;
 }
 
-MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
+// What Kd says under a mirror that reflects Ks at normal incidence.
+MaterialDesc MtlMaterials::coated(const MtlMaterial& source) {
     MaterialDesc material;
+    material.kind = MaterialKind::Principled;
+    material.albedo = diffuse(source);
+    PrincipledDesc& p = material.principled;
+    const glm::dvec3 specular = specularOf(source);
+    p.ior = iorOfReflectance(maxComponent(specular));
+    p.specularColor = color(specular / maxComponent(specular), source.specularMap, "map_Ks", ColorSpace::Srgb);
+    p.roughness = number(source.roughness, 0, source.roughnessMap, "map_Pr");
+    addLayers(source, material);
+    addNormals(source, material);
+    addOpacity(source, material);
+    return material;
+}
+
+// Kd, or what is usual where a material says none.
+ColorOrTexture MtlMaterials::diffuse(const MtlMaterial& source) {
     const bool saysColor = source.specular || source.emission || source.emissionMap;
     const glm::dvec3 usual = saysColor ? glm::dvec3(0) : std::get<glm::dvec3>(plainMaterial().albedo);
-    material.albedo = color(colorOf(source.diffuse, source.diffuseMap ? glm::dvec3(1) : usual), source.diffuseMap,
-                            "map_Kd", ColorSpace::Srgb);
+    return color(colorOf(source.diffuse, source.diffuseMap ? glm::dvec3(1) : usual), source.diffuseMap, "map_Kd",
+                 ColorSpace::Srgb);
+}
+
+MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
+    MaterialDesc material;
+    material.albedo = diffuse(source);
     const bool isShinyHere = isShiny(source);
     if (!(isShinyHere || usesPbr(source) || isBumpy(source) || isSeeThrough(source))) return material;
 
@@ -233,12 +277,12 @@ MaterialDesc MtlMaterials::opaque(const MtlMaterial& source) {
     if (source.exponent) roughness = 1 - std::sqrt(fraction(*source.exponent / kLargestExponent));
     p.roughness = number(source.roughness, roughness, source.roughnessMap, "map_Pr");
     if (isShinyHere) {
-        const glm::dvec3 specular = colorOf(source.specular, glm::dvec3(0));
+        const glm::dvec3 specular = specularOf(source);
         const double twice = 2 * maxComponent(specular); // of 0.5, which the index of refraction stands for
         p.specular.factor = std::min(twice, 1.0);
-        if (twice > 1) p.ior = scaledIor(p.ior, twice);
+        if (twice > 1) p.ior = iorOfReflectance(twice * reflectanceOf(p.ior));
         p.specularColor = color(specular / maxComponent(specular), source.specularMap, "map_Ks", ColorSpace::Srgb);
-    } else if (source.specular || !usesPbr(source)) {
+    } else if (source.specular || !usesPbr(source) || hasNoHighlight(source)) {
         p.specular.factor = 0;
     }
     addLayers(source, material);
@@ -270,7 +314,7 @@ void MtlMaterials::addOpacity(const MtlMaterial& source, MaterialDesc& material)
     opacity = number(source.opacity, 1, source.opacityMap, "map_d");
     if (opacity.texture.empty()) return;
     // The map of colours again: then its opacity is meant. Other maps of opacity are grey.
-    const bool isColors = source.opacityMap.file == source.diffuseMap.file;
+    const bool isColors = withoutComment(source.opacityMap.file) == withoutComment(source.diffuseMap.file);
     switch (source.opacityMap.channel) {
         case 'r':
         case 'l':

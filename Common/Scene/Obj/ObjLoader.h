@@ -9,10 +9,11 @@
 
 namespace rt::scene {
 
-// The triangles of one material.
+// Triangles of one material.
 struct ObjPart {
     std::string material; // key of ObjModel::materials; empty: the file names none
     MeshData mesh;
+    bool isUnlit = false; // it is as bright as its colour, and no light
 };
 
 struct ObjModel {
@@ -25,11 +26,12 @@ struct ObjModel {
 // What a surface without a material looks like.
 MaterialDesc plainMaterial();
 
-// Reads a file: polygons are cut into triangles; normals, texture coordinates and colours of vertices kept where every
-// corner of a part has them, tangents computed where a map of normals needs them. What becomes of materials
-// MtlMaterials.h says; names of materials and textures start with `prefix`, and are printable. A material file or an
-// image that does not exist, or a material that is in no file, is a notice. Without `withMaterials` the materials and
-// colours of the file are ignored and there is one part. Throws InputError with file and line.
+// Reads a file: polygons are cut into triangles, which are parted by material and by whether they have texture
+// coordinates, normals and colours of vertices at every corner. Smoothing groups give normals where the file has none,
+// and maps of normals tangents. What becomes of materials MtlMaterials.h says; names of materials and textures start
+// with `prefix`, and are printable. What is missing, broken or left out is a notice. Without `withMaterials` the
+// materials and colours of the file are ignored. Throws InputError where no face is left, for the first that is not,
+// with file and line.
 ObjModel loadObj(const std::filesystem::path& path, bool withMaterials, const std::string& prefix = {});
 
 // A scene of the file alone, under a gradient sky, seen whole from the front, slightly from the right and above.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
-#include <system_error>
+#include <locale>
+#include <sstream>
 
 #include "Common/Core/Printable.h"
 #include "Common/Core/ReadFile.h"
@@ -59,33 +61,53 @@ std::vector<std::byte> fromUtf16(const std::vector<std::byte>& bytes, bool isBig
     return out;
 }
 
-fs::path portable(std::string_view name) {
-    std::string path(name);
-    std::replace(path.begin(), path.end(), '\\', '/');
-    return path;
+bool isSpace(char c) {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
 }
 
-// Statements that the parser passes over.
-struct LeftOut {
-    const char* keyword;
-    const char* name;
-    std::size_t count = 0;
-};
-using LeftOuts = std::array<LeftOut, 5>;
-LeftOuts countLeftOut(std::string_view text) {
-    LeftOuts kinds{{{"l", "lines"},
-                    {"p", "points"},
-                    {"curv", "curves"},
-                    {"surf", "free-form surfaces"},
-                    {"f", "faces without corners"}}};
-    while (!text.empty()) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = trimmed(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-        const std::string_view keyword = line.substr(0, line.find_first_of(" \t"));
-        for (LeftOut& kind : kinds) kind.count += keyword == kind.keyword && (keyword != "f" || keyword == line);
+// A decimal number of usual size by one rounding of its digits and one of their scale; unset: it is not so simple.
+std::optional<double> simpleNumber(std::string_view text) {
+    constexpr std::uint64_t kFull = 1'000'000'000'000'000'000u; // digits from here on do not count
+    constexpr std::array<double, 23> kPowers = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                                1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    std::size_t i = 0;
+    const auto sign = [&] {
+        const bool isNegative = i < text.size() && text[i] == '-';
+        i += isNegative || (i < text.size() && text[i] == '+');
+        return isNegative;
+    };
+    const bool isNegative = sign();
+    std::uint64_t digits = 0;
+    std::int64_t exponent = 0;
+    bool hasDigits = false;
+    const auto take = [&](int scaleOfTaken, int scaleOfOmitted) {
+        for (; i < text.size() && isDigit(text[i]); ++i) {
+            hasDigits = true;
+            const bool isTaken = digits < kFull;
+            if (isTaken) digits = 10 * digits + static_cast<std::uint64_t>(text[i] - '0');
+            exponent += isTaken ? scaleOfTaken : scaleOfOmitted;
+        }
+    };
+    take(0, 1);
+    if (i < text.size() && text[i] == '.') {
+        ++i;
+        take(-1, 0);
     }
-    return kinds;
+    if (hasDigits && i < text.size() && (text[i] == 'e' || text[i] == 'E')) {
+        ++i;
+        const bool isDown = sign();
+        if (text.size() - i == 0 || text.size() - i > 3) return std::nullopt;
+        std::int64_t power = 0;
+        for (; i < text.size() && isDigit(text[i]); ++i) power = 10 * power + (text[i] - '0');
+        exponent += isDown ? -power : power;
+    }
+    if (!hasDigits || i < text.size() || exponent < -22 || exponent > 22) return std::nullopt;
+    const double scale = kPowers[static_cast<std::size_t>(exponent < 0 ? -exponent : exponent)];
+    const double value = exponent < 0 ? static_cast<double>(digits) / scale : static_cast<double>(digits) * scale;
+    return isNegative ? -value : value;
 }
 
 } // namespace
@@ -104,35 +126,97 @@ std::vector<std::byte> readText(const fs::path& path) {
 }
 
 std::string_view trimmed(std::string_view text) {
-    constexpr std::string_view kSpace = " \t\r";
-    text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
-    return text.substr(0, text.find_last_not_of(kSpace) + 1);
+    while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
+    return text;
 }
 
-fs::path findNamed(std::string_view name, const fs::path& folder) {
-    const fs::path path = folder / portable(name);
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored) ? path : fs::path();
+std::string lowerCase(std::string_view text) {
+    std::string lower(text);
+    for (char& c : lower)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return lower;
 }
 
-fs::path findMoved(std::string_view name, const fs::path& folder) {
-    const fs::path path = findNamed(name, folder);
-    return path.empty() ? findNamed(portable(name).filename().string(), folder) : path;
+// ---- lines ---------------------------------------------------------------------------------------------------------
+
+// One line of the text, without its end.
+std::string_view TextLines::takeLine() {
+    std::size_t end = 0;
+    while (end < rest_.size() && rest_[end] != '\n' && rest_[end] != '\r') ++end;
+    const std::string_view line = trimmed(rest_.substr(0, end));
+    const bool isPair = rest_.substr(end, 2) == "\r\n";
+    rest_.remove_prefix(std::min(end + (isPair ? 2 : 1), rest_.size()));
+    ++taken_;
+    return line;
 }
 
-std::size_t countWords(std::string_view line) {
-    std::size_t count = 0;
-    for (std::string_view rest = trimmed(line.substr(0, line.find_first_of("\r\n"))); !rest.empty(); ++count)
-        rest = trimmed(rest.substr(std::min(rest.find_first_of(" \t"), rest.size())));
-    return count;
+bool TextLines::next() {
+    const auto goesOn = [](std::string_view said) { return !said.empty() && said.back() == '\\'; };
+    while (!rest_.empty()) {
+        line_ = source_ = takeLine();
+        number_ = taken_;
+        if (line_.empty() || line_.front() == '#') continue;
+        if (line_.back() != '\\' && line_.find('#') == line_.npos) return true;
+        std::string_view said = withoutComment(line_);
+        if (!goesOn(said)) return true;
+        joined_.clear();
+        while (goesOn(said)) {
+            joined_.append(said.substr(0, said.size() - 1)) += ' ';
+            said = withoutComment(takeLine());
+        }
+        joined_ += said;
+        line_ = trimmed(joined_);
+        if (!line_.empty()) return true;
+    }
+    return false;
 }
 
-std::string describeLeftOut(std::string_view text) {
-    std::string described;
-    for (const LeftOut& kind : countLeftOut(text))
-        if (kind.count > 0) described += (described.empty() ? "" : ", ") + std::to_string(kind.count) + " " + kind.name;
-    return described;
+// ---- words ---------------------------------------------------------------------------------------------------------
+
+std::string_view takeWord(std::string_view& text) {
+    std::size_t begin = 0;
+    while (begin < text.size() && isSpace(text[begin])) ++begin;
+    std::size_t end = begin;
+    while (end < text.size() && !isSpace(text[end]) && text[end] != '#') ++end;
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
 }
+
+std::optional<double> numberOf(std::string_view text) {
+    if (const std::optional<double> value = simpleNumber(text)) return value;
+    if (text.empty() || text.find_first_not_of("+-.0123456789eE") != text.npos) return std::nullopt;
+    std::istringstream stream{std::string(text)}; // libc++ has no std::from_chars of real numbers
+    stream.imbue(std::locale::classic());
+    double value = 0;
+    stream >> value;
+    if (stream.fail()) return std::abs(value) > 1 ? std::optional(value) : std::nullopt;
+    return stream.peek() == std::istringstream::traits_type::eof() ? std::optional(value) : std::nullopt;
+}
+
+std::string_view withoutComment(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if (text[i] == '#' && (i == 0 || isSpace(text[i - 1]))) return trimmed(text.substr(0, i));
+    return text;
+}
+
+std::string_view withoutQuotes(std::string_view text) {
+    const bool isQuoted =
+        text.size() >= 2 && text.front() == text.back() && (text.front() == '"' || text.front() == '\'');
+    return isQuoted ? text.substr(1, text.size() - 2) : text;
+}
+
+std::string_view nameIn(std::string_view text) {
+    text = trimmed(text);
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const bool isApart = (i == 0 || isSpace(text[i - 1])) && (i + 1 == text.size() || isSpace(text[i + 1]));
+        if (text[i] == '#' && isApart) text = trimmed(text.substr(0, i));
+    }
+    return trimmed(withoutQuotes(text));
+}
+
+// ---- notices -------------------------------------------------------------------------------------------------------
 
 std::string listed(const std::set<std::string>& names) {
     constexpr std::size_t kMax = 3, kLongest = 100;
@@ -146,6 +230,10 @@ std::string listed(const std::set<std::string>& names) {
     }
     if (others > 0) text += " and " + std::to_string(others) + (others == 1 ? " other" : " others");
     return text;
+}
+
+std::string counted(std::size_t count, std::string_view one, std::string_view many) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
 }
 
 } // namespace rt::scene

@@ -1,7 +1,8 @@
-// The text of OBJ and MTL files, in which encodings, spaces and paths come as they like.
+// The text of OBJ and MTL files, in which encodings, lines, spaces and quotes come as they like.
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -12,21 +13,45 @@ namespace rt::scene {
 // The bytes of a file, in UTF-8 without a byte order mark where one says that it is UTF-8 or UTF-16. Throws InputError.
 std::vector<std::byte> readText(const std::filesystem::path& path);
 
+// The lines of a text that say something. A backslash at the end of a line, or before its comment, goes on with the
+// next one; a comment line goes on nowhere.
+class TextLines {
+  public:
+    explicit TextLines(std::string_view text) : rest_(text) {}
+    bool next();                                        // false: there is none left
+    std::string_view line() const { return line_; }     // without space around it, until next()
+    std::string_view source() const { return source_; } // the line in the text, of several the first
+    std::size_t number() const { return number_; }      // of source(), counted from 1
+
+  private:
+    std::string_view takeLine();
+
+    std::string_view rest_, line_, source_;
+    std::size_t number_ = 0, taken_ = 0;
+    std::string joined_;
+};
+
 // Without spaces, tabs and carriage returns around it.
 std::string_view trimmed(std::string_view text);
+std::string lowerCase(std::string_view text); // of ASCII
 
-// An existing file that is named in a file of `folder`; backslashes separate as slashes do. Empty: there is none.
-std::filesystem::path findNamed(std::string_view name, const std::filesystem::path& folder);
-// The same, or else one in `folder` of that name without its path, as files are moved from the places they were made
-// at.
-std::filesystem::path findMoved(std::string_view name, const std::filesystem::path& folder);
+// Takes the next word off a text; empty: it ends, or a comment begins.
+std::string_view takeWord(std::string_view& text);
 
-std::size_t countWords(std::string_view line);
+// The finite number that the whole text is, with a decimal point in any locale, within two units in its last place;
+// what is too large is the largest there is.
+std::optional<double> numberOf(std::string_view text);
 
-// The statements that are no faces, which alone are rendered: `6 lines, 2 points`; empty: there is none of them.
-std::string describeLeftOut(std::string_view text);
+// Up to the first # at the start or behind a space.
+std::string_view withoutComment(std::string_view text);
+std::string_view withoutQuotes(std::string_view text);
+// A name as files write it, without what is surely a comment: a # between spaces ("Material #25" is a name), and
+// without quotes.
+std::string_view nameIn(std::string_view text);
 
 // `"a"`, `"a" and "b"`, `"a", "b", "c" and 7 others`; not of nothing.
 std::string listed(const std::set<std::string>& names);
+// `1 face`, `2 faces`.
+std::string counted(std::size_t count, std::string_view one, std::string_view many);
 
 } // namespace rt::scene
