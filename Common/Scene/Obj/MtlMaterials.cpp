@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kUsualIor = 1.5;         // where a file says none, or the index of a vacuum
-constexpr double kLargestIor = 10;        // of principled materials
+constexpr double kLargestCoatIor = 10;    // a stronger reflection is a mirror
 constexpr double kUsualRoughness = 0.5;   // of the PBR extension
 constexpr double kSheenRoughness = 0.5;   // which the PBR extension does not have
 constexpr double kLargestExponent = 1000; // of the format
@@ -31,7 +31,7 @@ double fraction(double value) {
 // ---- the reflection of dielectrics ---------------------------------------------------------------------------------
 
 double iorOf(const MtlMaterial& m) {
-    return m.ior.value_or(1) > 1 ? std::min(*m.ior, kLargestIor) : kUsualIor;
+    return m.ior.value_or(1) > 1 ? std::min(*m.ior, kLargestCoatIor) : kUsualIor;
 }
 
 double reflectanceOf(double ior) { // at normal incidence
@@ -40,7 +40,7 @@ double reflectanceOf(double ior) { // at normal incidence
 }
 double iorOfReflectance(double reflectance) {
     const double amplitude = std::sqrt(reflectance);
-    return amplitude < 1 ? std::min((1 + amplitude) / (1 - amplitude), kLargestIor) : kLargestIor;
+    return amplitude < 1 ? std::min((1 + amplitude) / (1 - amplitude), kLargestCoatIor) : kLargestCoatIor;
 }
 
 } // namespace
@@ -219,7 +219,7 @@ MaterialDesc MtlMaterials::glass(const MtlMaterial& source) {
 
 MaterialDesc MtlMaterials::mirror(const MtlMaterial& source) {
     const glm::dvec3 tint = specularOf(source);
-    if (hasDiffuse(source) && maxComponent(tint) <= reflectanceOf(kLargestIor)) return coated(source);
+    if (hasDiffuse(source) && maxComponent(tint) <= reflectanceOf(kLargestCoatIor)) return coated(source);
     MaterialDesc material;
     const bool isPlain =
         !(source.specularMap || source.roughnessMap || isLayered(source) || isBumpy(source) || isSeeThrough(source));
