@@ -12,6 +12,7 @@ test_packages=(libgtest-dev libbenchmark-dev libembree-dev clang vulkan-validati
 bench_packages=(libbenchmark-dev libembree-dev)
 fuzz_packages=(clang libclang-rt-dev) # which holds libFuzzer and the sanitizers; clang only recommends it
 cluster_packages=(libopenmpi-dev openmpi-bin)
+release_packages=(debootstrap git)
 
 preset=release # whatever the environment: what users build is what is tested
 
@@ -35,6 +36,9 @@ usage() {
                          kept in build/fuzz/finds; --fixed: the same inputs every time
 ./build.sh sanitize      build the CPU program and its tests with sanitizers and run the tests of every change: address and
                          undefined behaviour in build-asan/, then threads in build-tsan/
+./build.sh releases [RELEASE...]
+                         as root: ./build.sh run and ./build.sh test on bare systems of each release that is promised
+                         (or of some: bookworm, trixie, noble), made in build/releases; hours, for nights
 ./build.sh cluster       the same as ./build.sh, and what mpirun needs to share a render out (docs/many-machines.md)
 ./build.sh bench [ARGS]  build, then run ray-tracing-bench with ARGS
 With VCPKG_ROOT set, libraries come from vcpkg; otherwise from apt (Debian 12 or newer, Ubuntu 24.04 or newer).
@@ -160,6 +164,10 @@ case $verb in
         sanitize asan
         # Embree's threads are not compiled with the sanitizer: it takes what they hand on for races.
         sanitize tsan -DCMAKE_DISABLE_FIND_PACKAGE_embree=ON
+        ;;
+    releases)
+        install_packages "${release_packages[@]}"
+        tests/releases/run.sh build/releases "$@"
         ;;
     bench)
         install_packages "${build_packages[@]}" "${bench_packages[@]}"

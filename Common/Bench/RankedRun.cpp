@@ -1,6 +1,7 @@
 #include "Common/Bench/RankedRun.h"
 
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
@@ -31,22 +32,40 @@ bool runToEnd(const fs::path& program, const std::vector<std::string>& arguments
     return true;
 }
 
+// "mpirun (Open MPI) 5.0.7", "Version: 4.0.2" of MPICH's. What a library of theirs has to say may come before.
+std::string versionLine(const std::string& text) {
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const std::size_t begin = line.find_first_not_of(' ');
+        if (line.find(") ") != std::string::npos || line.find("Version:") != std::string::npos)
+            return line.substr(begin);
+    }
+    return app::lastLine(text);
+}
+
 } // namespace
 
 RankLauncher findRankLauncher() {
-    RankLauncher launcher;
-    launcher.mpirun = findProgram("mpirun");
-    launcher.missing = "there is no mpirun";
-    if (launcher.mpirun.empty()) return launcher;
+    const fs::path mpirun = findProgram("mpirun");
+    if (mpirun.empty()) return {{}, {}, "there is no mpirun"};
+    return rankLauncherAt(mpirun);
+}
+
+RankLauncher rankLauncherAt(const fs::path& mpirun) {
+    RankLauncher launcher{mpirun, {}, ""};
     const OwnFolder folder;
     try {
         const std::atomic<bool> never{false};
-        runToEnd(launcher.mpirun, {"--version"}, folder / "version", never);
+        runToEnd(mpirun, {"--version"}, folder / "version", never);
     } catch (const RenderError& error) {
         return {{}, {}, error.what()};
     }
-    if (app::textOf(folder / "version").find("Open MPI") != std::string::npos)
-        launcher.settings = {"--bind-to", "none", "--oversubscribe"};
+    const std::string text = app::textOf(folder / "version");
+    // What Open MPI takes in both its series, 4 and 5: 5 ignores the variables of 4 that say the same. It is known by
+    // where it wants to hear of faults, as it calls itself OpenRTE, too.
+    if (text.find("open-mpi.org") != std::string::npos)
+        launcher.settings = {"--bind-to", "none", "--map-by", ":OVERSUBSCRIBE"};
+    launcher.version = versionLine(text);
     return launcher;
 }
 

@@ -15,10 +15,13 @@ struct RankLauncher {
     std::filesystem::path mpirun;      // empty: there is none
     std::vector<std::string> settings; // lets ranks share processors, as threads of one program do
     std::string missing;               // why there is none
+    std::string version = {};          // as it says: "mpirun (Open MPI) 5.0.7"
 };
 
 // The mpirun of $PATH.
 RankLauncher findRankLauncher();
+// The given one, which is asked what it is.
+RankLauncher rankLauncherAt(const std::filesystem::path& mpirun);
 
 // What the launcher is told to do, but for its own name: `config` at `spp` samples per pixel.
 std::vector<std::string> rankArguments(const RankLauncher& launcher, const std::filesystem::path& program,

@@ -77,12 +77,12 @@ Instance::Instance(bool validation, std::vector<const char*> extensions) {
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+    // A driver's description that it cannot read is no driver to newer loaders, to older ones memory that ran out.
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw NoDeviceError(
-            "no Vulkan driver is installed; Mesa's software driver needs version 25.0 or newer "
-            "(./build.sh run provides it)");
+            "no Vulkan driver is installed, or a driver's file is damaged; Mesa's software driver needs version "
+            "25.0 or newer (./build.sh run provides it)");
     }
-    // The loader says so also of a driver's description that it cannot read.
     if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
         throw NoDeviceError("Vulkan does not start: a driver's file is damaged, or memory is short");
     check(result, "Starting Vulkan");

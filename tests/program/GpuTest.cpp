@@ -2,7 +2,11 @@
 #ifdef RT_HAS_GPU
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
+#include <string>
+
+#include <vulkan/vulkan.h>
 
 #include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
@@ -34,7 +38,17 @@ TEST_F(Gpu, ListsDevices) {
     EXPECT_NE(outcome.out.find("pipeline, compute: suitable\n"), std::string::npos) << outcome.out;
 }
 
+// "1.3.239"
+std::string loaderVersion() {
+    std::uint32_t version = 0;
+    vkEnumerateInstanceVersion(&version);
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+// A damaged file is no driver to some loaders, and memory that ran out to others.
 TEST_F(Gpu, WithoutADriverSaysSo) {
+    SCOPED_TRACE("Vulkan's loader " + loaderVersion());
     const Environment none = {{"VK_DRIVER_FILES", "/none.json"}, {"VK_ICD_FILENAMES", "/none.json"}};
     EXPECT_TRUE(failsWith(run("ray-tracing-gpu", {"--list-devices"}, none), 4, "no Vulkan driver"));
     writeFile("words.json", "no driver is here");
