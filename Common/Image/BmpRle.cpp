@@ -153,6 +153,11 @@ class BmpDecoder {
 
 } // namespace
 
+bool endsInBmpHeader(std::span<const std::byte> bytes) {
+    if (bytes.size() < 2 || numberAt(bytes, 0, 2) != 0x4d42) return false;
+    return bytes.size() < kInfoAt + 4 || bytes.size() - kInfoAt < numberAt(bytes, kInfoAt, 4);
+}
+
 bool isRunLengthBmp(std::span<const std::byte> bytes) {
     if (bytes.size() < kInfoAt + kMinInfo || numberAt(bytes, 0, 2) != 0x4d42) return false;
     const std::uint32_t compression = numberAt(bytes, kInfoAt + 16, 4);

@@ -8,6 +8,9 @@
 
 namespace rt::image {
 
+// Whether a BMP file ends within its header, of which stb takes what is missing for zeros.
+bool endsInBmpHeader(std::span<const std::byte> bytes);
+
 // By the header: BI_RLE8 or BI_RLE4.
 bool isRunLengthBmp(std::span<const std::byte> bytes);
 

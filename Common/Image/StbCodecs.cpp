@@ -84,6 +84,7 @@ Texels decodeStb(std::span<const std::byte> bytes, const std::string& name) {
     const int size = static_cast<int>(bytes.size());
     const auto reason = [] { return std::string(stbi_failure_reason() ? stbi_failure_reason() : "unknown reason"); };
 
+    if (endsInBmpHeader(bytes)) fail("truncated BMP file");
     if (isRunLengthBmp(bytes)) return decodeRunLengthBmp(bytes, name);
     checkPng(bytes, name);
     if (const auto colors = otherColorsOfPng(bytes))
