@@ -7,12 +7,12 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <Aov.Query.comp.h>
 #include <Aov.comp.h>
 #include <Aov.rgen.h>
-#include <Cost.Full.Query.Time.comp.h>
-#include <Cost.Full.Query.comp.h>
-#include <Cost.Full.Time.comp.h>
-#include <Cost.Full.Time.rgen.h>
-#include <Cost.Full.comp.h>
-#include <Cost.Full.rgen.h>
+#include <Cost.HeavyFeatures.Query.Time.comp.h>
+#include <Cost.HeavyFeatures.Query.comp.h>
+#include <Cost.HeavyFeatures.Time.comp.h>
+#include <Cost.HeavyFeatures.Time.rgen.h>
+#include <Cost.HeavyFeatures.comp.h>
+#include <Cost.HeavyFeatures.rgen.h>
 #include <Cost.Query.Time.comp.h>
 #include <Cost.Query.comp.h>
 #include <Cost.Time.comp.h>
@@ -24,14 +24,14 @@ using std::uint32_t; // the generated headers say uint32_t
 #include <PathReuse.Query.comp.h>
 #include <PathReuse.comp.h>
 #include <PathReuse.rgen.h>
-#include <PathTrace.Full.Query.comp.h>
-#include <PathTrace.Full.comp.h>
+#include <PathTrace.HeavyFeatures.Query.comp.h>
+#include <PathTrace.HeavyFeatures.comp.h>
 #include <PathTrace.Query.comp.h>
 #include <PathTrace.comp.h>
 #include <Preview.comp.h>
 #include <Preview.frag.h>
 #include <Preview.vert.h>
-#include <RayTracing.Full.rgen.h>
+#include <RayTracing.HeavyFeatures.rgen.h>
 #include <RayTracing.Procedural.rchit.h>
 #include <RayTracing.Procedural.rint.h>
 #include <RayTracing.Quad.rchit.h>
@@ -50,10 +50,10 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return PathTrace_comp;
         case Shader::PathQuery:
             return PathTrace_Query_comp;
-        case Shader::FullPathCompute:
-            return PathTrace_Full_comp;
-        case Shader::FullPathQuery:
-            return PathTrace_Full_Query_comp;
+        case Shader::HeavyPathCompute:
+            return PathTrace_HeavyFeatures_comp;
+        case Shader::HeavyPathQuery:
+            return PathTrace_HeavyFeatures_Query_comp;
         case Shader::ReuseCompute:
             return PathReuse_comp;
         case Shader::ReuseQuery:
@@ -66,34 +66,34 @@ std::span<const std::uint32_t> shaderCode(Shader shader) {
             return Cost_comp;
         case Shader::CostQuery:
             return Cost_Query_comp;
-        case Shader::FullCostCompute:
-            return Cost_Full_comp;
-        case Shader::FullCostQuery:
-            return Cost_Full_Query_comp;
+        case Shader::HeavyCostCompute:
+            return Cost_HeavyFeatures_comp;
+        case Shader::HeavyCostQuery:
+            return Cost_HeavyFeatures_Query_comp;
         case Shader::TimeCompute:
             return Cost_Time_comp;
         case Shader::TimeQuery:
             return Cost_Query_Time_comp;
-        case Shader::FullTimeCompute:
-            return Cost_Full_Time_comp;
-        case Shader::FullTimeQuery:
-            return Cost_Full_Query_Time_comp;
+        case Shader::HeavyTimeCompute:
+            return Cost_HeavyFeatures_Time_comp;
+        case Shader::HeavyTimeQuery:
+            return Cost_HeavyFeatures_Query_Time_comp;
         case Shader::RayGeneration:
             return RayTracing_rgen;
-        case Shader::FullRayGeneration:
-            return RayTracing_Full_rgen;
+        case Shader::HeavyRayGeneration:
+            return RayTracing_HeavyFeatures_rgen;
         case Shader::ReuseGeneration:
             return PathReuse_rgen;
         case Shader::AovGeneration:
             return Aov_rgen;
         case Shader::CostGeneration:
             return Cost_rgen;
-        case Shader::FullCostGeneration:
-            return Cost_Full_rgen;
+        case Shader::HeavyCostGeneration:
+            return Cost_HeavyFeatures_rgen;
         case Shader::TimeGeneration:
             return Cost_Time_rgen;
-        case Shader::FullTimeGeneration:
-            return Cost_Full_Time_rgen;
+        case Shader::HeavyTimeGeneration:
+            return Cost_HeavyFeatures_Time_rgen;
         case Shader::Miss:
             return RayTracing_rmiss;
         case Shader::TriangleHit:

@@ -25,27 +25,27 @@ struct Shaders {
 };
 
 // What only the full shaders have, see RT_HEAVY_FEATURES in Common/Shared/Base/Shim.h.
-constexpr shared::Features kFeaturesOfFull = shared::kMethodProjected | shared::kFeaturePrincipled |
-                                             shared::kFeatureOpacity | shared::kFeatureCoatNormal |
-                                             shared::kMethodConnections;
+constexpr shared::Features kHeavyFeatures = shared::kMethodProjected | shared::kFeaturePrincipled |
+                                            shared::kFeatureOpacity | shared::kFeatureCoatNormal |
+                                            shared::kMethodConnections;
 
-Shaders shadersFor(KernelPurpose purpose, bool full) {
+Shaders shadersFor(KernelPurpose purpose, bool heavy) {
     switch (purpose) {
         case KernelPurpose::Reuse:
             return {Shader::ReuseGeneration, Shader::ReuseCompute, Shader::ReuseQuery};
         case KernelPurpose::FirstHits:
             return {Shader::AovGeneration, Shader::AovCompute, Shader::AovQuery}; // full as well
         case KernelPurpose::Rays:
-            return full ? Shaders{Shader::FullCostGeneration, Shader::FullCostCompute, Shader::FullCostQuery}
-                        : Shaders{Shader::CostGeneration, Shader::CostCompute, Shader::CostQuery};
+            return heavy ? Shaders{Shader::HeavyCostGeneration, Shader::HeavyCostCompute, Shader::HeavyCostQuery}
+                         : Shaders{Shader::CostGeneration, Shader::CostCompute, Shader::CostQuery};
         case KernelPurpose::Time:
-            return full ? Shaders{Shader::FullTimeGeneration, Shader::FullTimeCompute, Shader::FullTimeQuery}
-                        : Shaders{Shader::TimeGeneration, Shader::TimeCompute, Shader::TimeQuery};
+            return heavy ? Shaders{Shader::HeavyTimeGeneration, Shader::HeavyTimeCompute, Shader::HeavyTimeQuery}
+                         : Shaders{Shader::TimeGeneration, Shader::TimeCompute, Shader::TimeQuery};
         case KernelPurpose::Paths:
             break;
     }
-    return full ? Shaders{Shader::FullRayGeneration, Shader::FullPathCompute, Shader::FullPathQuery}
-                : Shaders{Shader::RayGeneration, Shader::PathCompute, Shader::PathQuery};
+    return heavy ? Shaders{Shader::HeavyRayGeneration, Shader::HeavyPathCompute, Shader::HeavyPathQuery}
+                 : Shaders{Shader::RayGeneration, Shader::PathCompute, Shader::PathQuery};
 }
 
 } // namespace
@@ -53,7 +53,7 @@ Shaders shadersFor(KernelPurpose purpose, bool full) {
 std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan::PipelineCache& cache,
                                    const RenderBindings& bindings, app::GpuEngineKind engine, KernelPurpose purpose,
                                    const SpecializationConstants& constants) {
-    const Shader shader = shadersFor(purpose, shared::has(constants.features, kFeaturesOfFull)).of(engine);
+    const Shader shader = shadersFor(purpose, shared::has(constants.features, kHeavyFeatures)).of(engine);
     if (engine == app::GpuEngineKind::Pipeline) {
         return std::make_unique<RtPipeline>(context, cache, bindings, constants, shader);
     }
@@ -70,7 +70,7 @@ std::unique_ptr<Kernel> makeKernel(vulkan::VulkanContext& context, const vulkan:
 std::uint32_t groupSize(const vulkan::VulkanContext& context, shared::Features features) {
     constexpr std::uint32_t kNvidia = 0x10de, kLarge = 512;
     const bool isMeasured = context.limits().vendor == kNvidia && shared::has(features, shared::kFeatureLights) &&
-                            !shared::has(features, kFeaturesOfFull);
+                            !shared::has(features, kHeavyFeatures);
     return isMeasured && context.limits().maxGroupSize >= kLarge ? kLarge : TraversalShape().groupSize;
 }
 

@@ -25,7 +25,7 @@ function(rt_require_vulkan)
 endfunction()
 
 # For each of the files in Shaders/, or in the folder after FROM, X.ext becomes the header "X.ext.h" in an include folder of `target`, with the array
-# X_ext of words. X.Some.Variant.ext, where there is no such file, is X.ext with RT_SOME and RT_VARIANT defined. A change of
+# X_ext of words. X.Some.NewVariant.ext, where there is no such file, is X.ext with RT_SOME and RT_NEW_VARIANT defined. A change of
 # any file that a shader includes builds it anew.
 function(rt_embed_shaders target)
     cmake_parse_arguments(arg "" "FROM" "" ${ARGN})
@@ -43,6 +43,7 @@ function(rt_embed_shaders target)
             list(POP_FRONT parts name)
             list(POP_BACK parts extension)
             set(source ${sources}/${name}.${extension})
+            list(TRANSFORM parts REPLACE "([a-z])([A-Z])" "\\1_\\2")
             list(TRANSFORM parts TOUPPER)
             list(TRANSFORM parts PREPEND -DRT_)
             set(defines ${parts})
