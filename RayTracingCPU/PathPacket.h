@@ -204,7 +204,7 @@ class PathPacket {
     }
 
     // False: the path has ended.
-    bool shadeNext(PathSlot& slot, const Sampler& smp, const Hit& hit, Vertex& v) {
+    RT_METHOD_FN bool shadeNext(PathSlot& slot, const Sampler& smp, const Hit& hit, Vertex& v) {
         const uint before = slot.path.reuse;
         TechniqueStep step;
         if (!shadeHit(kFeatures, scene_, params_, smp, hit, slot.path, step, v)) return false;
@@ -214,7 +214,7 @@ class PathPacket {
     }
 
     // False: there is no sample left.
-    bool begin(PathSlot& slot, uint i) {
+    RT_METHOD_FN bool begin(PathSlot& slot, uint i) {
         Ray ray;
         uvec2 pixel;
         slot.sample = samples_.template next<kFeatures>(lanes_, i, ray, pixel);
@@ -237,7 +237,7 @@ class PathPacket {
         slot.sample = kNone;
     }
 
-    bool choosesLight(const Vertex& v, const PathState& path) const {
+    RT_METHOD_FN bool choosesLight(const Vertex& v, const PathState& path) const {
         return samplesLight(kFeatures, params_, scene_.globals, v, path) ||
                usesMixture(kFeatures, params_, scene_.globals, v);
     }
@@ -286,7 +286,7 @@ class PathPacket {
 
     // Scatters the path of slot i at its vertex and traces its next ray, together with the shadow ray if a light was
     // sampled.
-    void continuePath(uint i, const ActiveSlots& active) {
+    RT_METHOD_FN void continuePath(uint i, const ActiveSlots& active) {
         const bool isLit = (active.lit >> i & 1u) != 0u;
         PathSlot& slot = slots_[i];
         PathState& path = slot.path;
@@ -314,7 +314,7 @@ class PathPacket {
     }
 
     // Adds what the shadow ray of a path that has ended lets through.
-    void traceShadow(uint i, const DirectLight& direct, PathState& path) {
+    RT_METHOD_FN void traceShadow(uint i, const DirectLight& direct, PathState& path) {
         if (!(direct.distance > 0.0f)) return;
         ++counters_.shadow;
         if (arrives<kFeatures>(scene_, get(lanes_.samplers, i), path, direct))
@@ -322,7 +322,7 @@ class PathPacket {
     }
 
     // What the next ray hits; adds what the shadow ray, if there is one, lets through.
-    Hit traceOn(uint i, const DirectLight& direct, PathState& path) {
+    RT_METHOD_FN Hit traceOn(uint i, const DirectLight& direct, PathState& path) {
         // What is transmitted starts on the other side of the surface than the shadow ray.
         const bool startsElsewhere = has(kFeatures, kFeaturePrincipled) && path.ray.origin != path.last.position;
         if (has(kFeatures, kFeatureOpacity) || startsElsewhere || !(direct.distance > 0.0f)) {

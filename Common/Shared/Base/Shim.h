@@ -3,6 +3,7 @@
 //
 //   RT_FN            prefix of every function: internal linkage in C++, which keeps the copies compiled for different
 //                    instruction sets apart, and forced inlining in kernels; nothing in GLSL.
+//   RT_METHOD_FN     the same for member functions of kernels, in C++ alone.
 //   RT_CALL          the same for a function that is worth a call: never inlined in kernels.
 //   RT_IN(T)         a record that is read; in C++ by reference, since compilers copy records that are inlined by value.
 //   RT_INOUT(T)      a parameter that is read and written; RT_OUT(T) one that is only written.
@@ -32,12 +33,15 @@
 #include <glm/vec4.hpp>
 
 #if !defined(RT_KERNEL) // elsewhere what is inlined by force doubles the time that compilers take
+#define RT_METHOD_FN inline
 #define RT_FN [[maybe_unused]] static inline
 #define RT_CALL [[maybe_unused]] static
 #elif defined(_MSC_VER) && !defined(__clang__)
+#define RT_METHOD_FN __forceinline
 #define RT_FN static __forceinline
 #define RT_CALL static __declspec(noinline)
 #else
+#define RT_METHOD_FN [[gnu::always_inline]] inline
 #define RT_FN [[maybe_unused, gnu::always_inline]] static inline
 #define RT_CALL [[maybe_unused, gnu::noinline]] static
 #endif
