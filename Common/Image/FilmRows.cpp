@@ -99,6 +99,25 @@ ImageRows meanRows(const Film& film) {
     return {film.desc().width, film.desc().height, 3, readRow};
 }
 
+ImageRows halfRows(const Film& film, std::uint32_t half) {
+    const auto readRow = [&film, half](std::uint32_t y, Pixels row) {
+        forEachTile(film, y, row, [&film, half](std::uint32_t tile, std::size_t firstPixel, Pixels pixels) {
+            double sums[Film::kTile * 3] = {}, counts[Film::kTile * 3] = {};
+            for (std::uint32_t r = half; r < film.desc().replicates; r += 2) {
+                const Film::TileState state = film.state(tile, r);
+                for (std::size_t i = 0; i < pixels.size(); ++i) {
+                    const std::size_t value = firstPixel * 3 + i;
+                    sums[i] += state.sums[value] + openSum(state, value);
+                    counts[i] += state.samplesOf(value / 3);
+                }
+            }
+            for (std::size_t i = 0; i < pixels.size(); ++i)
+                pixels[i] = counts[i] > 0 ? static_cast<float>(sums[i] / counts[i]) : 0.0f;
+        });
+    };
+    return {film.desc().width, film.desc().height, 3, readRow};
+}
+
 ImageRows varianceRows(const Film& film) {
     const std::uint32_t replicates = film.desc().replicates;
     if (replicates < 2 && !film.desc().secondMoments)

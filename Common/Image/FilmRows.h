@@ -5,7 +5,9 @@
 
 namespace rt::image {
 
-ImageRows meanRows(const Film& film);        // as Film::resolve()
+ImageRows meanRows(const Film& film); // as Film::resolve()
+// The same of the replicates of one half only, 0 or 1 as Film::halfOf() counts them.
+ImageRows halfRows(const Film& film, std::uint32_t half);
 ImageRows varianceRows(const Film& film);    // as Film::varianceOfMean(), under the same conditions
 ImageRows sampleCountRows(const Film& film); // as Film::sampleCounts(): one channel
 

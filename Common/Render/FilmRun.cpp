@@ -94,7 +94,8 @@ bool FilmRun::reachesTargetError() {
     nextCheck_ = kCheckGrowth * static_cast<double>(status_.samplesDone);
     const image::Film& film = engine_->film();
     if (film.minReplicateSamples() < kMinSamples) return false;
-    const auto relmse = estimateRelMse(film, dependentSide(engine_->report().features));
+    const auto relmse =
+        limits_.estimate ? limits_.estimate(film) : estimateRelMse(film, dependentSide(engine_->report().features));
     const bool isBelow = relmse && relmse->high() < *limits_.targetError;
     return std::exchange(wasBelowTarget_, isBelow) && isBelow;
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "Common/Image/ErrorEstimate.h"
 #include "Common/Render/Engine.h"
 #include "Common/Render/Names.h"
 #include "Common/Render/Progress.h"
@@ -25,8 +26,10 @@ inline constexpr Named<StopReason> kStopReasons[] = {{"spp", StopReason::Spp},
 struct RunLimits {
     std::optional<double> seconds{};     // from now on
     std::optional<double> targetError{}; // the estimated relMSE's confidence interval lies below it
-    std::optional<double> saveEvery{};   // seconds between two checkpoints
-    std::function<void()> save{};        // writes one
+    // In place of the film's own error, where another is meant.
+    std::function<std::optional<image::RelMseEstimate>(const image::Film&)> estimate{};
+    std::optional<double> saveEvery{}; // seconds between two checkpoints
+    std::function<void()> save{};      // writes one
 };
 
 // The engine has its scene, outlives the run, and renders no other film meanwhile.

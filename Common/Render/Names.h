@@ -22,7 +22,7 @@ enum class Tonemap : std::uint32_t {
     Agx = shared::kTonemapAgx
 };
 // Images beside the picture: first-hit features, and what the film knows of each pixel.
-enum class Aov { Albedo, Normal, Depth, Variance, Samples };
+enum class Aov { Albedo, Normal, Depth, Variance, Samples, Denoised, DenoisedError };
 
 // A value of an enumeration: on the command line, in files and in statistics; in a window; and a sentence on what it
 // does.
@@ -76,7 +76,9 @@ inline constexpr Named<Aov> kAovs[] = {{"albedo", Aov::Albedo},
                                        {"normal", Aov::Normal},
                                        {"depth", Aov::Depth},
                                        {"variance", Aov::Variance},
-                                       {"samples", Aov::Samples}};
+                                       {"samples", Aov::Samples},
+                                       {"denoised", Aov::Denoised},
+                                       {"denoised-error", Aov::DenoisedError}};
 inline constexpr Named<bool> kAdaptive[] = {
     {"off", false, "Uniform", "every pixel gets the same number"},
     {"on", true, "Adaptive", "more where a pilot has met more noise; unbiased, SPP is the mean; not with strata"}};

@@ -13,6 +13,7 @@
 #include "Common/Core/Log.h"
 #include "Common/Core/Printable.h"
 #include "Common/Core/RunMain.h"
+#include "Common/Image/Denoise/FilmHalves.h"
 #include "Common/Image/Display.h"
 #include "Common/Image/FilmRows.h"
 #include "Common/Image/ImageIo.h"
@@ -132,6 +133,18 @@ int merge(const Arguments& arguments) {
     return static_cast<int>(ExitCode::Done);
 }
 
+// Of a film that was kept; it has no features of surfaces, so that edges are known by the samples alone.
+int denoise(const Arguments& arguments) {
+    image::checkWritable(arguments.output);
+    const image::Checkpoint kept = image::readCheckpoint(arguments.a);
+    if (const std::string why = image::whyNoHalves(kept.film); !why.empty()) throw InputError(arguments.a + ": " + why);
+    // Whether pixels share paths is not kept; that they might costs the estimate little.
+    const image::Denoised result = image::denoise(image::filmHalves(kept.film), 2);
+    image::writeImage(arguments.output, result.picture);
+    std::cout << "estimated_relmse " << result.relmse.value << '\n';
+    return static_cast<int>(ExitCode::Done);
+}
+
 // Runs the command that the command line asks for.
 int run(int argc, char** argv) {
     CLI::App app{"Compares, describes and converts images: .png .exr .hdr .pfm, and to read .jpg .bmp .tga .tif .webp.",
@@ -163,6 +176,11 @@ int run(int argc, char** argv) {
     merges->add_option("PARTS", arguments.parts, "Checkpoints of all parts, in any order")->required();
     merges->add_option("--output,-o", arguments.output, "Image, or checkpoint .rtc")->required();
 
+    CLI::App* const denoises = app.add_subcommand(
+        "denoise", "Filter the film of a checkpoint with two replicates or more, and print the relMSE estimated");
+    denoises->add_option("FILM", arguments.a, "Checkpoint .rtc")->required();
+    denoises->add_option("--output,-o", arguments.output, "Image")->required();
+
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& request) { // --help or --version
@@ -171,8 +189,10 @@ int run(int argc, char** argv) {
         throw UsageError(error.what());
     }
     setUpLog({kProgram, false, false, ""}); // of what is left out of images
-    if (app.get_subcommands().empty()) throw UsageError("a subcommand is required: diff, info, convert or merge");
+    if (app.get_subcommands().empty())
+        throw UsageError("a subcommand is required: diff, info, convert, denoise or merge");
     if (diffs->parsed()) return diff(arguments);
+    if (denoises->parsed()) return denoise(arguments);
     if (merges->parsed()) return merge(arguments);
     return infos->parsed() ? info(arguments) : convert(arguments);
 }

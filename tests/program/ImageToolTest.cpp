@@ -2,6 +2,10 @@
 #include <cmath>
 #include <sstream>
 
+#include <nlohmann/json.hpp>
+
+#include "Common/Image/Checkpoint.h"
+#include "Common/Image/Film.h"
 #include "Common/Image/ImageIo.h"
 #include "tests/program/Program.h"
 #include "tests/unit/ExrFiles.h"
@@ -110,6 +114,24 @@ TEST_F(ImageTool, WarnsOfPartsOnStandardError) {
     EXPECT_EQ(tool({"info", "small.exr"}).err, "");
 }
 
+TEST_F(ImageTool, FiltersAFilmThatWasKept) {
+    image::Film film({8, 8, 2});
+    image::Film::TileBlock block;
+    for (std::uint32_t replicate = 0; replicate < 2; ++replicate) {
+        film.begin(0, replicate, block);
+        block.count = image::Film::kBlock;
+        for (float& value : block.sum) value = 0.25f * image::Film::kBlock;
+        film.commit(0, replicate, block);
+    }
+    image::writeCheckpoint(folder_ / "kept.rtc", nlohmann::json::object(), film);
+    const auto result = tool({"denoise", "kept.rtc", "-o", "kept.pfm"});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    EXPECT_EQ(result.out.rfind("estimated_relmse ", 0), 0u) << result.out;
+    for (const float value : image::readImage(folder_ / "kept.pfm").data) EXPECT_NEAR(value, 0.25f, 1e-4f);
+    image::writeCheckpoint(folder_ / "one.rtc", nlohmann::json::object(), image::Film({8, 8, 1}));
+    EXPECT_TRUE(failsWith(tool({"denoise", "one.rtc", "-o", "kept.pfm"}), 3, "replicates is 1"));
+}
+
 TEST_F(ImageTool, HelpAndVersion) {
     EXPECT_EQ(tool({"--help"}).exitCode, 0);
     EXPECT_NE(tool({"--help"}).out.find("convert"), std::string::npos);
@@ -118,7 +140,7 @@ TEST_F(ImageTool, HelpAndVersion) {
 }
 
 TEST_F(ImageTool, WrongUseExitsWith2) {
-    EXPECT_TRUE(failsWith(tool({}), 2, "diff, info, convert or merge"));
+    EXPECT_TRUE(failsWith(tool({}), 2, "diff, info, convert, denoise or merge"));
     EXPECT_TRUE(failsWith(tool({"paint"}), 2, "paint"));
     EXPECT_TRUE(failsWith(tool({"diff", "reference.exr"}), 2, "B"));
     EXPECT_TRUE(failsWith(tool({"diff", "small.exr", "small.exr", "--metric", "ssim"}), 2, "mse"));

@@ -20,6 +20,7 @@ struct ParsedFlags {
     bool listDevices = false;
     bool headless = false;
     bool window = false;
+    bool denoise = false; // beside the raw picture
     std::string engine;
 };
 
@@ -31,6 +32,7 @@ constexpr std::uint32_t kMaxReplicates = 1024;
 constexpr std::uint32_t kMaxThreads = 4096;
 constexpr std::uint32_t kMaxShares = 1u << 20;
 constexpr std::uint32_t kDefaultWidth = 600;
+constexpr const char* kNoValue = ""; // of a flag that may have one
 constexpr double kMaxAspect = image::kMaxImageSide;
 
 // Flags that a window keeps in its settings.
@@ -147,7 +149,21 @@ void addEstimator(FlagSet& flags, RenderSettings& settings) {
               });
 }
 
-void addOutput(FlagSet& flags, Options& options) {
+void addDenoise(FlagSet& flags, ParsedFlags& parsed) {
+    flags
+        .add("--denoise", "only",
+             "also write a picture with less noise, as NAME.denoised.EXT; only: in place of the raw one; "
+             "implies an even number of --replicates",
+             [&parsed](const std::string& flag, const std::string& text) {
+                 if (text != "only" && text != kNoValue) refuseValue(flag, text, "nothing, or only");
+                 (text == "only" ? parsed.options.denoisedOnly : parsed.denoise) = true;
+             })
+        ->expected(0, 1)
+        ->configurable(false);
+}
+
+void addOutput(FlagSet& flags, ParsedFlags& parsed) {
+    Options& options = parsed.options;
     flags.group("Output");
     flags.addFiles("--output,-o,--outfile", options.outputs, ".png: for display; .exr .hdr .pfm: linear; repeatable");
     flags
@@ -158,7 +174,8 @@ void addOutput(FlagSet& flags, Options& options) {
         ->default_str("0");
     flags.addChoice("--tonemap", kTonemaps, options.tonemap,
                     "for PNG; none clamps, agx is the filmic curve that windows begin with");
-    flags.add("--aov", "LIST", "write albedo,normal,depth,variance,samples as well, as NAME.albedo.EXT",
+    flags.add("--aov", "LIST",
+              "write albedo,normal,depth,variance,samples,denoised,denoised-error as well, as NAME.albedo.EXT",
               [&options](const std::string& flag, const std::string& text) {
                   options.aovs = {};
                   for (const std::string& name : parseList(flag, text)) {
@@ -166,6 +183,7 @@ void addOutput(FlagSet& flags, Options& options) {
                       if (!options.wants(aov)) options.aovs.push_back(aov);
                   }
               });
+    addDenoise(flags, parsed);
     flags.addFile("--reference", options.reference, "linear image; its error figures go to the statistics");
     flags.addFile("--stats", options.stats, "statistics as JSON; -: standard output");
 }
@@ -251,6 +269,18 @@ void settleCommand(const FlagSet& flags, ParsedFlags& parsed) {
         if (flags.given(flag)) throw UsageError(std::string(flag) + ": not with a window; use --headless");
 }
 
+void settleDenoise(ParsedFlags& parsed) {
+    Options& options = parsed.options;
+    if (parsed.denoise && !options.wants(Aov::Denoised)) options.aovs.push_back(Aov::Denoised);
+    if (options.denoisedOnly && options.wants(Aov::Denoised))
+        throw UsageError("--denoise only: is the output itself; not with --aov denoised");
+    if (!options.denoises()) return;
+    if (options.window) throw UsageError("--denoise: not with a window; use --headless");
+    if (options.tiles)
+        throw UsageError("--denoise: not with --tiles; ray-tracing-image denoise takes the checkpoint that they make");
+    if (options.outputs.empty()) throw UsageError("--denoise: needs --output");
+}
+
 // Replicates and second moments that somebody reads; whether the number of samples is known in advance.
 void settleErrorEstimate(Options& options) {
     RenderSettings& settings = options.settings;
@@ -261,6 +291,10 @@ void settleErrorEstimate(Options& options) {
     if (isAdaptive(settings) && settings.replicates > 1 && settings.replicates % 2 != 0)
         throw UsageError("--replicates " + std::to_string(settings.replicates) +
                          ": must be even with --adaptive on, which makes two halves of them");
+    if (options.denoises()) {
+        if (settings.spp < 2) throw UsageError("--denoise: needs two halves of the samples: --spp 2 or more");
+        settings.replicates = std::max(settings.replicates + settings.replicates % 2, 2u);
+    }
     settleReplicates(settings);
     if (settings.replicates > settings.spp)
         throw UsageError("--replicates " + std::to_string(settings.replicates) + ": must be at most --spp " +
@@ -321,7 +355,7 @@ OptionParser::OptionParser(const std::string& program)
     addImage(*flags_, parsed_->options);
     addPart(*flags_, parsed_->options);
     addEstimator(*flags_, parsed_->options.settings);
-    addOutput(*flags_, parsed_->options);
+    addOutput(*flags_, *parsed_);
     addDuration(*flags_, parsed_->options);
     program == kGpuProgram ? addDevice(*flags_, *parsed_) : addProcessor(*flags_, *parsed_);
     addProgram(*flags_, *parsed_);
@@ -338,6 +372,7 @@ std::optional<Options> OptionParser::parse(std::vector<std::string> arguments, s
 
     parsed.options.keepsUserFiles = !flags.given("--no-config");
     settleCommand(flags, parsed);
+    settleDenoise(parsed);
     settleErrorEstimate(parsed.options);
     settleFiles(parsed.options);
     settlePolicy(flags, parsed);

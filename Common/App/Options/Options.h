@@ -55,6 +55,7 @@ struct Options {
     float exposure = 0; // stops
     Tonemap tonemap = Tonemap::None;
     std::vector<Aov> aovs;
+    bool denoisedOnly = false; // outputs are denoised; otherwise Aov::Denoised lies beside them
     std::string reference;
     std::string stats; // "-": standard output
 
@@ -78,6 +79,7 @@ struct Options {
 
     std::set<std::string> given; // flags that something was said about, as "--spp": a window's stored settings give way
 
+    bool denoises() const { return denoisedOnly || wants(Aov::Denoised) || wants(Aov::DenoisedError); }
     bool wants(Aov aov) const { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "Common/App/Session/Attempt.h"
+#include "Common/App/Session/DenoiseFilm.h"
 #include "Common/App/Session/DistinctFiles.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/RenderNote.h"
@@ -45,15 +46,19 @@ ImageRows fitted(const ImageRows& image, Aov aov, const std::filesystem::path& p
         if (!png) return positive;
         return mapped(positive, [](float value) { return shared::srgbDecode(std::clamp(value, 0.0f, 1.0f)); });
     }
-    if (png && aov != Aov::Albedo)
+    if (png && aov != Aov::Albedo && aov != Aov::Denoised)
         if (const float maximum = largestValue(image); maximum > 0)
             return mapped(image, [maximum](float value) { return value / maximum; });
     return image;
 }
 
 // Of the film, or of what the engine made; both must outlive the rows.
-ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features) {
+ImageRows rowsOf(Aov aov, const image::Film& film, const AovImages& features, const image::Denoised& denoised) {
     switch (aov) {
+        case Aov::Denoised:
+            return denoised.picture;
+        case Aov::DenoisedError:
+            return denoised.error;
         case Aov::Albedo:
             return features.albedo;
         case Aov::Normal:
@@ -108,11 +113,22 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
         const auto action = [&] { image::writeImage(path, makeRows(), note); };
         if (attempt(result.failures, "cannot write " + path.string(), action)) result.written.push_back(path.string());
     };
-    const auto curve = static_cast<std::uint32_t>(options.tonemap);
+    const auto shown = [&options](const ImageRows& radiance, const std::filesystem::path& path) {
+        const auto curve = static_cast<std::uint32_t>(options.tonemap);
+        return hasExtension(path, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance;
+    };
+    image::Denoised denoised;
+    const auto filter = [&] {
+        if (!options.denoises()) return;
+        FilmDenoiser denoiser(options, engine);
+        denoised = denoiser.denoise(film);
+        result.denoised = denoiser.figures();
+    };
+    const bool isFiltered = attempt(result.failures, "the picture cannot be denoised", filter);
     for (const std::filesystem::path output : options.outputs)
-        write(output, [&] {
-            const ImageRows radiance = withinRegion(meanRows(film), options.region);
-            return hasExtension(output, ".png") ? image::toDisplay(radiance, options.exposure, curve) : radiance;
+        write(output, [&] { // raw rather than nothing
+            const bool isRaw = !options.denoisedOnly || !isFiltered;
+            return shown(isRaw ? withinRegion(meanRows(film), options.region) : ImageRows(denoised.picture), output);
         });
 
     const AovRequest request{options.wants(Aov::Albedo), options.wants(Aov::Normal), options.wants(Aov::Depth)};
@@ -121,12 +137,17 @@ OutputResult writeOutputs(const Options& options, const scene::CameraDesc& camer
         if (request.any()) features = engine.renderAovs(request, std::min(kAovSamples, options.settings.spp));
     };
     const bool hasFeatures = attempt(result.failures, "albedo, normal and depth cannot be made", renderFeatures);
-    const auto isOfFilm = [](Aov aov) { return aov == Aov::Variance || aov == Aov::Samples; };
+    const auto exists = [&](Aov aov) {
+        if (aov == Aov::Denoised || aov == Aov::DenoisedError) return isFiltered;
+        return hasFeatures || aov == Aov::Variance || aov == Aov::Samples;
+    };
     for (const std::filesystem::path output : options.outputs)
         for (const Aov aov : options.aovs)
-            if (hasFeatures || isOfFilm(aov))
-                write(aovPath(output, aov),
-                      [&] { return fitted(withinRegion(rowsOf(aov, film, features), options.region), aov, output); });
+            if (exists(aov))
+                write(aovPath(output, aov), [&] {
+                    const ImageRows rows = withinRegion(rowsOf(aov, film, features, denoised), options.region);
+                    return aov == Aov::Denoised ? shown(rows, output) : fitted(rows, aov, output);
+                });
     return result;
 }
 

@@ -1,10 +1,12 @@
 // The files a render ends with: the picture in each format, and the images beside it.
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Session/DenoiseFilm.h"
 #include "Common/Image/Film.h"
 #include "Common/Render/Engine.h"
 
@@ -21,6 +23,7 @@ std::filesystem::path aovPath(const std::filesystem::path& output, Aov aov);
 void checkOutputs(const Options& options);
 
 struct OutputResult {
+    std::optional<DenoiseFigures> denoised; // of the picture that is, or lies beside, the outputs
     std::vector<std::string> written;
     std::vector<std::string> failures; // one line each
 };

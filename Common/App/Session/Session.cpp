@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "Common/App/Ranks/LocalRank.h"
 #include "Common/App/Ranks/RankedEngine.h"
 #include "Common/App/Session/Attempt.h"
+#include "Common/App/Session/DenoiseFilm.h"
 #include "Common/App/Session/FeatureNames.h"
 #include "Common/App/Session/ImagePart.h"
 #include "Common/App/Session/Interrupt.h"
@@ -154,7 +156,11 @@ void HeadlessRender::sample() {
         attempt(failures, "cannot write " + options_.checkpoint, [this] { save(options_.checkpoint); });
         if (!failures.empty()) logWarning(failures.front()); // the render itself is well
     };
-    run_->limit({options_.timeLimit, options_.targetError, options_.saveEvery, saveOrWarn});
+    FilmDenoiser denoiser(options_, *engine_); // whose picture's error counts, if there is one
+    std::function<std::optional<image::RelMseEstimate>(const image::Film&)> estimate;
+    if (options_.denoises())
+        estimate = [&denoiser](const image::Film& film) { return std::optional(denoiser.denoise(film).relmse); };
+    run_->limit({options_.timeLimit, options_.targetError, estimate, options_.saveEvery, saveOrWarn});
     std::optional<StopReason> reason;
     while (!reason) {
         reason = run_->slice(FilmRun::kSliceSeconds, interrupt_.requested());
@@ -188,6 +194,7 @@ void HeadlessRender::write() {
     failures_.insert(failures_.end(), outputs.failures.begin(), outputs.failures.end());
     statistics_.seconds.write = watch.seconds();
     statistics_.outputs = outputs.written;
+    statistics_.denoised = outputs.denoised;
     if (!options_.stats.empty())
         attempt(failures_, "cannot write " + options_.stats,
                 [&] { writeText(options_.stats, statistics_.toJson(options_, *scene_, engine_->report(), film)); });

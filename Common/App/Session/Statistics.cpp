@@ -56,6 +56,22 @@ Json errorJson(const image::ErrorFigures& error) {
         {"mse", error.mse}, {"rmse", error.rmse}, {"relmse", error.relmse}, {"mae", error.mae}, {"psnr", error.psnr}};
 }
 
+// Shares of the pixels that kept each bandwidth, in standard deviations of the noise; "raw": those left as they are.
+Json denoisedJson(const DenoiseFigures& figures) {
+    Json shares = Json::array();
+    for (std::uint32_t i = 0; i < shared::kDenoiseBandwidths; ++i) {
+        const shared::DenoiseBandwidth candidate = shared::denoiseBandwidth(i);
+        shares.push_back({{"bandwidth", candidate.bandwidth},
+                          {"patch_pixels", 2 * candidate.patchReach + 1},
+                          {"share", figures.shares[i]}});
+    }
+    return {{"estimated_relmse", figures.relmse.value},
+            {"estimated_relmse_interval", {figures.relmse.low(), figures.relmse.high()}},
+            {"seconds", figures.seconds},
+            {"bandwidths", shares},
+            {"raw_share", figures.shares.back()}};
+}
+
 Json windowJson(const WindowFigures& window, const EngineReport& report) {
     const double dispatch = report.longestDispatchSeconds;
     return {{"frames_per_second", window.framesPerSecond},
@@ -122,6 +138,7 @@ std::string Statistics::toJson(const Options& options, const scene::CompiledScen
         json["estimated_relmse_interval"] = {relmse->low(), relmse->high()};
         json["error_is"] = film.desc().replicates > 1 ? "replicates" : "blocks";
     }
+    if (denoised) json["denoised"] = denoisedJson(*denoised);
     if (error) json["error"] = errorJson(*error);
     json["memory"] = {{"peak_rss_bytes", peakResidentBytes()}, {"device_bytes", report.deviceBytes}};
     json["outputs"] = outputs;

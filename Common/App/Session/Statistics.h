@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "Common/App/Options/Options.h"
+#include "Common/App/Session/DenoiseFilm.h"
 #include "Common/Image/Film.h"
 #include "Common/Image/Metrics.h"
 #include "Common/Render/Engine.h"
@@ -33,6 +34,7 @@ struct Statistics {
     Seconds seconds;
     std::uint64_t samplesRestored = 0;        // over all pixels, from a checkpoint
     std::optional<image::ErrorFigures> error; // against the reference
+    std::optional<DenoiseFigures> denoised;   // none unless the outputs were denoised
     std::vector<std::string> outputs;         // files written
     std::optional<WindowFigures> window;      // none without one
 

@@ -1,0 +1,51 @@
+#include "Common/App/Session/DenoiseFilm.h"
+
+#include <algorithm>
+
+#include "Common/Core/Error.h"
+#include "Common/Image/Denoise/FilmHalves.h"
+#include "Common/Render/RenderParams.h"
+#include "Common/Render/Stopwatch.h"
+
+namespace rt::app {
+namespace {
+
+image::Image cropped(const image::Image& image, const Region& region) {
+    image::Image part(region.width, region.height, image.channels);
+    for (std::uint32_t y = 0; y < part.height; ++y)
+        std::copy_n(image.pixel(region.x, region.y + y), std::size_t{part.width} * part.channels, part.pixel(0, y));
+    return part;
+}
+
+image::Image placed(const image::Image& part, const Region& region, std::uint32_t width, std::uint32_t height) {
+    image::Image image(width, height, part.channels);
+    for (std::uint32_t y = 0; y < part.height; ++y)
+        std::copy_n(part.pixel(0, y), std::size_t{part.width} * part.channels, image.pixel(region.x, region.y + y));
+    return image;
+}
+
+} // namespace
+
+image::Denoised FilmDenoiser::denoise(const image::Film& film) {
+    if (const std::string why = image::whyNoHalves(film); !why.empty()) throw InputError("the film " + why);
+    const Stopwatch watch;
+    // Also where the render itself has fewer: they cost little, and noise in features is noise in the picture.
+    if (!features_) features_ = engine_.renderAovs({true, true, true}, kAovSamples);
+    image::DenoiseInput input = image::filmHalves(film);
+    input.albedo = features_->albedo;
+    input.normal = features_->normal;
+    input.depth = features_->depth;
+    if (options_.region) {
+        input.samplesOfHalf = options_.settings.spp / 2; // those outside have none
+        for (image::Image* image : {&input.halfA, &input.halfB, &input.albedo, &input.normal, &input.depth})
+            *image = cropped(*image, *options_.region);
+    }
+    image::Denoised result = image::denoise(input, dependentSide(engine_.report().features), options_.threads);
+    if (options_.region)
+        for (image::Image* image : {&result.picture, &result.halfA, &result.halfB, &result.error, &result.bandwidth})
+            *image = placed(*image, *options_.region, film.desc().width, film.desc().height);
+    figures_ = {result.relmse, watch.seconds(), result.shares};
+    return result;
+}
+
+} // namespace rt::app

@@ -1,0 +1,207 @@
+#include "Common/Image/Denoise/DenoiseFilter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "Common/Core/CpuFeatures.h"
+#include "Common/Core/Error.h"
+#include "Common/Core/Parallel.h"
+#include "Common/Image/Denoise/DenoiseKernel.h"
+#include "Common/Image/Denoise/FeatureSpace.h"
+
+namespace rt::image {
+namespace {
+
+using shared::kDenoiseBandwidths;
+
+constexpr float kFeatureScale = 4.0f; // of albedo and of depth: a difference of a quarter is as much as one of 1
+constexpr float kNormalScale = 2.0f;
+constexpr float kMaxFeature = 2.0f; // before it is scaled
+
+// The best that this processor runs, of those that the program was built with.
+DenoiseKernel bestKernel() {
+    const InstructionSet best = bestInstructionSet();
+#ifdef RT_KERNELS_x86_64_v4
+    if (best >= InstructionSet::X86_64_v4) return denoiseKernel_x86_64_v4();
+#endif
+#ifdef RT_KERNELS_x86_64_v3
+    if (best >= InstructionSet::X86_64_v3) return denoiseKernel_x86_64_v3();
+#endif
+#ifdef RT_KERNELS_x86_64_v2
+    if (best >= InstructionSet::X86_64_v2) return denoiseKernel_x86_64_v2();
+#endif
+#ifdef RT_KERNELS_generic
+    if (best == InstructionSet::Generic) return denoiseKernel_generic();
+#endif
+    throw UsageError(std::string("this program has no kernels for ") + name(best));
+}
+
+// ---- features ------------------------------------------------------------------------------------------------------
+
+// What nearly all pixels that see something are nearer than.
+float usualDepth(const Image& depth) {
+    std::vector<float> seen;
+    for (const float d : depth.data)
+        if (std::isfinite(d) && d > 0) seen.push_back(d);
+    if (seen.empty()) return 1;
+    const auto at = seen.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(seen.size() - 1));
+    std::nth_element(seen.begin(), at, seen.end());
+    return *at;
+}
+
+std::vector<SurfaceFeatures> surfaceFeatures(const DenoiseInput& input, std::size_t pixels) {
+    std::vector<SurfaceFeatures> features(pixels);
+    const float depthUnit = input.depth.data.empty() ? 1 : usualDepth(input.depth);
+    const auto bounded = [](float value, float minimum) {
+        return std::isfinite(value) ? std::clamp(value, minimum, kMaxFeature) : 0.0f;
+    };
+    for (std::size_t i = 0; i < pixels; ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!input.albedo.data.empty()) features[i][c] = kFeatureScale * bounded(input.albedo.data[3 * i + c], 0);
+            if (!input.normal.data.empty())
+                features[i][3 + c] = kNormalScale * bounded(input.normal.data[3 * i + c], -kMaxFeature);
+        }
+        if (!input.depth.data.empty()) features[i][6] = kFeatureScale * bounded(input.depth.data[i] / depthUnit, 0);
+    }
+    return features;
+}
+
+// ---- filtering -----------------------------------------------------------------------------------------------------
+
+// One thread's tile: the planes that the kernel reads, with their margins, and what it writes.
+class TileFilter {
+  public:
+    TileFilter(Halves& halves, const std::vector<SurfaceFeatures>& features, DenoiseKernel kernel)
+        : halves_(halves),
+          features_(features),
+          kernel_(kernel),
+          width_(static_cast<int>(halves.variance.width())),
+          height_(static_cast<int>(halves.variance.height())) {}
+
+    void filter(int left, int top) {
+        left_ = left;
+        top_ = top;
+        DenoiseTile tile;
+        tile.rows = std::min(kDenoiseTile, height_ - top);
+        tile.columns = std::min(kDenoiseTile, width_ - left);
+        tile.dependentSide = halves_.dependentSide;
+        tile.scratch = scratch_.data();
+        tile.variance = load(kVariance, halves_.variance);
+        loadFeatures(tile);
+        for (std::size_t half = 0; half < 2; ++half) {
+            for (int c = 0; c < 3; ++c) {
+                tile.guide[c] = load(kGuide + c, halves_.half[1 - half].tones[c]);
+                tile.radiance[c] = load(kRadiance + c, halves_.half[half].radiance[c]);
+            }
+            for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
+                for (std::size_t c = 0; c < 3; ++c) tile.filtered[i][c] = written(i * 3 + c);
+            for (std::size_t i = 0; i < kDenoiseBandwidths; ++i) {
+                tile.ownFactor[i] = written(3 * kDenoiseBandwidths + i);
+                tile.partnerFactor[i] = written(4 * kDenoiseBandwidths + i);
+            }
+            kernel_(tile);
+            keep(tile, half);
+        }
+    }
+
+  private:
+    enum {
+        kVariance,
+        kGuide,
+        kRadiance = kGuide + 3,
+        kFeatures = kRadiance + 3,
+        kPlanes = kFeatures + kDenoiseFeatures
+    };
+
+    bool isInside(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }
+    float* written(std::size_t index) { return &filtered_[index * kDenoiseTile * kDenoiseTile]; }
+    float* plane(int index) { return &planes_[static_cast<std::size_t>(index) * kDenoisePlane]; }
+
+    // visit(place in a plane, x, y) for all pixels of the tile and its margin; those outside of the image too.
+    template <class Visit>
+    void forEachPixel(const Visit& visit) const {
+        for (int row = 0; row < kDenoiseRows; ++row)
+            for (int column = 0; column < kDenoiseRows; ++column)
+                visit(row * kDenoisePitch + column, left_ + column - kDenoiseMargin, top_ + row - kDenoiseMargin);
+    }
+
+    const float* load(int index, const Plane& from) {
+        float* to = plane(index);
+        forEachPixel([&](int place, int x, int y) {
+            to[place] = isInside(x, y) ? from.row(static_cast<std::size_t>(y))[x] : 0.0f;
+        });
+        return to;
+    }
+
+    void loadFeatures(DenoiseTile& tile) {
+        inReach_.clear();
+        forEachPixel([&](int, int x, int y) {
+            if (isInside(x, y)) inReach_.push_back(featuresAt(x, y));
+        });
+        const FeatureSpace space = principalFeatures(inReach_);
+        tile.featureCount = 3 + static_cast<int>(space.axes.size());
+        for (int i = 0; i < tile.featureCount; ++i) tile.features[i] = plane(kFeatures + i);
+        forEachPixel([&](int place, int x, int y) {
+            const bool inside = isInside(x, y);
+            plane(kFeatures)[place] = inside ? 1.0f : 0.0f;
+            plane(kFeatures + 1)[place] = inside ? coordinate(x - left_) : 0.0f;
+            plane(kFeatures + 2)[place] = inside ? coordinate(y - top_) : 0.0f;
+            for (std::size_t axis = 0; axis < space.axes.size(); ++axis)
+                plane(kFeatures + 3 + static_cast<int>(axis))[place] =
+                    inside ? space.coordinate(featuresAt(x, y), axis) : 0.0f;
+        });
+    }
+    const SurfaceFeatures& featuresAt(int x, int y) const {
+        return features_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    }
+    // Small, as the surface's features are.
+    static float coordinate(int pixel) { return 0.1f * static_cast<float>(pixel - kDenoiseTile / 2); }
+
+    void keep(const DenoiseTile& tile, std::size_t half) const {
+        for (std::size_t i = 0; i < kDenoiseBandwidths; ++i) {
+            copyTo(halves_.ownFactors[i][half], tile, tile.ownFactor[i]);
+            copyTo(halves_.partnerFactors[i][half], tile, tile.partnerFactor[i]);
+            for (std::size_t c = 0; c < 3; ++c) copyTo(halves_.filtered[i][half][c], tile, tile.filtered[i][c]);
+        }
+    }
+    void copyTo(Plane& plane, const DenoiseTile& tile, const float* values) const {
+        for (int row = 0; row < tile.rows; ++row)
+            std::copy_n(values + row * kDenoiseTile, tile.columns,
+                        plane.row(static_cast<std::size_t>(top_ + row)) + left_);
+    }
+
+    Halves& halves_;
+    const std::vector<SurfaceFeatures>& features_;
+    DenoiseKernel kernel_;
+    int width_, height_;
+    int left_ = 0, top_ = 0;
+    std::vector<float> planes_ = std::vector<float>(std::size_t{kPlanes} * kDenoisePlane + 8);
+    std::vector<float> scratch_ = std::vector<float>(kDenoiseScratch);
+    std::vector<float> filtered_ =
+        std::vector<float>(std::size_t{kDenoiseBandwidths} * 5 * kDenoiseTile * kDenoiseTile);
+    std::vector<SurfaceFeatures> inReach_;
+};
+
+} // namespace
+
+void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads) {
+    const std::size_t width = halves.variance.width(), height = halves.variance.height();
+    const std::vector<SurfaceFeatures> features = surfaceFeatures(input, width * height);
+    for (std::size_t i = 0; i < kDenoiseBandwidths; ++i)
+        for (std::size_t half = 0; half < 2; ++half) {
+            halves.ownFactors[i][half] = halves.partnerFactors[i][half] = Plane(width, height);
+            for (Plane& plane : halves.filtered[i][half]) plane = Plane(width, height);
+        }
+    const std::size_t columns = (width + kDenoiseTile - 1) / kDenoiseTile,
+                      rows = (height + kDenoiseTile - 1) / kDenoiseTile;
+    const DenoiseKernel kernel = bestKernel();
+    parallelFor(threads, rows, [&](std::size_t row) {
+        TileFilter filter(halves, features, kernel);
+        for (std::size_t column = 0; column < columns; ++column)
+            filter.filter(static_cast<int>(column) * kDenoiseTile, static_cast<int>(row) * kDenoiseTile);
+    });
+}
+
+} // namespace rt::image

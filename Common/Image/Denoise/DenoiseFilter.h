@@ -1,0 +1,31 @@
+// The filters of all bandwidths on both halves of a picture: what Denoiser.h chooses from.
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "Common/Image/Denoise/Denoiser.h"
+#include "Common/Image/Denoise/Planes.h"
+#include "Common/Shared/Denoise/DenoiseWeights.h"
+
+namespace rt::image {
+
+// A half as the filter reads it.
+struct Half {
+    Planes radiance, tones;
+};
+
+struct Halves {
+    Half half[2];
+    Plane variance; // of a tone of either half, averaged over pixels around and summed over the channels
+    std::array<Planes, 2> filtered[shared::kDenoiseBandwidths]; // by each candidate
+    // DenoisedValue's factors of each candidate.
+    std::array<Plane, 2> ownFactors[shared::kDenoiseBandwidths], partnerFactors[shared::kDenoiseBandwidths];
+    std::uint32_t dependentSide = 1;
+    std::uint64_t samplesOfHalf = 0; // of a pixel
+};
+
+// Fills what is filtered, and the factors.
+void filterHalves(Halves& halves, const DenoiseInput& input, std::size_t threads);
+
+} // namespace rt::image

@@ -1,0 +1,222 @@
+#include "Common/Image/Denoise/Denoiser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "Common/Core/Parallel.h"
+#include "Common/Image/Denoise/DenoiseFilter.h"
+#include "Common/Image/Denoise/Planes.h"
+#include "Common/Image/Metrics.h"
+
+namespace rt::image {
+namespace {
+
+using shared::kDenoiseBandwidths;
+
+constexpr std::uint64_t kRawSamples = 32; // of each half, from which on a pixel may stay as it is
+constexpr int kBlendReach = 1;            // pixels
+constexpr double kFormulaError = 0.1;     // of the formula for the error, beside its noise
+
+Half makeHalf(const Image& image, std::size_t threads) {
+    Half half;
+    for (std::size_t c = 0; c < 3; ++c) {
+        half.radiance[c] = half.tones[c] = Plane(image.width, image.height);
+        parallelFor(threads, image.height, [&](std::size_t y) {
+            for (std::size_t x = 0; x < image.width; ++x) {
+                const float value = image.data[(y * image.width + x) * 3 + c];
+                const float radiance = std::isfinite(value) ? std::min(value, shared::kDenoiseMaxRadiance) : 0.0f;
+                half.radiance[c].row(y)[x] = radiance;
+                half.tones[c].row(y)[x] = shared::denoiseTone(radiance);
+            }
+        });
+    }
+    return half;
+}
+
+// ---- choosing ------------------------------------------------------------------------------------------------------
+
+constexpr std::size_t kRaw = kDenoiseBandwidths; // the candidate that leaves a pixel as it is
+
+// The value of a candidate in place of a pixel of a half, in radiance.
+shared::DenoisedValue valueOf(const Halves& halves, std::size_t candidate, std::size_t half, std::size_t channel,
+                              std::size_t x, std::size_t y) {
+    const float raw = halves.half[half].radiance[channel].row(y)[x];
+    if (candidate == kRaw) return {raw, raw, 1, 0};
+    return {halves.filtered[candidate][half][channel].row(y)[x], raw, halves.ownFactors[candidate][half].row(y)[x],
+            halves.partnerFactors[candidate][half].row(y)[x]};
+}
+
+// The error of a candidate by which it is chosen: in tones, of each pixel's own noise.
+Plane candidateErrors(const Halves& halves, std::size_t candidate, std::size_t threads) {
+    Plane errors(halves.variance.width(), halves.variance.height());
+    parallelFor(threads, errors.height(), [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t x = 0; x < errors.width(); ++x) {
+                shared::DenoisedValue values[2];
+                for (std::size_t half = 0; half < 2; ++half) {
+                    values[half] = valueOf(halves, candidate, half, c, x, y);
+                    values[half].filtered = shared::denoiseTone(values[half].filtered);
+                    values[half].raw = halves.half[half].tones[c].row(y)[x];
+                }
+                errors.row(y)[x] += shared::denoiseError(values[0], values[1], 0);
+            }
+    });
+    return boxMean(errors, shared::kDenoiseErrorReach, threads);
+}
+
+using Choice = std::array<Plane, kDenoiseCandidates>; // the weight of each candidate in a pixel
+
+// 1 for the candidate of the least error.
+Choice choose(const Halves& halves, std::size_t threads) {
+    const std::size_t width = halves.variance.width(), height = halves.variance.height();
+    // Of few samples the halves may both have missed what there is: what is black twice then looks free of noise.
+    const std::size_t candidates = halves.samplesOfHalf >= kRawSamples ? kDenoiseCandidates : kRaw;
+    Choice errors, chosen;
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
+        errors[i] = candidateErrors(halves, i, threads);
+        chosen[i] = Plane(width, height);
+    }
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) {
+            std::size_t best = 0;
+            for (std::size_t i = 1; i < candidates; ++i)
+                if (errors[i].row(y)[x] < errors[best].row(y)[x]) best = i;
+            chosen[best].row(y)[x] = 1;
+        }
+    return chosen;
+}
+
+double meanOf(const Plane& plane) {
+    double sum = 0;
+    for (std::size_t y = 0; y < plane.height(); ++y)
+        for (std::size_t x = 0; x < plane.width(); ++x) sum += plane.row(y)[x];
+    return sum / (static_cast<double>(plane.width()) * static_cast<double>(plane.height()));
+}
+
+// A pixel's value by all candidates.
+shared::DenoisedValue blended(const Halves& halves, const Choice& weights, std::size_t half, std::size_t channel,
+                              std::size_t x, std::size_t y) {
+    shared::DenoisedValue sum{0, halves.half[half].radiance[channel].row(y)[x], 0, 0};
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
+        const float weight = weights[i].row(y)[x];
+        const shared::DenoisedValue value = valueOf(halves, i, half, channel, x, y);
+        sum.filtered += weight * value.filtered;
+        sum.ownFactor += weight * value.ownFactor;
+        sum.partnerFactor += weight * value.partnerFactor;
+    }
+    return sum;
+}
+
+// ---- the error that is left ----------------------------------------------------------------------------------------
+
+// The mean difference of the raw halves of those pixels of a 2x2 square that are not the one at hand.
+float partnerNoise(const Halves& halves, std::size_t channel, std::size_t x, std::size_t y) {
+    if (halves.dependentSide == 1) return 0;
+    float sum = 0;
+    int count = 0;
+    for (const auto& [px, py] : {std::pair{x ^ 1, y}, std::pair{x, y ^ 1}, std::pair{x ^ 1, y ^ 1}}) {
+        if (px >= halves.variance.width() || py >= halves.variance.height()) continue;
+        sum += halves.half[0].radiance[channel].row(py)[px] - halves.half[1].radiance[channel].row(py)[px];
+        ++count;
+    }
+    return count > 0 ? sum / static_cast<float>(count) : 0;
+}
+
+struct ErrorSums {
+    double errors = 0, minimum = 0, squares = 0; // relative, over the values of a row
+    ErrorSums& operator+=(const ErrorSums& other) {
+        errors += other.errors;
+        minimum += other.minimum;
+        squares += other.squares;
+        return *this;
+    }
+};
+
+// One row of the result, and of the squared errors.
+ErrorSums finishRow(const Halves& halves, const Choice& weights, std::size_t row, Denoised& result, Planes& errors) {
+    ErrorSums sums;
+    const auto y = static_cast<std::uint32_t>(row);
+    for (std::uint32_t x = 0; x < result.picture.width; ++x) {
+        double pixel = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const shared::DenoisedValue a = blended(halves, weights, 0, c, x, y),
+                                        b = blended(halves, weights, 1, c, x, y);
+            const float mean = 0.5f * (a.filtered + b.filtered), difference = a.filtered - b.filtered;
+            result.halfA.pixel(x, y)[c] = a.filtered;
+            result.halfB.pixel(x, y)[c] = b.filtered;
+            result.picture.pixel(x, y)[c] = mean;
+            // The noise of the mean of both halves is half of theirs.
+            const float noise = 0.25f * difference * difference;
+            const float error = shared::denoiseError(a, b, partnerNoise(halves, c, x, y)) - noise;
+            errors[c].row(y)[x] = error;
+            const double unit = 1 / (double{mean} * mean + kRelativeFloor);
+            pixel += error * unit;
+            sums.minimum += noise * unit;
+        }
+        for (std::size_t i = 0; i < kDenoiseCandidates; ++i)
+            *result.bandwidth.pixel(x, y) += weights[i].row(y)[x] * static_cast<float>(i);
+        sums.errors += pixel;
+        sums.squares += pixel * pixel;
+    }
+    return sums;
+}
+
+// Blends the candidates by what the pixels around chose, so that no seam is seen where the choice changes.
+void finish(const Halves& halves, Denoised& result, std::size_t threads) {
+    Choice weights = choose(halves, threads);
+    for (std::size_t i = 0; i < kDenoiseCandidates; ++i) {
+        result.shares[i] = meanOf(weights[i]);
+        weights[i] = boxMean(weights[i], kBlendReach, threads);
+    }
+    const std::size_t width = result.picture.width, height = result.picture.height;
+    Planes errors{Plane(width, height), Plane(width, height), Plane(width, height)};
+    std::vector<ErrorSums> rows(height);
+    parallelFor(threads, height, [&](std::size_t y) { rows[y] = finishRow(halves, weights, y, result, errors); });
+    ErrorSums sums;
+    for (const ErrorSums& row : rows) sums += row;
+    const double values = 3.0 * static_cast<double>(width) * static_cast<double>(height);
+    const double value = std::max(sums.errors, sums.minimum);
+    result.relmse = {value / values,
+                     std::hypot(halves.dependentSide * std::sqrt(sums.squares), kFormulaError * value) / values};
+    for (std::size_t c = 0; c < 3; ++c) {
+        errors[c] = boxMean(errors[c], shared::kDenoiseErrorReach, threads);
+        for (std::uint32_t y = 0; y < height; ++y)
+            for (std::uint32_t x = 0; x < width; ++x) result.error.pixel(x, y)[c] = std::max(errors[c].row(y)[x], 0.0f);
+    }
+}
+
+// Of a tone of a half, summed over the channels.
+Plane toneVariance(const Halves& halves, std::size_t threads) {
+    Plane variance(halves.half[0].tones[0].width(), halves.half[0].tones[0].height());
+    parallelFor(threads, variance.height(), [&](std::size_t y) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t x = 0; x < variance.width(); ++x) {
+                const float difference = halves.half[0].tones[c].row(y)[x] - halves.half[1].tones[c].row(y)[x];
+                variance.row(y)[x] += 0.5f * difference * difference;
+            }
+    });
+    return boxMean(variance, shared::kDenoiseVarianceReach, threads);
+}
+
+} // namespace
+
+Denoised denoise(const DenoiseInput& input, std::uint32_t dependentSide, std::size_t threads) {
+    const std::uint32_t width = input.halfA.width, height = input.halfA.height;
+    Halves halves;
+    halves.half[0] = makeHalf(input.halfA, threads);
+    halves.half[1] = makeHalf(input.halfB, threads);
+    halves.dependentSide = dependentSide;
+    halves.samplesOfHalf = input.samplesOfHalf;
+    halves.variance = toneVariance(halves, threads);
+    filterHalves(halves, input, threads);
+
+    Denoised result;
+    for (Image* image : {&result.picture, &result.halfA, &result.halfB, &result.error}) *image = Image(width, height);
+    result.bandwidth = Image(width, height, 1);
+    finish(halves, result, threads);
+    return result;
+}
+
+} // namespace rt::image

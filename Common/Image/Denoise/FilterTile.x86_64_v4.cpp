@@ -1,0 +1,5 @@
+#include "Common/Image/Denoise/FilterTile.h"
+
+rt::image::DenoiseKernel rt::image::denoiseKernel_x86_64_v4() {
+    return filterTile;
+}

@@ -1,0 +1,96 @@
+// Eight floats at a time for the denoiser's kernel: GCC's and Clang's vectors, elsewhere loops. Everything has internal
+// linkage, as each instruction set's copy must stay in its own object file.
+#pragma once
+#include "Common/Shared/Base/Shim.h"
+
+#if defined(__FMA__) && defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+namespace rt::image {
+namespace {
+
+inline constexpr int kLaneCount = 8;
+
+#if defined(__GNUC__)
+
+// How vectors are passed depends on the instruction set, which does not matter within one object file.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+// May begin at any float; as a value it is what a register holds.
+typedef float Float8 __attribute__((vector_size(32)));
+typedef float Float8InMemory __attribute__((vector_size(32), aligned(4), may_alias));
+
+RT_FN Float8 load(const float* p) {
+    return *reinterpret_cast<const Float8InMemory*>(p);
+}
+RT_FN void store(float* p, Float8 a) {
+    *reinterpret_cast<Float8InMemory*>(p) = a;
+}
+RT_FN Float8 broadcast(float x) {
+    return Float8{x, x, x, x, x, x, x, x};
+}
+RT_FN Float8 maximum(Float8 a, Float8 b) {
+    return a > b ? a : b;
+}
+
+#else
+
+struct Float8 {
+    float v[kLaneCount];
+};
+RT_FN Float8 load(const float* p) {
+    Float8 r;
+    for (int i = 0; i < kLaneCount; ++i) r.v[i] = p[i];
+    return r;
+}
+RT_FN void store(float* p, Float8 a) {
+    for (int i = 0; i < kLaneCount; ++i) p[i] = a.v[i];
+}
+RT_FN Float8 broadcast(float x) {
+    Float8 r;
+    for (int i = 0; i < kLaneCount; ++i) r.v[i] = x;
+    return r;
+}
+RT_FN Float8 operator+(Float8 a, Float8 b) {
+    for (int i = 0; i < kLaneCount; ++i) a.v[i] += b.v[i];
+    return a;
+}
+RT_FN Float8 operator-(Float8 a, Float8 b) {
+    for (int i = 0; i < kLaneCount; ++i) a.v[i] -= b.v[i];
+    return a;
+}
+RT_FN Float8 operator*(Float8 a, Float8 b) {
+    for (int i = 0; i < kLaneCount; ++i) a.v[i] *= b.v[i];
+    return a;
+}
+RT_FN Float8 operator/(Float8 a, Float8 b) {
+    for (int i = 0; i < kLaneCount; ++i) a.v[i] /= b.v[i];
+    return a;
+}
+RT_FN Float8 maximum(Float8 a, Float8 b) {
+    for (int i = 0; i < kLaneCount; ++i) a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    return a;
+}
+
+#endif
+
+// a b + c
+RT_FN Float8 multiplyAdd(Float8 a, Float8 b, Float8 c) {
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+    return _mm256_fmadd_ps(a, b, c);
+#else
+    return a * b + c;
+#endif
+}
+// c - a b
+RT_FN Float8 negateMultiplyAdd(Float8 a, Float8 b, Float8 c) {
+#if defined(__GNUC__) && defined(__FMA__) && defined(__AVX__)
+    return _mm256_fnmadd_ps(a, b, c);
+#else
+    return c - a * b;
+#endif
+}
+
+} // namespace
+} // namespace rt::image

@@ -1,0 +1,38 @@
+#include "Common/Image/Denoise/Planes.h"
+
+#include <algorithm>
+
+#include "Common/Core/Parallel.h"
+
+namespace rt::image {
+namespace {
+
+// The pixels from 0 to size - 1 that are at most `reach` from one.
+struct InReach {
+    std::size_t first, last;
+    InReach(std::size_t at, std::size_t reach, std::size_t size)
+        : first(at < reach ? 0 : at - reach), last(std::min(at + reach, size - 1)) {}
+    float share() const { return 1.0f / static_cast<float>(last - first + 1); }
+};
+
+} // namespace
+
+Plane boxMean(const Plane& plane, int reach, std::size_t threads) {
+    const std::size_t width = plane.width(), height = plane.height(), distance = static_cast<std::size_t>(reach);
+    Plane means(width, height);
+    parallelFor(threads, height, [&](std::size_t y) {
+        std::vector<float> columns(width, 0.0f);
+        const InReach rows(y, distance, height);
+        for (std::size_t from = rows.first; from <= rows.last; ++from)
+            for (std::size_t x = 0; x < width; ++x) columns[x] += plane.row(from)[x];
+        for (std::size_t x = 0; x < width; ++x) {
+            const InReach near(x, distance, width);
+            float sum = 0;
+            for (std::size_t from = near.first; from <= near.last; ++from) sum += columns[from];
+            means.row(y)[x] = sum * near.share() * rows.share();
+        }
+    });
+    return means;
+}
+
+} // namespace rt::image

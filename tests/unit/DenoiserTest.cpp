@@ -1,0 +1,214 @@
+// The denoiser against pictures whose truth is known.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <random>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "Common/Image/Denoise/Denoiser.h"
+#include "Common/Image/Denoise/FilmHalves.h"
+
+namespace {
+
+using namespace rt::image;
+
+constexpr std::uint32_t kSide = 70; // more than two tiles, and not a multiple of one
+
+template <class Radiance>
+Image picture(std::uint32_t width, std::uint32_t height, const Radiance& radiance) {
+    Image image(width, height);
+    for (std::uint32_t y = 0; y < height; ++y)
+        for (std::uint32_t x = 0; x < width; ++x)
+            for (std::uint32_t c = 0; c < 3; ++c) image.pixel(x, y)[c] = radiance(x, y, c);
+    return image;
+}
+
+// Two halves of the picture with exponential noise: as rare and bright as noise of few paths is.
+template <class Radiance>
+DenoiseInput noisyHalves(const Radiance& radiance, std::uint32_t seed, std::uint32_t side = kSide) {
+    std::mt19937 random(seed);
+    std::exponential_distribution<float> noise(1.0f);
+    const auto noisy = [&](std::uint32_t x, std::uint32_t y, std::uint32_t c) {
+        return radiance(x, y, c) * noise(random);
+    };
+    DenoiseInput input;
+    input.halfA = picture(side, side, noisy);
+    input.halfB = picture(side, side, noisy);
+    return input;
+}
+
+DenoiseInput equalHalves(const Image& image) {
+    DenoiseInput input;
+    input.halfA = input.halfB = image;
+    return input;
+}
+
+void expectNear(const Image& got, const Image& expected, double relative) {
+    ASSERT_EQ(got.data.size(), expected.data.size());
+    for (std::size_t i = 0; i < got.data.size(); ++i)
+        ASSERT_NEAR(got.data[i], expected.data[i], relative * expected.data[i]) << "value " << i;
+}
+
+void expectFinite(const Denoised& result) {
+    for (const Image* image : {&result.picture, &result.halfA, &result.halfB, &result.error, &result.bandwidth})
+        for (const float value : image->data) ASSERT_TRUE(std::isfinite(value) && value >= 0);
+    EXPECT_TRUE(std::isfinite(result.relmse.value) && result.relmse.value >= 0);
+    EXPECT_TRUE(std::isfinite(result.relmse.standardError));
+}
+
+double relMse(const Image& image, double truth) {
+    double sum = 0;
+    for (const float value : image.data) sum += (value - truth) * (value - truth);
+    return sum / static_cast<double>(image.data.size()) / (truth * truth + 0.01);
+}
+
+const auto kFlat = [](auto, auto, auto) { return 0.5f; };
+
+} // namespace
+
+TEST(Denoiser, KeepsAConstantPicture) {
+    const Image constant =
+        picture(kSide, kSide, [](auto, auto, auto c) { return 0.3f + 0.2f * static_cast<float>(c); });
+    expectNear(denoise(equalHalves(constant), 1).picture, constant, 1e-4);
+}
+
+TEST(Denoiser, KeepsALinearPicture) {
+    const Image ramp = picture(kSide, kSide, [](auto x, auto y, auto c) {
+        return 1.0f + 0.004f * static_cast<float>(x) + 0.002f * static_cast<float>(y * (c + 1));
+    });
+    expectNear(denoise(equalHalves(ramp), 1).picture, ramp, 1e-3);
+}
+
+// A texture of squares of 5x5 pixels that a feature knows, under noise: regression on the feature finds it again.
+TEST(Denoiser, KeepsWhatIsLinearInAFeature) {
+    const auto albedo = [](std::uint32_t x, std::uint32_t y, std::uint32_t) {
+        return (x / 5 + y / 5) % 2 == 0 ? 0.2f : 0.8f;
+    };
+    DenoiseInput input = noisyHalves(albedo, 1);
+    const Image truth = picture(kSide, kSide, albedo);
+    const auto error = [&truth](const Image& image) {
+        double sum = 0;
+        for (std::size_t i = 0; i < truth.data.size(); ++i) {
+            const double relative = image.data[i] / truth.data[i] - 1.0;
+            sum += relative * relative;
+        }
+        return sum / static_cast<double>(truth.data.size());
+    };
+    const double without = error(denoise(input, 1).picture);
+    input.albedo = truth;
+    const double with = error(denoise(input, 1).picture);
+    EXPECT_LT(with, 0.05);          // of 0.5, which the mean of two exponential halves has
+    EXPECT_LT(with, 0.5 * without); // which tells the squares by their noise alone
+    expectNear(denoise(
+                   [&] {
+                       DenoiseInput exact = equalHalves(truth);
+                       exact.albedo = truth;
+                       return exact;
+                   }(),
+                   1)
+                   .picture,
+               truth, 0.01);
+}
+
+// The mean of a flat field over 40 seeds keeps its energy: with 588 000 independent values of standard deviation
+// 0.5 / sqrt(2), z of 4 is a bias of 0.4 %.
+TEST(Denoiser, KeepsTheEnergyOfNoiseAndLowersIt) {
+    constexpr int kSeeds = 40;
+    double sum = 0, gain = 0;
+    for (int seed = 0; seed < kSeeds; ++seed) {
+        const DenoiseInput input = noisyHalves(kFlat, 100 + static_cast<std::uint32_t>(seed));
+        const Denoised result = denoise(input, 1);
+        for (const float value : result.picture.data) sum += value;
+        gain += 0.25 / 2 / 0.26 / relMse(result.picture, 0.5) / kSeeds;
+    }
+    const double values = 3.0 * kSide * kSide * kSeeds;
+    const double z = (sum / values - 0.5) / (0.5 / std::sqrt(2 * values));
+    EXPECT_LT(std::abs(z), 4);
+    EXPECT_GT(gain, 30);
+}
+
+// The estimate of one picture is off by the variance of a half over the root of the number of values, and the error is
+// that variance over twice the gain: for this size a fourth of it, and a tenth for six pictures.
+TEST(Denoiser, KnowsItsError) {
+    double estimated = 0, measured = 0;
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        const Denoised result = denoise(noisyHalves(kFlat, 200 + seed, 200), 1);
+        estimated += result.relmse.value;
+        measured += relMse(result.picture, 0.5);
+    }
+    EXPECT_LT(estimated, 1.5 * measured);
+    EXPECT_GT(estimated, measured / 1.5);
+}
+
+// A lamp without noise before a noisy wall.
+TEST(Denoiser, KeepsTheEdgeOfALight) {
+    constexpr std::uint32_t kEdge = 33;
+    DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < kEdge ? 0.2f : 0.0f; }, 3);
+    for (Image* half : {&input.halfA, &input.halfB})
+        for (std::uint32_t y = 0; y < kSide; ++y)
+            for (std::uint32_t x = kEdge; x < kSide; ++x)
+                for (std::uint32_t c = 0; c < 3; ++c) half->pixel(x, y)[c] = 15.0f;
+    const Image result = denoise(input, 1).picture;
+    for (std::uint32_t y = 0; y < kSide; ++y) {
+        EXPECT_LT(result.pixel(kEdge - 1, y)[0], 1.5f);
+        EXPECT_NEAR(result.pixel(kEdge, y)[0], 15.0f, 0.15f);
+    }
+}
+
+TEST(Denoiser, TakesWhateverAPictureMayHold) {
+    DenoiseInput input = noisyHalves(kFlat, 4);
+    input.halfA.pixel(5, 6)[0] = std::numeric_limits<float>::infinity();
+    input.halfB.pixel(7, 6)[1] = std::numeric_limits<float>::quiet_NaN();
+    input.halfA.pixel(9, 9)[2] = std::numeric_limits<float>::max();
+    input.albedo = picture(kSide, kSide,
+                           [](auto x, auto, auto) { return x == 3 ? std::numeric_limits<float>::quiet_NaN() : 0.5f; });
+    input.depth = Image(kSide, kSide, 1); // nothing is hit
+    expectFinite(denoise(input, 2));
+    expectFinite(denoise(equalHalves(Image(kSide, kSide)), 1));
+}
+
+TEST(Denoiser, TakesPicturesOfAnySize) {
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, std::pair{1u, 50u}, std::pair{50u, 1u}, std::pair{33u, 2u}}) {
+        const Image constant = picture(width, height, kFlat);
+        for (const std::uint32_t dependentSide : {1u, 2u}) {
+            const Denoised result = denoise(equalHalves(constant), dependentSide);
+            expectFinite(result);
+            expectNear(result.picture, constant, 1e-4);
+        }
+    }
+}
+
+TEST(Denoiser, HasTheSameBitsForAnyNumberOfThreads) {
+    const DenoiseInput input = noisyHalves([](auto x, auto, auto) { return x < 30 ? 0.1f : 1.0f; }, 5);
+    const Denoised one = denoise(input, 2, 1), many = denoise(input, 2, 5);
+    EXPECT_EQ(one.picture.data, many.picture.data);
+    EXPECT_EQ(one.error.data, many.error.data);
+    EXPECT_EQ(one.relmse.value, many.relmse.value);
+}
+
+TEST(Denoiser, NeedsBothHalvesOfAFilm) {
+    Film film({16, 8, 2});
+    Film::TileBlock block;
+    const auto add = [&](std::uint32_t tile, std::uint32_t replicate, float value) {
+        film.begin(tile, replicate, block);
+        block.count = Film::kBlock;
+        std::fill(std::begin(block.sum), std::end(block.sum), value * Film::kBlock);
+        film.commit(tile, replicate, block);
+    };
+    EXPECT_NE(whyNoHalves(film).find("no samples"), std::string::npos);
+    add(0, 0, 0.25f);
+    EXPECT_NE(whyNoHalves(film).find("lacks a part"), std::string::npos);
+    add(0, 1, 0.75f);
+    EXPECT_EQ(whyNoHalves(film), ""); // of a region, the other tile has none at all
+    const DenoiseInput input = filmHalves(film);
+    EXPECT_EQ(input.halfA.pixel(3, 3)[1], 0.25f);
+    EXPECT_EQ(input.halfB.pixel(3, 3)[1], 0.75f);
+    EXPECT_EQ(input.halfA.pixel(9, 3)[1], 0.0f);
+    EXPECT_NE(whyNoHalves(Film({8, 8, 1})).find("replicates is 1"), std::string::npos);
+}

@@ -1,0 +1,110 @@
+// --denoise from options to files.
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "Common/App/Session/DenoiseFilm.h"
+#include "Common/Core/Error.h"
+#include "Common/Image/Film.h"
+#include "Common/Image/ImageIo.h"
+#include "tests/FileBytes.h"
+#include "tests/unit/SessionFixture.h"
+
+namespace rt::app {
+namespace {
+
+using SessionDenoise = SessionFixture;
+namespace fs = std::filesystem;
+
+// The fake engine's samples are uniform in [0, 1], of variance 1/12.
+double meanSquareFromHalf(const std::string& file) {
+    const image::Image image = image::readImage(file);
+    double sum = 0;
+    for (const float value : image.data) sum += (value - 0.5) * (value - 0.5);
+    return sum / static_cast<double>(image.data.size());
+}
+
+TEST_F(SessionDenoise, WritesBesideTheRawPicture) {
+    run({"--spp", "16", "--replicates", "2", "-o", path("raw.pfm")});
+    run({"--spp", "16", "--denoise", "--aov", "denoised-error", "-o", path("a.pfm"), "--stats", path("stats.json")});
+    EXPECT_EQ(test::bytesOfFile(path("a.pfm")), test::bytesOfFile(path("raw.pfm")));
+    EXPECT_LT(meanSquareFromHalf(path("a.denoised.pfm")), 0.25 * meanSquareFromHalf(path("a.pfm")));
+    EXPECT_TRUE(fs::exists(path("a.denoised-error.pfm")));
+    const nlohmann::json stats = statistics(), denoised = stats["denoised"];
+    EXPECT_EQ(stats["settings"]["replicates"], 2);
+    EXPECT_LT(denoised["estimated_relmse"].get<double>(), stats["estimated_relmse"].get<double>());
+    EXPECT_GT(denoised["seconds"].get<double>(), 0.0);
+    double shares = denoised["raw_share"];
+    for (const nlohmann::json& row : denoised["bandwidths"]) shares += row["share"].get<double>();
+    EXPECT_NEAR(shares, 1, 1e-6);
+}
+
+TEST_F(SessionDenoise, OnlyReplacesTheRawPicture) {
+    run({"--spp", "16", "--denoise", "-o", path("a.pfm"), "--seed", "3"});
+    run({"--spp", "16", "--denoise", "only", "-o", path("b.pfm"), "--seed", "3"});
+    EXPECT_EQ(test::bytesOfFile(path("b.pfm")), test::bytesOfFile(path("a.denoised.pfm")));
+    EXPECT_FALSE(fs::exists(path("b.denoised.pfm")));
+}
+
+TEST_F(SessionDenoise, ARegionIsBlackAround) {
+    Options asked = options({"--spp", "32", "--denoise", "--region", "8,0,8,8", "-o", path("a.pfm")});
+    asked.settings.width = 20;
+    asked.settings.height = 12;
+    image::Film film({20, 12, 2});
+    image::Film::TileBlock block;
+    constexpr std::uint32_t kTileOfRegion = 1;
+    for (std::uint32_t replicate = 0; replicate < 2; ++replicate) {
+        film.begin(kTileOfRegion, replicate, block);
+        block.count = image::Film::kBlock;
+        std::fill(std::begin(block.sum), std::end(block.sum), 0.5f * image::Film::kBlock);
+        film.commit(kTileOfRegion, replicate, block);
+    }
+    FakeEngine engine;
+    engine.reset({}, asked.settings);
+    const image::Image image = FilmDenoiser(asked, engine).denoise(film).picture;
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x) {
+            const bool inside = x >= 8 && x < 16 && y < 8;
+            EXPECT_NEAR(image.pixel(x, y)[0], inside ? 0.5f : 0.0f, 1e-4f) << x << ", " << y;
+        }
+}
+
+TEST_F(SessionDenoise, StopsWhenTheDenoisedPictureIsGoodEnough) {
+    const auto sppFor = [this](std::vector<std::string> more) {
+        std::vector<std::string> arguments = {"--spp", "100000",      "--target-error", "0.002",
+                                              "-o",    path("a.pfm"), "--stats",        path("stats.json")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        run(arguments);
+        EXPECT_EQ(statistics()["stopped_by"], "target_error");
+        return statistics()["spp_done"].get<int>();
+    };
+    const int raw = sppFor({}), denoised = sppFor({"--denoise"});
+    EXPECT_LT(denoised, raw);
+}
+
+TEST_F(SessionDenoise, SaysWhatItCannotDo) {
+    EXPECT_EQ(error<UsageError>({"--spp", "1", "--denoise", "-o", path("a.pfm")}),
+              "--denoise: needs two halves of the samples: --spp 2 or more");
+    EXPECT_NE(error<UsageError>({"--denoise", "much", "-o", path("a.pfm")}).find("nothing, or only"),
+              std::string::npos);
+    EXPECT_EQ(error<UsageError>({"--spp", "8", "--denoise", "--tiles", "1/2", "-o", path("a.pfm")}),
+              "--denoise: not with --tiles; ray-tracing-image denoise takes the checkpoint that they make");
+    EXPECT_EQ(error<UsageError>({"--denoise", "--stats", path("stats.json")}), "--denoise: needs --output");
+}
+
+TEST_F(SessionDenoise, MakesAnEvenNumberOfReplicates) {
+    EXPECT_EQ(options({"--denoise", "-o", path("a.pfm")}).settings.replicates, 2u);
+    EXPECT_EQ(options({"--denoise", "--replicates", "3", "-o", path("a.pfm")}).settings.replicates, 4u);
+    EXPECT_EQ(options({"-o", path("a.pfm")}).settings.replicates, 1u);
+    const Options both = options({"--denoise", "--aov", "denoised", "-o", path("a.pfm")});
+    EXPECT_EQ(both.aovs.size(), 1u);
+}
+
+} // namespace
+} // namespace rt::app
